@@ -23,6 +23,7 @@ const LINKS: [usize; 5] = [8, 16, 33, 66, 132];
 const INPUTS: Inputs = Inputs {
     rotary_speed: 4.19,
     weight_on_bit: 10e3,
+    ..Inputs::ZERO
 };
 /// Model time that sets the tool in motion (s).
 const RUN_UP: f64 = 1.0;

@@ -115,6 +115,7 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(case.rpm),
         weight_on_bit: kn_to_n(case.wob),
+        ..Inputs::default()
     };
     let mut snapshot = simulation.new_snapshot();
     let mut history: Vec<Vec<[f64; 2]>> = Vec::new();

@@ -10,7 +10,7 @@ usage: launch_scripts/demo.sh [options] [LOG]
   LOG             a rig log (CSV) to play; default: the generated log in config/field_logs/
   --mapping FILE  how the log's columns are read; default: config/field_logs/rig_1hz.yaml
   --from S, --to S  play only this part of the log (seconds from its start)
-  --config FILE   configuration of the twin; default: config/default.yaml
+  --config FILE   configuration of the twin; default: config/rig.yaml
   --record FILE   record a bag meanwhile
   --seconds N     end after N seconds of viewing (for CI)
   --plain         print lines instead of a full screen
@@ -89,7 +89,7 @@ start_node() {
     node_pid=$!
 }
 
-config=${config:-$root/config/default.yaml}
+config=${config:-$root/config/rig.yaml}
 say "starting the twin: $config"
 start_node "$config" ${node_options[@]+"${node_options[@]}"}
 if [ -z "$steer" ]; then

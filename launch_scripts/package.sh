@@ -24,7 +24,7 @@ mkdir -p "$package/completions"
 "$release/flexdrill" completions bash >"$package/completions/flexdrill"
 "$release/flexdrill" completions zsh >"$package/completions/_flexdrill"
 "$release/flexdrill" completions fish >"$package/completions/flexdrill.fish"
-sed 's|\$schema=flexdrill.schema.json|$schema=/usr/share/flexdrill/flexdrill.schema.json|' config/default.yaml >"$package/flexdrill.yaml"
+sed 's|\$schema=flexdrill.schema.json|$schema=/usr/share/flexdrill/flexdrill.schema.json|' config/rig.yaml >"$package/flexdrill.yaml"
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 commit_date=$(date -u -R -d "@${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct 2>/dev/null || date +%s)}")
 printf 'flexdrill (%s-1) unstable; urgency=medium\n\n  * See CHANGELOG.md of the source.\n\n -- %s  %s\n' \

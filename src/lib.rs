@@ -8,6 +8,8 @@
 //!
 //! - [`cli`]: the subcommands, a file or folder each.
 //! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
+//! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
+//! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
 //! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
@@ -16,10 +18,12 @@
 //! [`flexdrill_live`], [`flexdrill_bag`], [`flexdrill_field_log`], [`flexdrill_ros2`], [`flexdrill_messages`],
 //! [`flexdrill_text`], and the mechanics with the crates around it. `docs/architecture.md` draws the house.
 
+pub mod ahead;
 pub mod alarms;
 pub mod cli;
 pub mod health;
 pub mod node;
+pub mod reach;
 pub mod rig_inputs;
 
 pub use flexdrill_bag as bag;

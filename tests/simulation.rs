@@ -105,7 +105,7 @@ struct World {
     dds: Health,
     stamps: BTreeMap<&'static str, i64>,
     counts: BTreeMap<&'static str, u64>,
-    stale_since: [Option<u64>; 2],
+    stale_since: [Option<u64>; InputKind::COUNT],
     paused: bool,
     sequence: u64,
     next_status: u64,
@@ -242,7 +242,7 @@ impl World {
                 let simulation = self.config.simulation();
                 Command::Settings(Settings {
                     live: self.config.live(),
-                    slew: [simulation.rotary_speed_slew, simulation.weight_on_bit_slew],
+                    slew: simulation.slew(),
                     whirl: self.config.whirl_settings(),
                     schedule: outputs::schedule(&self.config, &self.config.outputs.rates),
                 })
@@ -280,7 +280,7 @@ impl World {
                 LoopEvent::Applied { inputs, ticks, .. } => {
                     for (kind, value) in InputKind::ALL
                         .iter()
-                        .zip([inputs.inputs.rotary_speed, inputs.inputs.weight_on_bit])
+                        .zip(InputKind::ALL.map(|kind| inputs.inputs.get(kind)))
                     {
                         assert!(value.is_finite(), "{kind:?}: {value} was applied");
                     }
@@ -348,7 +348,7 @@ impl World {
         self.sequence = status.sequence;
         assert!(status.state <= TwinStatus::FAILED, "{}", status.state);
         for (index, state) in status.input_state.iter().enumerate() {
-            assert!(*state <= TwinStatus::INPUT_REJECTED, "{state}");
+            assert!(*state <= TwinStatus::INPUT_ASSUMED, "{state}");
             let received = self.intake.conditioner().counts(InputKind::ALL[index]);
             assert_eq!(status.input_rejected[index], received.rejected.iter().sum::<u64>());
         }
@@ -477,7 +477,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
     let run = Run::new(simulation, outputs::schedule(config, &config.outputs.rates));
     let targets = Targets::new(config.simulation().initial_inputs);
     let gauges = Arc::new(Gauges::default());
-    let (end, publisher, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+    let (end, publisher, requests) = link(Arc::clone(&targets), Arc::clone(&gauges));
     let happenings = [
         Happening::Publisher,
         Happening::Speed,
@@ -499,11 +499,11 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         now: BEGIN,
         next,
         config: Arc::clone(config),
-        intake: Intake::new(&config.inputs),
+        intake: Intake::new(&config.inputs, config.used_inputs()),
         targets,
         gauges: Arc::clone(&gauges),
         publisher,
-        commands,
+        commands: requests.commands,
         outputs: None,
         status: StatusKeeper::new(config.solver.time_step, config.hash()).unwrap(),
         book: AlarmBook::fresh(Arc::clone(config), RIG_BEGIN as i64),
@@ -513,7 +513,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         },
         stamps: BTreeMap::new(),
         counts: BTreeMap::new(),
-        stale_since: [None; 2],
+        stale_since: [None; InputKind::COUNT],
         paused: false,
         sequence: 0,
         next_status: BEGIN,

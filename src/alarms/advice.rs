@@ -5,6 +5,8 @@
 //! change alone; the others refer to it. No run has shown that two changes at once work (`docs/alarms.md` lists the
 //! runs).
 
+use std::fmt;
+
 use super::catalogue::AlarmId;
 use super::sentence::{capitalized, number};
 use flexdrill_alarms::Priority;
@@ -21,6 +23,24 @@ const MOST_RAISE: f64 = 3.0;
 /// and a weight indicator fluctuate by a few percent, and without this margin the advice would fluctuate with them.
 /// Assumption.
 const FLUCTUATION: f64 = 0.05;
+
+/// The action of an alarm that no limit of speed or weight ends.
+fn own_action(id: AlarmId) -> Option<&'static str> {
+    match id {
+        AlarmId::WeightTransfer => Some(
+            "Pick up off bottom, rotate, and slack off again slowly. If the weight still does not arrive, call the engineer.",
+        ),
+        AlarmId::TorqueTransfer => Some(
+            "Pick up off bottom and rotate there. If the torque stays high, do not drill on, and call the engineer.",
+        ),
+        AlarmId::GuidePreload => Some(
+            "Do not push the tool further into the curve, and call the engineer: no change of speed or weight relieves the \
+             guide.",
+        ),
+        AlarmId::PressureFolding => Some("Reduce the pump rate until the alarm clears, and call the engineer."),
+        _ => None,
+    }
+}
 
 /// The operating point: speed and weight that act on the model.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -42,9 +62,73 @@ impl Operating {
 
 /// An input that the driller can change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Quantity {
+pub enum Quantity {
+    /// Rotary speed (r/min).
     Speed,
+    /// Weight on bit (kN).
     Weight,
+}
+
+/// One input set to a value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// Which input.
+    pub quantity: Quantity,
+    /// r/min or kN.
+    pub to: f64,
+}
+
+/// A change that look-aheads have tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tested {
+    /// The alarm that it ends.
+    pub alarm: AlarmId,
+    /// Speed (r/min) and weight (kN) from which it was tried.
+    pub from: [f64; 2],
+    /// What to set.
+    pub change: Change,
+    /// Look-aheads in which it ended the alarm, and raised none.
+    pub ended: u32,
+    /// Look-aheads.
+    pub of: u32,
+}
+
+impl Tested {
+    /// Whether it was tried from what is asked for now (r/min and kN), within the fluctuation of a drive.
+    pub fn holds_at(&self, [rpm, kn]: [f64; 2]) -> bool {
+        let near = |now: f64, from: f64| (now - from).abs() <= FLUCTUATION * from.abs();
+        near(rpm, self.from[0]) && near(kn, self.from[1])
+    }
+}
+
+impl fmt::Display for Tested {
+    /// A sentence to a driller.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Change { quantity, to } = self.change;
+        let (from, unit) = match quantity {
+            Quantity::Speed => (self.from[0], "r/min"),
+            Quantity::Weight => (self.from[1], "kN"),
+        };
+        let verb = if to > from { "Raise" } else { "Lower" };
+        write!(
+            f,
+            "{verb} the {} to {to} {unit} ({from:.0} {unit} now) and keep the {}: this ended the alarm in {} of {} \
+             look-aheads.",
+            quantity.name(),
+            quantity.other().name(),
+            self.ended,
+            self.of
+        )
+    }
+}
+
+/// Where advice comes from beside the rules.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Ahead {
+    /// Whether the node looks ahead for advice, so that a rule says that it is one.
+    pub is_on: bool,
+    /// What look-aheads have found for the present state.
+    pub tested: Option<Tested>,
 }
 
 impl Quantity {
@@ -176,23 +260,41 @@ pub(super) fn applies(rule: &Advice, now: &Operating, inputs: &InputsConfig, sta
 }
 
 /// One sentence per standing alarm, in the order of `demands`.
-pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsConfig) -> Vec<String> {
-    let mut order: Vec<&Demand> = demands.iter().filter(|demand| demand.priority.is_some()).collect();
-    order.sort_by_key(|demand| (demand.shelved, std::cmp::Reverse(demand.priority), demand.id as usize));
-    let lead = order
-        .iter()
-        .enumerate()
-        .find_map(|(rank, demand)| Some((*demand, lead(demand, &order[..rank], &order, now, inputs)?)));
+pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsConfig, ahead: &Ahead) -> Vec<String> {
+    let order = by_rank(demands);
+    let tested = ahead.tested.and_then(|tested| {
+        Some((
+            *order.iter().find(|demand| demand.id == tested.alarm)?,
+            Lead::Tested(tested),
+        ))
+    });
+    let lead = tested.or_else(|| {
+        order
+            .iter()
+            .enumerate()
+            .find_map(|(rank, demand)| Some((*demand, lead(demand, &order[..rank], &order, now, inputs)?)))
+    });
     demands
         .iter()
-        .map(|demand| sentence(demand, lead, now, inputs))
+        .map(|demand| sentence(demand, lead, now, inputs, ahead.is_on))
         .collect()
+}
+
+/// The alarms whose conditions stand, the one that leads first.
+pub(super) fn by_rank(demands: &[Demand]) -> Vec<&Demand> {
+    let mut order: Vec<&Demand> = demands.iter().filter(|demand| demand.priority.is_some()).collect();
+    order.sort_by_key(|demand| (demand.shelved, std::cmp::Reverse(demand.priority), demand.id as usize));
+    order
 }
 
 /// The action of the leading alarm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Lead {
     Step(Step),
+    /// The alarm's own action.
+    Own(&'static str),
+    /// What look-aheads have tried.
+    Tested(Tested),
     Stop,
 }
 
@@ -214,20 +316,36 @@ fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, i
         .or_else(|| steps.iter().find(|step| free_of(step, before)));
     match (step, demand.priority) {
         (Some(step), _) => Some(Lead::Step(*step)),
+        (None, _) if own_action(demand.id).is_some() => own_action(demand.id).map(Lead::Own),
         (None, Some(Priority::High)) => Some(Lead::Stop),
         (None, _) => None,
     }
 }
 
-fn sentence(demand: &Demand, lead: Option<(&Demand, Lead)>, now: &Operating, inputs: &InputsConfig) -> String {
+/// `rule` says that a limit is a rule of the configuration where advice from look-aheads may follow.
+fn sentence(
+    demand: &Demand,
+    lead: Option<(&Demand, Lead)>,
+    now: &Operating,
+    inputs: &InputsConfig,
+    rule: bool,
+) -> String {
+    let rule = if rule {
+        " (A rule; look-aheads have not confirmed it.)"
+    } else {
+        ""
+    };
     let Some(priority) = demand.priority else {
         return "No further action: the alarm clears by itself unless the motion returns.".to_owned();
     };
     match lead {
         Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
             (Lead::Stop, _) => capitalized(STOP) + ".",
-            (Lead::Step(step), Priority::High) => format!("{} If it persists, {STOP}.", step.sentence(now)),
-            (Lead::Step(step), _) => step.sentence(now),
+            (Lead::Own(action), _) => action.to_owned(),
+            (Lead::Tested(tested), Priority::High) => format!("{} If it persists, {STOP}.", tested),
+            (Lead::Tested(tested), _) => tested.to_string(),
+            (Lead::Step(step), Priority::High) => format!("{} If it persists, {STOP}.{rule}", step.sentence(now)),
+            (Lead::Step(step), _) => step.sentence(now) + rule,
         },
         Some((leading, Lead::Step(step)))
             if Step::of(&demand.rule).any(|own| own.applies(now, inputs, true) && step.serves(&own)) =>
@@ -263,7 +381,12 @@ mod tests {
     }
 
     fn texts(demands: &[Demand], rpm: f64, kn: f64) -> Vec<String> {
-        what_to_do(demands, &Operating { rpm, kn }, &InputsConfig::default())
+        what_to_do(
+            demands,
+            &Operating { rpm, kn },
+            &InputsConfig::default(),
+            &Ahead::default(),
+        )
     }
 
     fn alone(rule: Advice, rpm: f64, kn: f64, priority: Priority) -> String {

@@ -22,12 +22,24 @@ pub enum AlarmId {
     JointLoad,
     /// Irregular lateral motion of the pipe.
     ChaoticWhirl,
+    /// Most of the weight at the surface does not arrive at the bit.
+    WeightTransfer,
+    /// Most of the torque at the surface does not arrive at the bit.
+    TorqueTransfer,
+    /// The guide is bent beyond its rating.
+    GuidePreload,
+    /// Pressure compresses the pipe beyond its rating.
+    PressureFolding,
     /// Numerical errors are too large for the computed motion to be reliable.
     ModelQuality,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
     WeightOnBitInput,
+    /// Rate of penetration refused or stale, once it was sent.
+    RateOfPenetrationInput,
+    /// Standpipe pressure refused or stale, once it was sent.
+    StandpipePressureInput,
     /// Several publishers send the same input at the same time.
     TwoDrivers,
     /// The model is slower than real time.
@@ -42,16 +54,22 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 14] = [
+    pub const ALL: [AlarmId; 20] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
         AlarmId::StickSlip,
         AlarmId::JointLoad,
         AlarmId::ChaoticWhirl,
+        AlarmId::WeightTransfer,
+        AlarmId::TorqueTransfer,
+        AlarmId::GuidePreload,
+        AlarmId::PressureFolding,
         AlarmId::ModelQuality,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
+        AlarmId::RateOfPenetrationInput,
+        AlarmId::StandpipePressureInput,
         AlarmId::TwoDrivers,
         AlarmId::RealTime,
         AlarmId::Solver,
@@ -68,9 +86,15 @@ impl AlarmId {
             AlarmId::StickSlip => "stick_slip",
             AlarmId::JointLoad => "joint_load",
             AlarmId::ChaoticWhirl => "chaotic_whirl",
+            AlarmId::WeightTransfer => "weight_transfer",
+            AlarmId::TorqueTransfer => "torque_transfer",
+            AlarmId::GuidePreload => "guide_preload",
+            AlarmId::PressureFolding => "pressure_folding",
             AlarmId::ModelQuality => "model_quality",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
+            AlarmId::RateOfPenetrationInput => "rate_of_penetration_input",
+            AlarmId::StandpipePressureInput => "standpipe_pressure_input",
             AlarmId::TwoDrivers => "two_drivers",
             AlarmId::RealTime => "real_time",
             AlarmId::Solver => "solver",
@@ -88,9 +112,15 @@ impl AlarmId {
             AlarmId::StickSlip => "stick-slip",
             AlarmId::JointLoad => "joint overload",
             AlarmId::ChaoticWhirl => "chaotic whirl",
+            AlarmId::WeightTransfer => "weight not arriving",
+            AlarmId::TorqueTransfer => "torque not arriving",
+            AlarmId::GuidePreload => "guide overbent",
+            AlarmId::PressureFolding => "folding under pressure",
             AlarmId::ModelQuality => "model unreliable",
             AlarmId::RotarySpeedInput => "no valid rotary speed",
             AlarmId::WeightOnBitInput => "no valid weight on bit",
+            AlarmId::RateOfPenetrationInput => "no valid rate of penetration",
+            AlarmId::StandpipePressureInput => "no valid standpipe pressure",
             AlarmId::TwoDrivers => "conflicting rig data",
             AlarmId::RealTime => "not in real time",
             AlarmId::Solver => "model stopped",
@@ -109,10 +139,15 @@ impl AlarmId {
     }
 
     /// The lowest priority at which the condition is an alarm; below it the condition is a displayed state. Forward
-    /// whirl requires no action before it wears the pipe: the tool turns this way at moderate speed and load.
+    /// whirl requires no action before it wears the pipe: the tool turns this way at moderate speed and load. Nor does
+    /// friction that takes a usual share of weight and torque, or a load below its rating.
     pub const fn lowest(self) -> Priority {
         match self {
-            AlarmId::ForwardWhirl => Priority::Medium,
+            AlarmId::ForwardWhirl
+            | AlarmId::WeightTransfer
+            | AlarmId::TorqueTransfer
+            | AlarmId::GuidePreload
+            | AlarmId::PressureFolding => Priority::Medium,
             _ => Priority::Low,
         }
     }
@@ -126,6 +161,10 @@ impl AlarmId {
             HazardKind::StickSlip => AlarmId::StickSlip,
             HazardKind::JointLoad => AlarmId::JointLoad,
             HazardKind::ChaoticWhirl => AlarmId::ChaoticWhirl,
+            HazardKind::WeightTransfer => AlarmId::WeightTransfer,
+            HazardKind::TorqueTransfer => AlarmId::TorqueTransfer,
+            HazardKind::GuidePreload => AlarmId::GuidePreload,
+            HazardKind::PressureFolding => AlarmId::PressureFolding,
         }
     }
 
@@ -134,6 +173,8 @@ impl AlarmId {
         match kind {
             InputKind::RotarySpeed => AlarmId::RotarySpeedInput,
             InputKind::WeightOnBit => AlarmId::WeightOnBitInput,
+            InputKind::RateOfPenetration => AlarmId::RateOfPenetrationInput,
+            InputKind::StandpipePressure => AlarmId::StandpipePressureInput,
         }
     }
 
@@ -148,9 +189,15 @@ impl AlarmId {
             AlarmId::StickSlip => tool(&alarms.stick_slip),
             AlarmId::JointLoad => tool(&alarms.joint_load),
             AlarmId::ChaoticWhirl => tool(&alarms.chaotic_whirl),
+            AlarmId::WeightTransfer => tool(&alarms.weight_transfer),
+            AlarmId::TorqueTransfer => tool(&alarms.torque_transfer),
+            AlarmId::GuidePreload => tool(&alarms.guide_preload),
+            AlarmId::PressureFolding => tool(&alarms.pressure_folding),
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
+            AlarmId::RateOfPenetrationInput => node(&alarms.rate_of_penetration_input),
+            AlarmId::StandpipePressureInput => node(&alarms.standpipe_pressure_input),
             AlarmId::TwoDrivers => node(&alarms.two_drivers),
             AlarmId::RealTime => node(&alarms.real_time),
             AlarmId::Solver => node(&alarms.solver),

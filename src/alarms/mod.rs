@@ -23,6 +23,7 @@ pub mod state_file;
 mod tool;
 mod worst_moment;
 
+pub use advice::{Change, Quantity, Tested};
 pub use catalogue::AlarmId;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
@@ -35,12 +36,12 @@ use crate::messages::outputs::Encoded;
 use crate::messages::std_msgs::Header;
 use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, to_cdr_into};
-use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Saved, SavedError, Statistics, Time};
+use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Priority, Saved, SavedError, Statistics, Time};
 use flexdrill_config::Config;
 use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
 
-use advice::{Demand, Operating};
+use advice::{Ahead, Demand, Operating};
 use worst_moment::WorstMoment;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
@@ -57,6 +58,8 @@ pub struct AlarmBook {
     /// The operating point of the newest snapshot.
     operating: Operating,
     memory: node::Memory,
+    /// What look-aheads have found for the present state.
+    tested: Option<Tested>,
     /// Per alarm: whether its present state began in an earlier run.
     restored: Vec<bool>,
     /// Events that are not yet published.
@@ -92,6 +95,7 @@ impl AlarmBook {
             moments: vec![WorstMoment::default(); AlarmId::ALL.len()],
             operating: Operating::default(),
             memory: node::Memory::default(),
+            tested: None,
             restored: (0..AlarmId::ALL.len())
                 .map(|index| system.alarm(index).since != 0)
                 .collect(),
@@ -149,8 +153,38 @@ impl AlarmBook {
         self.keep(events);
     }
 
+    /// Takes what look-aheads have found, for as long as it holds at what is asked for.
+    pub fn set_tested(&mut self, tested: Option<Tested>) {
+        self.tested = tested;
+    }
+
+    /// The alarm of the tool's motion that leads, and all that stand; `None` while none does.
+    pub fn leading(&self) -> Option<(AlarmId, Vec<AlarmId>)> {
+        let demands = self.demands();
+        let order = advice::by_rank(&demands);
+        let standing: Vec<AlarmId> = order.iter().map(|demand| demand.id).collect();
+        let lead = order.first()?;
+        (!lead.shelved && self.active(lead.id).is_some()).then_some((lead.id, standing))
+    }
+
     /// Writes the advice to the driller on all alarms of the tool's motion.
     fn advise(&mut self) {
+        let demands = self.demands();
+        let ahead = Ahead {
+            is_on: self.config.look_ahead.advice,
+            tested: self.tested,
+        };
+        let texts = advice::what_to_do(&demands, &self.operating, &self.config.inputs, &ahead);
+        for (demand, text) in demands.iter().zip(texts) {
+            let index = demand.id as usize;
+            self.moments[index].finding.what_to_do = match self.system.alarm(index).standing.active() {
+                Some(_) => text,
+                None => "No further action: acknowledge the alarm.".to_owned(),
+            };
+        }
+    }
+
+    fn demands(&self) -> Vec<Demand> {
         let mut demands = Vec::new();
         for kind in HazardKind::ALL {
             let id = AlarmId::of_hazard(kind);
@@ -164,14 +198,17 @@ impl AlarmBook {
                 });
             }
         }
-        let texts = advice::what_to_do(&demands, &self.operating, &self.config.inputs);
-        for (demand, text) in demands.iter().zip(texts) {
-            let index = demand.id as usize;
-            self.moments[index].finding.what_to_do = match self.system.alarm(index).standing.active() {
-                Some(_) => text,
-                None => "No further action: acknowledge the alarm.".to_owned(),
-            };
-        }
+        demands
+    }
+
+    /// The priority with which an alarm stands now.
+    pub fn active(&self, id: AlarmId) -> Option<Priority> {
+        self.system.alarm(id as usize).standing.active()
+    }
+
+    /// Drops the events that nobody will read.
+    pub fn forget_events(&mut self) {
+        self.journal.clear();
     }
 
     /// Carries out a request of an operator at the present time of its clock. Returns what was done.

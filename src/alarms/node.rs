@@ -25,7 +25,7 @@ pub struct NodeState<'a> {
     /// Present time as the conditioner counts it (s).
     pub now: f64,
     /// The publishers of each input, by [`InputKind::index`].
-    pub drivers: [DriverSummary; 2],
+    pub drivers: [DriverSummary; InputKind::COUNT],
     /// Whether the solver runs.
     pub run_state: RunState,
     /// Cause and location of the failed step, while the model is stopped by it.
@@ -63,14 +63,14 @@ pub(super) struct Memory {
 }
 
 /// The findings on the node's state, one per alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memory) -> [(AlarmId, Finding); 7] {
+pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memory) -> [(AlarmId, Finding); 9] {
     // A simulated clock is 0 before its first tick and may be set back.
     let began = memory
         .began
         .filter(|began| *began > 0.0)
         .map_or(state.now, |began| began.min(state.now));
     memory.began = Some(began);
-    let [speed, weight] = InputKind::ALL.map(|kind| {
+    let [speed, weight, advance, pressure] = InputKind::ALL.map(|kind| {
         (
             AlarmId::of_input(kind),
             input(kind, state, began, alarms.first_sample_within),
@@ -79,6 +79,8 @@ pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memo
     [
         speed,
         weight,
+        advance,
+        pressure,
         (AlarmId::TwoDrivers, two_drivers(&state.drivers)),
         (AlarmId::RealTime, real_time(state)),
         (AlarmId::Solver, solver(state.failure)),
@@ -95,6 +97,8 @@ pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memo
 fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within: f64) -> Finding {
     let (conditioner, topic) = (state.conditioner, kind.topic());
     let rule = conditioner.rule(kind);
+    // A rate of penetration that was sent acts on the friction at the wall under every law.
+    let acts = rule.used || kind == InputKind::RateOfPenetration;
     // Without any good sample, the time counts from the first that was refused.
     let silence = conditioner.without_good(kind, state.now);
     let fallback = format!(
@@ -103,7 +107,7 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
         kind.unit()
     );
     let (priority, evidence, cause) = match conditioner.state(kind, state.now) {
-        InputState::Ok | InputState::Slow => return Finding::default(),
+        InputState::Ok | InputState::Slow | InputState::Assumed => return Finding::default(),
         InputState::NotReceived if state.now - began < first_sample_within => {
             return Finding {
                 suppressed: true,
@@ -136,11 +140,34 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
                 None => (String::new(), "The rig's software or the network has stopped."),
             };
             (
-                if safe { Priority::High } else { Priority::Medium },
+                match (acts, kind.is_optional(), safe) {
+                    (false, ..) => Priority::Low,
+                    (true, false, true) => Priority::High,
+                    // Without it the model still follows speed and weight.
+                    _ => Priority::Medium,
+                },
                 format!("No good sample on {topic} for {silence:.0} s; {fallback}.{refused}"),
                 cause,
             )
         }
+    };
+    let (consequence, what_to_do) = match kind {
+        _ if !acts => (
+            "None: the present model does not use this value.",
+            "No action at the rig. Inform the engineer.",
+        ),
+        InputKind::RotarySpeed | InputKind::WeightOnBit => (
+            "The model no longer follows the rig; whirl and shock may be missed.",
+            "Rely on the rig's own instruments until the signal returns, and call the engineer.",
+        ),
+        InputKind::RateOfPenetration => (
+            "The axial friction of the tool is computed with a wrong advance; the weight at the bit may be wrong.",
+            "Do not rely on the computed weight at the bit until the signal returns, and call the engineer.",
+        ),
+        InputKind::StandpipePressure => (
+            "The tool's axial force is computed with a wrong pressure; bending and contact forces may be wrong.",
+            "Do not rely on the computed forces until the signal returns, and call the engineer.",
+        ),
     };
     Finding {
         priority: Some(priority),
@@ -149,14 +176,14 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
         unit: "s",
         evidence,
         cause: cause.to_owned(),
-        consequence: "The model no longer follows the rig; whirl and shock may be missed.".to_owned(),
-        what_to_do: "Rely on the rig's own instruments until the signal returns, and call the engineer.".to_owned(),
+        consequence: consequence.to_owned(),
+        what_to_do: what_to_do.to_owned(),
         what_the_engineer_can_do: format!("Check the sensor and the program that publishes {topic}."),
         ..Finding::default()
     }
 }
 
-fn two_drivers(drivers: &[DriverSummary; 2]) -> Finding {
+fn two_drivers(drivers: &[DriverSummary; InputKind::COUNT]) -> Finding {
     let several = InputKind::ALL
         .into_iter()
         .zip(drivers)

@@ -129,6 +129,10 @@ pub(super) fn rule(kind: HazardKind, table: &AdviceTable) -> Advice {
         HazardKind::StickSlip => table.stick_slip,
         HazardKind::JointLoad => table.joint_load,
         HazardKind::ChaoticWhirl => table.chaotic_whirl,
+        HazardKind::WeightTransfer => table.weight_transfer,
+        HazardKind::TorqueTransfer => table.torque_transfer,
+        HazardKind::GuidePreload => table.guide_preload,
+        HazardKind::PressureFolding => table.pressure_folding,
     }
 }
 
@@ -237,6 +241,61 @@ fn words(hazard: &Hazard) -> Words {
                 .to_owned(),
             engineer: "Add lubricant to the mud. Compare with a downhole vibration log. On the next trip, inspect joints \
                        and connections along the whole tool.",
+        },
+        HazardKind::WeightTransfer => Words {
+            unit: "of the weight",
+            evidence: match number(100.0 * hazard.value, 0) {
+                Some(lost) => {
+                    format!("Weight does not arrive: friction takes {lost} % of the weight slacked off at the surface")
+                }
+                None => {
+                    "Weight does not arrive: friction takes most of the weight slacked off at the surface".to_owned()
+                }
+            },
+            cause: "Friction on the wall holds the string or the guide back.",
+            consequence:
+                "The bit hardly cuts. More weight at the surface may buckle the string, or reach the bit at once \
+                          when the friction gives way"
+                    .to_owned(),
+            engineer: "Compare the drag of string and guide with the hook load while picking up and slacking off. Clean the \
+                       hole, or add lubricant to the mud. A guide that was not made with the curvature of the hole drags more.",
+        },
+        HazardKind::TorqueTransfer => Words {
+            unit: "of the torque",
+            evidence: match number(100.0 * hazard.value, 0) {
+                Some(lost) => format!("Torque does not arrive: friction takes {lost} % of the torque of the top drive"),
+                None => "Torque does not arrive: friction takes most of the torque of the top drive".to_owned(),
+            },
+            cause: "Friction on the wall, between pipe and guide or in the joints brakes the rotation.",
+            consequence: "String and joints carry torque that does not cut rock; the tool may stick".to_owned(),
+            engineer: "Compare the torque off bottom with that while drilling: what remains off bottom is friction. Clean the \
+                       hole, or add lubricant to the mud. Check the joints for wear on the next trip.",
+        },
+        HazardKind::GuidePreload => Words {
+            unit: "of its rating",
+            evidence: match value(2) {
+                Some(ratio) => format!("Guide overbent{at}: its bending moment is {ratio} times the rated moment"),
+                None => format!("Guide overbent{at}"),
+            },
+            cause: "The hole bends the guide beyond the curvature that it was made with.",
+            consequence: "The guide may take a permanent bend or crack at a slot, and presses on the wall at its ends"
+                .to_owned(),
+            engineer: "Check guide_preload.rated_moment_nm against the manufacturer's rating, and the radius of the hole. Use \
+                       a guide with more slots, or one that was made with a bend.",
+        },
+        HazardKind::PressureFolding => Words {
+            unit: "of its rating",
+            evidence: match value(2) {
+                Some(ratio) => format!(
+                    "Folding under pressure, strongest{at}: the effective compression of the pipe is {ratio} times its rating"
+                ),
+                None => format!("Folding under pressure, strongest{at}"),
+            },
+            cause: "The pressure on the seal at the lower end pushes the chain of links together.",
+            consequence: "The links fold against the guide: their stops carry the load, and friction takes torque"
+                .to_owned(),
+            engineer: "Check pressure_folding.rated_compression_kn against the manufacturer's rating. Use a larger nozzle, or \
+                       a lower end that the pressure does not push up.",
         },
     }
 }

@@ -9,6 +9,7 @@ mod numbers;
 mod output;
 mod paper;
 mod progress;
+mod reach;
 mod record_name;
 mod recover;
 mod replay;
@@ -53,6 +54,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
+    Reach(reach::ReachArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
 }
@@ -226,6 +228,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Verify(args) => verify::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Reach(args) => reach::run(&args),
         Command::Completions(args) => {
             shell::completions(&args);
             Ok(())

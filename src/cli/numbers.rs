@@ -44,6 +44,31 @@ pub(super) fn kilonewton(text: &str) -> Result<f64, NumberError> {
     number(text, 0.0, 2000.0, "kN")
 }
 
+/// Length of a hole (m).
+pub(super) fn length(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.1, 1000.0, "m")
+}
+
+/// A friction coefficient.
+pub(super) fn friction(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.0, 2.0, "")
+}
+
+/// A rotary speed of drilling (r/min): a mean over a turn must fit into a minute.
+pub(super) fn drilling_rpm(text: &str) -> Result<f64, NumberError> {
+    number(text, 1.0, 5000.0, "r/min")
+}
+
+/// A rate of penetration of drilling (m/h).
+pub(super) fn advance(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.01, 100.0, "m/h")
+}
+
+/// A number of threads.
+pub(super) fn jobs() -> clap::builder::RangedU64ValueParser<usize> {
+    clap::builder::RangedU64ValueParser::<usize>::new().range(1..=256)
+}
+
 /// Turns of the tool.
 pub(super) fn turns(text: &str) -> Result<f64, NumberError> {
     number(text, 0.01, 10_000.0, "turns")
@@ -66,7 +91,18 @@ mod tests {
     #[test]
     fn implausible_numbers_are_refused_with_the_bounds() {
         type Parser = fn(&str) -> Result<f64, NumberError>;
-        let parsers: [Parser; 6] = [seconds, time_step, rpm, kilonewton, turns, rate];
+        let parsers: [Parser; 10] = [
+            seconds,
+            time_step,
+            rpm,
+            kilonewton,
+            turns,
+            rate,
+            length,
+            friction,
+            drilling_rpm,
+            advance,
+        ];
         for parse in parsers {
             for text in [
                 "nan", "NaN", "inf", "-inf", "1e999", "1e-308", "-1e-308", "5e-324", "1e300", "", "x", "1,5",

@@ -75,7 +75,13 @@ impl Progress {
                 bar.set_position((time * 1e3) as u64);
             } else if self.printed.elapsed() >= LINE_EVERY {
                 self.printed = Instant::now();
-                tell!("{:.0} % after {wall:.0} s", 100.0 * time);
+                // A rate of less than a hundredth says nothing about the rest.
+                let left = if time < 0.01 {
+                    String::new()
+                } else {
+                    format!(", about {:.0} s left", (1.0 - time) / speed)
+                };
+                tell!("{:.0} % after {wall:.0} s{left}", 100.0 * time);
             }
             return;
         }

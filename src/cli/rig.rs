@@ -64,9 +64,8 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
         args.rate
     );
     say!(
-        "to {} and {}, domain {}; Ctrl-C ends it",
-        node.topics()[0],
-        node.topics()[1],
+        "to {}, domain {}; Ctrl-C ends it",
+        sent_topics(&node, &samples).join(", "),
         network.domain_id
     );
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
@@ -80,6 +79,13 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     })?;
     say!("stopped");
     Ok(())
+}
+
+/// The topics of the inputs that the samples have.
+fn sent_topics<'a>(node: &'a RigNode, samples: &[Sample]) -> Vec<&'a str> {
+    let sent = |kind: &InputKind| samples.iter().any(|sample| sample.kind == *kind);
+    let kinds = InputKind::ALL.into_iter().filter(sent);
+    kinds.map(|kind| node.topics()[kind.index()].as_str()).collect()
 }
 
 async fn play(node: &RigNode, samples: &[Sample], rate: f64, again: bool) {
@@ -100,14 +106,14 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
     let at = |sample: &Sample| sample.since(first);
     let began = Instant::now();
     let mut reported = began;
-    let mut newest: [Option<f64>; 2] = [None; 2];
+    let mut newest: [Option<f64>; InputKind::COUNT] = [None; InputKind::COUNT];
     let (mut next, mut sent, mut left_out) = (0, 0_u64, 0_u64);
     while let Some(sample) = samples.get(next) {
         let due = Duration::from_secs_f64(at(sample) / rate);
         tokio::time::sleep_until((began + due).into()).await;
         let now = began.elapsed().as_secs_f64() * rate;
         // Of all samples due by now, only the newest of each input is sent.
-        let mut batch: [Option<f64>; 2] = [None; 2];
+        let mut batch: [Option<f64>; InputKind::COUNT] = [None; InputKind::COUNT];
         while let Some(sample) = samples.get(next).filter(|sample| at(sample) <= now) {
             next += 1;
             // The topic carries a bare number, which cannot be marked as bad, so a bad sample is not sent.
@@ -129,8 +135,13 @@ async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
             } else {
                 String::new()
             };
+            let optional: String = InputKind::ALL
+                .into_iter()
+                .filter(|kind| kind.is_optional())
+                .filter_map(|kind| newest[kind.index()].map(|value| format!(" {value:.1} {},", kind.unit())))
+                .collect();
             say!(
-                "{now:.0} of {:.0} s: {} r/min, {} kN, {sent} samples sent{late}, subscribers: {}",
+                "{now:.0} of {:.0} s: {} r/min, {} kN,{optional} {sent} samples sent{late}, subscribers: {}",
                 at(last),
                 show(newest[0]),
                 show(newest[1]),

@@ -251,6 +251,7 @@ fn rate(config: &Config, schedule: &flexdrill_core::twin::Schedule, key: &str) -
         "tool_shape" => of(Output::ToolShape),
         "ageing" => of(Output::Ageing),
         "reactions" => of(Output::Reactions),
+        "transfer" => of(Output::Transfer),
         "status" => config.outputs.rates.status,
         "diagnostics" => config.outputs.rates.diagnostics,
         _ => 0.0,

@@ -21,7 +21,7 @@ pub(super) struct Sample {
     pub(super) time: i64,
     /// The input that it belongs to.
     pub(super) kind: InputKind,
-    /// In the unit of the input's topic: r/min or kN.
+    /// In the unit of the input's topic.
     pub(super) value: f64,
     /// Stamp and quality of a sample of `rig/inputs`; the configuration sets the allowed skew.
     pub(super) stamp: Option<Stamp>,
@@ -162,20 +162,31 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
     let mut bag = bag::open(path)?;
     let plain = InputKind::ALL.map(|kind| bag.topic(kind.topic()).map(|topic| topic.name.clone()));
     let stamped = bag.topic(topics::RIG_INPUTS.name).map(|topic| topic.name.clone());
-    let names: Vec<Option<String>> = match (plain, stamped) {
-        ([Ok(speed), Ok(weight)], stamped) => vec![Some(speed), Some(weight), stamped.ok()],
-        // Without the plain topics, the stamped topic has both inputs.
-        ([speed, weight], Ok(stamped)) => vec![speed.ok(), weight.ok(), Some(stamped)],
-        ([speed, weight], Err(_)) => {
+    let [speed, weight, advance, pressure] = plain;
+    // The optional inputs may be missing.
+    let [advance, pressure] = [advance.ok(), pressure.ok()];
+    let names: [Option<String>; InputKind::COUNT + 1] = match (speed, weight, stamped) {
+        (Ok(speed), Ok(weight), stamped) => [Some(speed), Some(weight), advance, pressure, stamped.ok()],
+        // Without the plain topics, the stamped topic has the inputs.
+        (speed, weight, Ok(stamped)) => [speed.ok(), weight.ok(), advance, pressure, Some(stamped)],
+        (speed, weight, Err(_)) => {
             let error = speed.and(weight).err().map(anyhow::Error::from);
             let missing = error.unwrap_or_else(|| anyhow::anyhow!("no inputs"));
-            return Err(missing.context(format!("{}: the bag needs both inputs of the rig", path.display())));
+            return Err(missing.context(format!(
+                "{}: the bag needs rotary speed and weight on bit",
+                path.display()
+            )));
         }
     };
-    let types = [Float64::ROS_TYPE, Float64::ROS_TYPE, RigInputs::ROS_TYPE];
     let role = |name: &str, ros_type: &str| {
-        let named = |(known, wanted): (&Option<String>, &str)| known.as_deref() == Some(name) && wanted == ros_type;
-        names.iter().zip(types).position(named)
+        names.iter().enumerate().position(|(index, known)| {
+            let wanted = if index < InputKind::COUNT {
+                Float64::ROS_TYPE
+            } else {
+                RigInputs::ROS_TYPE
+            };
+            known.as_deref() == Some(name) && wanted == ros_type
+        })
     };
     bag.select(|topic| role(&topic.name, &topic.ros_type).is_some());
     let mut samples = Vec::new();
@@ -190,10 +201,10 @@ fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
                 stamp,
             });
         };
-        match role(&message.topic.name, &message.topic.ros_type) {
-            Some(0) => add(InputKind::RotarySpeed, message.decode::<Float64>()?.data, None),
-            Some(1) => add(InputKind::WeightOnBit, message.decode::<Float64>()?.data, None),
-            _ => {
+        let kind = role(&message.topic.name, &message.topic.ros_type).and_then(|index| InputKind::ALL.get(index));
+        match kind {
+            Some(kind) => add(*kind, message.decode::<Float64>()?.data, None),
+            None => {
                 let given = stamped::values(&message.decode::<RigInputs>()?, time, 0.0);
                 for (kind, given) in InputKind::ALL.into_iter().zip(given) {
                     if let Some((value, stamp)) = given {

@@ -16,6 +16,8 @@ pub fn items(node: &str, status: &TwinStatus, motion: &MotionEvidence, list: &Al
         motion.whirl(),
         motion.stick_slip(),
         motion.shock(),
+        motion.joint_load(),
+        motion.transfer(),
         recording(status),
         network(status),
     ];
@@ -34,6 +36,7 @@ pub fn items(node: &str, status: &TwinStatus, motion: &MotionEvidence, list: &Al
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::alarms::AlarmId;
     use crate::messages::Alarm;
 
     fn running() -> TwinStatus {
@@ -144,6 +147,21 @@ mod tests {
             (shelved.level, shelved.message.as_str()),
             (DiagnosticStatus::OK, "in real time (shelved: real time)")
         );
+    }
+
+    /// An alarm without an item would leave `/diagnostics` OK while it stands.
+    #[test]
+    fn every_alarm_belongs_to_one_item() {
+        for id in AlarmId::ALL {
+            let list = AlarmList {
+                alarms: vec![alarm(id.id(), Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH)],
+                ..AlarmList::default()
+            };
+            let items = items("n", &running(), &MotionEvidence::default(), &list);
+            let bad = items.iter().filter(|item| item.level == DiagnosticStatus::ERROR);
+            let names: Vec<&str> = bad.map(|item| item.name.as_str()).collect();
+            assert!(names.len() == 2 && names[1] == "n: alarms", "{}: {names:?}", id.id());
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::item::{Item, figure, figure_in};
 use crate::alarms::{AlarmId, another_of_this_name, not_in_real_time};
 use crate::messages::{TwinStatus, words};
-use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_core::inputs::InputKind;
 
 pub(super) fn pacing(status: &TwinStatus) -> Item {
     let calm = match (status.state, status.pace) {
@@ -86,17 +86,19 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
             )
         })
         .collect();
-    let keys = [
-        ("rotary_speed", "rotary_speed publishers"),
-        ("weight_on_bit", "weight_on_bit publishers"),
-    ];
     let mut values = Vec::new();
-    for (index, (key, publishers_key)) in keys.into_iter().enumerate().take(status.input_name.len()) {
-        let get = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
-        let in_unit = |value: f64| match index {
-            0 => figure_in(rad_per_s_to_rpm(value), 2, "r/min"),
-            _ => figure_in(n_to_kn(value), 2, "kN"),
+    for (index, name) in status.input_name.iter().enumerate() {
+        let Some(kind) = InputKind::of_name(name) else {
+            continue;
         };
+        let (key, publishers_key) = match kind {
+            InputKind::RotarySpeed => ("rotary_speed", "rotary_speed publishers"),
+            InputKind::WeightOnBit => ("weight_on_bit", "weight_on_bit publishers"),
+            InputKind::RateOfPenetration => ("rate_of_penetration", "rate_of_penetration publishers"),
+            InputKind::StandpipePressure => ("standpipe_pressure", "standpipe_pressure publishers"),
+        };
+        let get = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
+        let in_unit = |value: f64| figure_in(kind.from_si(value), 2, kind.unit());
         values.push((
             key,
             format!(
@@ -128,6 +130,8 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
         alarms: &[
             AlarmId::RotarySpeedInput,
             AlarmId::WeightOnBitInput,
+            AlarmId::RateOfPenetrationInput,
+            AlarmId::StandpipePressureInput,
             AlarmId::TwoDrivers,
         ],
         calm: states.join(", "),

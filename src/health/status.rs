@@ -39,7 +39,7 @@ pub struct StatusKeeper {
     quality: ModelQuality,
     depths: Vec<f64>,
     counters_step: u64,
-    applied: [f64; 2],
+    applied: [f64; InputKind::COUNT],
     failures: u64,
     last_failure: Option<StepFailure>,
 }
@@ -96,7 +96,7 @@ impl StatusKeeper {
             quality: ModelQuality::default(),
             depths: Vec::new(),
             counters_step: 0,
-            applied: [f64::NAN; 2],
+            applied: [f64::NAN; InputKind::COUNT],
             failures: 0,
             last_failure: None,
         })
@@ -113,7 +113,8 @@ impl StatusKeeper {
         self.counters_step = snapshot.step;
         self.energy = snapshot.energy;
         self.quality = snapshot.quality;
-        self.applied = [snapshot.applied.rotary_speed, snapshot.applied.weight_on_bit];
+        let applied = snapshot.applied.inputs();
+        self.applied = InputKind::ALL.map(|kind| applied.get(kind));
         if self.depths.len() != snapshot.contacts.measured_depth.len() {
             self.depths.clone_from(&snapshot.contacts.measured_depth);
         }
@@ -242,6 +243,9 @@ impl StatusKeeper {
         let intake = sources.intake;
         let conditioner = intake.conditioner();
         for kind in InputKind::ALL {
+            if !conditioner.is_of_interest(kind) {
+                continue;
+            }
             status.input_name.push(kind.name().to_owned());
             status.input_state.push(conditioner.state(kind, sources.now) as u8);
             status

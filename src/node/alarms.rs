@@ -8,6 +8,7 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 
 use super::NodeError;
+use super::advisor::Advisor;
 use super::publish::{PublisherParts, Sinks};
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
@@ -16,6 +17,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::outputs::Encoded;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
@@ -55,6 +57,8 @@ enum Saving {
 pub struct AlarmDesk {
     book: AlarmBook,
     requests: Receiver<AlarmRequest>,
+    /// Who looks ahead for advice; none where that is off.
+    advisor: Option<Arc<Advisor>>,
     /// Writes the state to its file, with the number of the newest event that it was given.
     writer: Option<(StateWriter, u64)>,
 }
@@ -70,8 +74,14 @@ impl AlarmDesk {
         Self {
             book,
             requests,
+            advisor: None,
             writer: writer.map(|writer| (writer, 0)),
         }
+    }
+
+    /// Takes advice from look-aheads.
+    pub fn advised_by(&mut self, advisor: Arc<Advisor>) {
+        self.advisor = Some(advisor);
     }
 
     /// Adopts changed limits and rules.
@@ -82,6 +92,11 @@ impl AlarmDesk {
     /// Judges the hazards of a snapshot, at its stamp.
     pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
         self.book.observe_tool(snapshot, stamp);
+        if let Some(advisor) = &self.advisor {
+            let applied = &snapshot.applied;
+            let at = [rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_set)];
+            self.book.set_tested(advisor.follow(self.book.leading(), at));
+        }
     }
 
     /// Judges the node's own state, at the present time on the rig's clock.

@@ -3,19 +3,19 @@
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
-use std::sync::mpsc::{Sender, sync_channel};
+use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::NodeError;
 use super::inputs::RigInputs;
 use super::parameters::{reconfigured, refresh_ranges};
+use super::states::{SavedRun, States};
 use flexdrill_config::{Config, HardBounds, Rates};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_messages::outputs::{self, ParameterChange};
 use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
-use flexdrill_realtime::link::{Command, Gauges, RunState, Settings};
+use flexdrill_realtime::link::{Command, Gauges, RequestEnd, RunState, Settings};
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::PortBuilder;
 use flexdrill_ros2::parameters::{Parameter, ParameterStore, ParameterValue, Refusal};
@@ -23,8 +23,6 @@ use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task, asked_by, at_
 
 /// Least time between two checkpoints: each one delays the solver for a moment.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(1);
-/// Longest wait for the solver's state.
-const CHECKPOINT_WAIT: Duration = Duration::from_secs(10);
 
 /// Parameters that changed together, on their way to the publisher.
 #[derive(Debug)]
@@ -85,11 +83,14 @@ pub enum ControlError {
 /// Sends commands to the solver.
 pub struct Control {
     commands: Mutex<Commands>,
+    states: Mutex<States>,
     config: Mutex<Arc<Config>>,
     updates: Sender<ParameterUpdate>,
     rig_inputs: RigInputs,
     gauges: Arc<Gauges>,
     hard_bounds: HardBounds,
+    /// The configuration at the start: the tool was built by it.
+    first_config: Arc<Config>,
     /// Publishing rates at the start. Recordings keep them.
     initial_rates: Rates,
     /// When the last checkpoint was requested.
@@ -103,7 +104,7 @@ fn settings(config: &Config, initial_rates: &Rates) -> Settings {
     let simulation = config.simulation();
     Settings {
         live: config.live(),
-        slew: [simulation.rotary_speed_slew, simulation.weight_on_bit_slew],
+        slew: simulation.slew(),
         whirl: config.whirl_settings(),
         schedule: outputs::schedule(config, initial_rates),
     }
@@ -112,7 +113,7 @@ fn settings(config: &Config, initial_rates: &Rates) -> Settings {
 impl Control {
     /// The control of a solver; `updates` go to the publisher.
     pub fn new(
-        sender: rtrb::Producer<Command>,
+        requests: RequestEnd,
         config: Arc<Config>,
         updates: Sender<ParameterUpdate>,
         rig_inputs: RigInputs,
@@ -121,7 +122,12 @@ impl Control {
         Arc::new(Self {
             hard_bounds: HardBounds::of(&config),
             initial_rates: config.outputs.rates,
-            commands: Mutex::new(Commands { sender, sent: 0 }),
+            commands: Mutex::new(Commands {
+                sender: requests.commands,
+                sent: 0,
+            }),
+            states: Mutex::new(States::new(requests.states)),
+            first_config: Arc::clone(&config),
             config: Mutex::new(config),
             updates,
             rig_inputs,
@@ -131,8 +137,14 @@ impl Control {
         })
     }
 
-    fn config(&self) -> Arc<Config> {
+    /// The configuration in force.
+    pub fn config(&self) -> Arc<Config> {
         Arc::clone(&self.config.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The configuration at the start, by which the tool was built.
+    pub fn first_config(&self) -> &Arc<Config> {
+        &self.first_config
     }
 
     /// Sends a command and returns its number.
@@ -226,6 +238,18 @@ impl Control {
         Ok(())
     }
 
+    /// The whole state of the model. It blocks until the solver has answered, between two periods.
+    ///
+    /// # Errors
+    /// Before the model is built, when the solver does not answer, or the state cannot be encoded.
+    pub fn state(&self) -> Result<SavedRun, ControlError> {
+        if self.gauges.run_state() == RunState::Starting {
+            return Err(ControlError::Starting);
+        }
+        let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
+        states.get(|command| self.send(command))
+    }
+
     fn answer_reset(&self) -> TriggerResponse {
         let done = self.reset();
         answer(done.map(|()| "the model returns to its state after the start".to_owned()))
@@ -252,21 +276,19 @@ impl Control {
             *last = Some(Instant::now());
         }
         let saved = tokio::task::spawn_blocking(move || {
-            let (sender, receiver) = sync_channel(1);
-            self.send(Command::Checkpoint(sender))?;
-            let bytes = receiver
-                .recv_timeout(CHECKPOINT_WAIT)
-                .map_err(|_| ControlError::NoAnswer)??;
-            let step = self.gauges.step.load(Ordering::Relaxed);
+            let SavedRun {
+                checkpoint, applied, ..
+            } = self.state()?;
+            let step = applied.step;
             let path = PathBuf::from(format!(
                 "flexdrill_{}_step{step}.checkpoint",
                 &self.config().hash()[..12]
             ));
-            if let Err(source) = write_whole(&path, &bytes) {
+            if let Err(source) = write_whole(&path, &checkpoint) {
                 return Err(ControlError::Write { path, source });
             }
             let absolute = std::path::absolute(&path).unwrap_or(path);
-            Ok(format!("{} ({} bytes)", absolute.display(), bytes.len()))
+            Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
         });
         let result = saved.await.unwrap_or_else(|error| Err(error.into()));
         match &result {
@@ -363,7 +385,7 @@ mod tests {
         let targets = Targets::new(config.simulation().initial_inputs);
         let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
         let (sender, updates) = channel();
-        let rig_inputs = RigInputs::new(&config.inputs, targets, Clocks::new(true));
+        let rig_inputs = RigInputs::new(&config, targets, Clocks::new(true));
         Bench {
             store: declare(&config, "default.yaml", false),
             control: Control::new(commands, config, sender, rig_inputs, gauges),

@@ -1,9 +1,9 @@
-//! A rig for demonstrations and tests: a node that publishes the two inputs.
+//! A rig for demonstrations and tests: a node that publishes the inputs.
 
+use super::received::plain_topic;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::to_cdr_body;
-use flexdrill_messages::topics;
 use flexdrill_ros2::JoinError;
 use flexdrill_ros2::args::{NodeIdentity, Remapping};
 use flexdrill_ros2::dds::network::Network;
@@ -30,7 +30,7 @@ impl RigNode {
     pub fn new(network: &Network, identity: &NodeIdentity, remapping: &Remapping) -> Result<Self, JoinError> {
         let mut port = PortBuilder::new(network, &identity.namespace, &identity.name);
         let (mut publishers, mut names) = (Vec::new(), Vec::new());
-        for topic in [&topics::ROTARY_SPEED_RPM, &topics::WEIGHT_ON_BIT_KN] {
+        for topic in InputKind::ALL.map(plain_topic) {
             let name = remapping.topic(identity, RIG_NODE_NAME, topic.name)?;
             let offer = Offer {
                 reliable: true,
@@ -49,7 +49,7 @@ impl RigNode {
         })
     }
 
-    /// Publishes a sample (r/min or kN). Returns false while DDS is down.
+    /// Publishes a sample, in the unit of its topic. Returns false while DDS is down.
     pub fn publish(&self, kind: InputKind, value: f64) -> bool {
         let body = to_cdr_body(&Float64 { data: value }).unwrap_or_default();
         self.publishers[kind.index()].publish(body);

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::clocks::Clocks;
 use crate::rig_inputs::{Driver, DriverId, Intake, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped};
-use flexdrill_config::InputsConfig;
+use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{InputKind, Stamp};
 use flexdrill_messages::RigInputs as RigInputsMessage;
 use flexdrill_realtime::link::Targets;
@@ -24,16 +24,31 @@ pub struct RigInputs {
 
 impl RigInputs {
     /// Inputs that follow the rules of a configuration.
-    pub fn new(inputs: &InputsConfig, targets: Arc<Targets>, clocks: Clocks) -> Self {
+    pub fn new(config: &Config, targets: Arc<Targets>, clocks: Clocks) -> Self {
         Self {
-            intake: Arc::new(Mutex::new(Intake::new(inputs))),
+            intake: Arc::new(Mutex::new(Intake::new(&config.inputs, config.used_inputs()))),
             targets,
             clocks,
-            max_skew: inputs.stamp.max_skew,
+            max_skew: config.inputs.stamp.max_skew,
         }
     }
 
-    /// A copy of the state of both inputs.
+    /// Logs what the model assumes of the optional inputs that concern the run.
+    pub fn log_assumed(&self) {
+        let intake = self.locked();
+        let conditioner = intake.conditioner();
+        let optional = InputKind::ALL.into_iter().filter(|kind| kind.is_optional());
+        for kind in optional.filter(|kind| conditioner.is_of_interest(*kind)) {
+            tracing::info!(
+                "{kind}: the model assumes {} {} until a sample arrives on {}",
+                conditioner.rule(kind).initial,
+                kind.unit(),
+                kind.topic()
+            );
+        }
+    }
+
+    /// A copy of the state of the inputs.
     pub fn snapshot(&self) -> Intake {
         self.locked().clone()
     }

@@ -5,6 +5,7 @@
 //! - the publisher's thread: [`publish`]; the recorder's thread: [`RecordingThread`](crate::bag::RecordingThread);
 //! - tokio tasks: inputs ([`receive`]), `/clock` (`clock_topic`), services and parameters ([`control`]).
 
+mod advisor;
 pub mod alarms;
 mod clock_topic;
 pub mod clocks;
@@ -22,8 +23,10 @@ pub mod receive;
 pub mod received;
 mod running;
 mod setup;
+mod states;
 mod thinned;
 pub mod viewers;
+mod what_if;
 
 use std::future::Future;
 

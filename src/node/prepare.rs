@@ -18,6 +18,7 @@ use super::receive::{self, SampleReceiver};
 use super::received::{self, ReceivedQueue, ReceivedSender};
 use super::running::RunningNode;
 use super::viewers::{self, Viewers};
+use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
 use crate::bag::{RecordingThread, Topic};
 use crate::live::{Hub, LiveServer, Steering};
@@ -50,9 +51,10 @@ pub(super) struct PreparedNode {
     parameters: Arc<Parameters>,
     parameter_updates: Receiver<ParameterUpdate>,
     alarm_requests: Receiver<AlarmRequest>,
+    answering: Answering,
     /// Services and `/clock`.
     tasks: Vec<Task>,
-    plain_samples: [(InputKind, Arc<Inbox<Sample>>); 2],
+    plain_samples: Vec<(InputKind, Arc<Inbox<Sample>>)>,
     stamped_samples: Arc<Inbox<Sample>>,
     received: (ReceivedSender, ReceivedQueue),
     /// What viewers may steer; none without viewers.
@@ -80,12 +82,13 @@ impl PreparedNode {
         let clocks = Clocks::new(setup.use_sim_time);
         let targets = Targets::new(config.simulation().initial_inputs);
         let gauges = Arc::new(Gauges::default());
-        let (loop_end, publisher_end, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
-        let inputs = RigInputs::new(&config.inputs, targets, clocks.clone());
+        let (loop_end, publisher_end, requests) = link(Arc::clone(&targets), Arc::clone(&gauges));
+        let inputs = RigInputs::new(&config, targets, clocks.clone());
+        inputs.log_assumed();
 
         let (update_sender, parameter_updates) = channel();
         let control = Control::new(
-            commands,
+            requests,
             Arc::clone(&config),
             update_sender,
             inputs.clone(),
@@ -108,6 +111,15 @@ impl PreparedNode {
         tasks.extend(control::serve(&mut port, mapping, &control, service_name)?);
         let (request_sender, alarm_requests) = channel();
         tasks.extend(alarms::serve(&mut port, mapping, &request_sender, service_name)?);
+        let advisor = Arc::default();
+        let (what_if, answering) = what_if::serve(&mut port, mapping, &clocks, &advisor, service_name)?;
+        tasks.extend(answering);
+        let answering = Answering {
+            what_if,
+            control: Arc::clone(&control),
+            gauges: Arc::clone(&gauges),
+            advisor,
+        };
         let shut_down = Arc::new(Notify::new());
         if setup.lifecycle {
             tasks.extend(lifecycle::serve(
@@ -124,19 +136,22 @@ impl PreparedNode {
             let samples = port.subscription(&name, topic.kind.dds_type, false);
             Ok((name, samples))
         };
-        let (speed_name, speed) = subscribe(&topics::ROTARY_SPEED_RPM)?;
-        let (weight_name, weight) = subscribe(&topics::WEIGHT_ON_BIT_KN)?;
+        let mut plain = Vec::new();
+        for kind in InputKind::ALL {
+            let (name, samples) = subscribe(received::plain_topic(kind))?;
+            plain.push((kind, name, samples));
+        }
         let (stamped_name, stamped) = subscribe(&topics::RIG_INPUTS)?;
         if let Some(newest) = clocks.simulated() {
             let (_, ticks) = subscribe(&topics::CLOCK)?;
             tasks.push(Box::pin(clock_topic::follow(inputs.clone(), ticks, Arc::clone(newest))));
         }
         let viewers = setup.live.is_some().then(|| {
-            let steered = vec![
-                viewers::input(&topics::ROTARY_SPEED_RPM, speed_name, &speed),
-                viewers::input(&topics::WEIGHT_ON_BIT_KN, weight_name, &weight),
-                viewers::input(&topics::RIG_INPUTS, stamped_name, &stamped),
-            ];
+            let mut steered: Vec<_> = plain
+                .iter()
+                .map(|(kind, name, samples)| viewers::input(received::plain_topic(*kind), name.clone(), samples))
+                .collect();
+            steered.push(viewers::input(&topics::RIG_INPUTS, stamped_name, &stamped));
             Viewers::new(&port, &parameters, &inputs, steered)
         });
         Ok(Self {
@@ -151,8 +166,9 @@ impl PreparedNode {
             parameters,
             parameter_updates,
             alarm_requests,
+            answering,
             tasks,
-            plain_samples: [(InputKind::RotarySpeed, speed), (InputKind::WeightOnBit, weight)],
+            plain_samples: plain.into_iter().map(|(kind, _, samples)| (kind, samples)).collect(),
             stamped_samples: stamped,
             received: received::queue(),
             viewers,
@@ -200,12 +216,15 @@ impl PreparedNode {
         tasks.spawn(receive::update_targets(self.inputs.clone()));
 
         let finish = Arc::new(AtomicBool::new(false));
-        let alarms = AlarmDesk::new(
+        let mut alarms = AlarmDesk::new(
             Arc::clone(&self.config),
             setup.alarm_state.as_deref(),
             self.alarm_requests,
             self.clocks.rig_time(),
         );
+        if self.config.look_ahead.advice {
+            alarms.advised_by(Arc::clone(&self.answering.advisor));
+        }
         let publisher = Publisher::new(PublisherParts {
             end: self.publisher_end,
             publishers: self.publishers,
@@ -234,7 +253,11 @@ impl PreparedNode {
             loop_end: self.loop_end,
         };
         let solver_thread = spawn("solver", move || solver.run(built_sender))?;
+        let (what_if, answering) = (Arc::clone(&self.answering.what_if), self.answering);
+        let look_ahead_thread = spawn("look-ahead", move || answering.run())?;
         Ok(RunningNode {
+            what_if,
+            look_ahead_thread,
             port,
             tasks,
             parameters: self.parameters,

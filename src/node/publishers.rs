@@ -95,6 +95,7 @@ fn rate(config: &Config, topic: &TopicInfo) -> f64 {
         Cadence::Rate("tool_shape") => rates.tool_shape,
         Cadence::Rate("ageing") => rates.ageing,
         Cadence::Rate("reactions") => rates.reactions,
+        Cadence::Rate("transfer") => rates.transfer,
         Cadence::Rate("joint_states") => rates.joint_states,
         Cadence::Rate("diagnostics") => rates.diagnostics,
         Cadence::Rate(_) | Cadence::OnChange | Cadence::Received => 0.0,

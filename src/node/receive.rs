@@ -10,7 +10,7 @@ use crate::rig_inputs::{Driver, DriverId, SampleRefused};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{Message, from_cdr_body};
+use flexdrill_messages::{Message, message_from_cdr_body};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::frames::Peer;
 use flexdrill_ros2::dds::plan::Guid;
@@ -132,8 +132,8 @@ async fn receive<M: Message>(
 /// The message of a sample, and its writer.
 pub(super) fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
     match sample {
-        Sample::Body { writer, body } => from_cdr_body(&body)
-            .map(|(message, _)| (message, writer))
+        Sample::Body { writer, body } => message_from_cdr_body(&body)
+            .map(|message| (message, writer))
             .map_err(|error| error.to_string()),
         Sample::Unreadable(why) => Err(why),
     }
@@ -142,8 +142,10 @@ pub(super) fn decode<M: Message>(sample: Sample) -> Result<(M, Guid), String> {
 /// Receives the plain numbers of one input for as long as it is polled.
 pub async fn receive_plain(receiver: SampleReceiver, kind: InputKind, samples: Arc<Inbox<Sample>>) {
     let kinds = match kind {
-        InputKind::RotarySpeed => &InputKind::ALL[..1],
-        InputKind::WeightOnBit => &InputKind::ALL[1..],
+        InputKind::RotarySpeed => &[InputKind::RotarySpeed],
+        InputKind::WeightOnBit => &[InputKind::WeightOnBit],
+        InputKind::RateOfPenetration => &[InputKind::RateOfPenetration],
+        InputKind::StandpipePressure => &[InputKind::StandpipePressure],
     };
     receive(
         receiver,

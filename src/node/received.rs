@@ -11,9 +11,11 @@ use flexdrill_messages::topics::{self, TopicInfo};
 /// Most samples that wait for the recording.
 const CAPACITY: usize = 1024;
 /// The topics of the samples.
-const TOPICS: [&TopicInfo; 3] = [
+const TOPICS: [&TopicInfo; 5] = [
     &topics::ROTARY_SPEED_RPM,
     &topics::WEIGHT_ON_BIT_KN,
+    &topics::RATE_OF_PENETRATION,
+    &topics::STANDPIPE_PRESSURE,
     &topics::RIG_INPUTS,
 ];
 
@@ -46,6 +48,8 @@ pub fn plain_topic(kind: InputKind) -> &'static TopicInfo {
     match kind {
         InputKind::RotarySpeed => &topics::ROTARY_SPEED_RPM,
         InputKind::WeightOnBit => &topics::WEIGHT_ON_BIT_KN,
+        InputKind::RateOfPenetration => &topics::RATE_OF_PENETRATION,
+        InputKind::StandpipePressure => &topics::STANDPIPE_PRESSURE,
     }
 }
 

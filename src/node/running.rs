@@ -10,6 +10,7 @@ use tokio::sync::{Notify, oneshot};
 use tokio::task::JoinSet;
 
 use super::duration::{DurationWatch, Ended};
+use super::what_if::WhatIf;
 use super::{NodeError, RunSummary};
 use crate::bag::RecordingThread;
 use flexdrill_core::twin::BuildError;
@@ -22,6 +23,8 @@ use flexdrill_ros2::parameters::Parameters;
 
 /// Longest wait for the solver to end: a step that is split to its limit takes this long on a slow machine.
 const SOLVER_END: Duration = Duration::from_secs(5);
+/// Longest wait for a look-ahead to end: one that is building the tool takes this long on a slow machine.
+const LOOK_AHEAD_END: Duration = Duration::from_secs(5);
 /// Longest wait for the answers to requests that came before the end.
 const LAST_ANSWERS: Duration = Duration::from_secs(2);
 /// How often model time is compared with the duration of the run.
@@ -38,6 +41,8 @@ pub(super) struct RunningNode {
     pub(super) gauges: Arc<Gauges>,
     pub(super) publisher_thread: JoinHandle<(Option<RecordingThread>, TwinStatus)>,
     pub(super) solver_thread: JoinHandle<()>,
+    pub(super) what_if: Arc<WhatIf>,
+    pub(super) look_ahead_thread: JoinHandle<()>,
     /// None once it was received.
     pub(super) built: Option<Built>,
     /// Makes the publisher write what is queued, and end.
@@ -105,6 +110,13 @@ impl RunningNode {
     /// # Errors
     /// When a thread ended badly or the recording could not be finished.
     pub(super) async fn end(mut self) -> Result<RunSummary, NodeError> {
+        self.what_if.end();
+        if !joined(self.look_ahead_thread, LOOK_AHEAD_END).await {
+            tracing::warn!(
+                "the look-ahead did not end within {} s; the node ends without it",
+                LOOK_AHEAD_END.as_secs()
+            );
+        }
         last_answers(&self.port.monitor()).await;
         self.gauges.stop.store(true, Ordering::Relaxed);
         if !joined(self.solver_thread, SOLVER_END).await {

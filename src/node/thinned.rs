@@ -11,7 +11,7 @@ use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{BitState, CdrError, ContactForces, from_cdr, to_cdr};
 
 /// Outputs with a rate, and their topics.
-const THINNED: [(Output, &TopicInfo); 8] = [
+const THINNED: [(Output, &TopicInfo); 9] = [
     (Output::JointDeflections, &topics::JOINT_DEFLECTIONS),
     (Output::JointStates, &topics::JOINT_STATES),
     (Output::ContactForces, &topics::CONTACT_FORCES),
@@ -20,6 +20,7 @@ const THINNED: [(Output, &TopicInfo); 8] = [
     (Output::ToolShape, &topics::TOOL_SHAPE),
     (Output::Ageing, &topics::AGEING),
     (Output::Reactions, &topics::REACTIONS),
+    (Output::Transfer, &topics::TRANSFER),
 ];
 
 /// The form in which a recorded message is published on DDS.

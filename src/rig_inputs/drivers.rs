@@ -21,7 +21,7 @@ pub struct Rule {
     /// Absolute names of nodes, or ids, for [`DriverPolicy::Named`].
     pub named: Vec<String>,
     /// Silence (s) after which a publisher counts as gone, by [`InputKind::index`].
-    pub silent_after: [f64; 2],
+    pub silent_after: [f64; InputKind::COUNT],
 }
 
 impl Rule {
@@ -30,7 +30,7 @@ impl Rule {
         Self {
             policy: inputs.driver.policy,
             named: inputs.driver.named.clone(),
-            silent_after: [inputs.rotary_speed.max_age, inputs.weight_on_bit.max_age],
+            silent_after: inputs.rules().map(|rule| rule.max_age),
         }
     }
 }
@@ -42,7 +42,7 @@ pub struct NotDriving {
     pub kind: InputKind,
     /// On which topic.
     pub route: InputRoute,
-    /// As received (r/min or kN).
+    /// As received, in the unit of the input's topic.
     pub value: f64,
     /// Its publisher.
     pub sender: Driver,
@@ -94,7 +94,7 @@ struct Channel {
 #[derive(Debug, Clone)]
 pub struct Drivers {
     rule: Rule,
-    channels: [Channel; 2],
+    channels: [Channel; InputKind::COUNT],
     known: Vec<Driver>,
 }
 
@@ -116,7 +116,7 @@ impl Drivers {
     pub fn new(rule: Rule) -> Self {
         Self {
             rule,
-            channels: [Channel::default(), Channel::default()],
+            channels: Default::default(),
             known: Vec::new(),
         }
     }
@@ -153,7 +153,7 @@ impl Drivers {
         known.cloned().unwrap_or_else(|| Driver::unknown(id))
     }
 
-    /// Judges a sample (r/min or kN) by its publisher, at the time of its arrival.
+    /// Judges a sample, in the unit of the input's topic, by its publisher, at the time of its arrival.
     ///
     /// # Errors
     /// When another publisher drives, or this one may not.

@@ -22,7 +22,7 @@ pub struct SampleSource {
 pub struct RigSample {
     /// Of which input.
     pub kind: InputKind,
-    /// r/min or kN.
+    /// In the unit of the input's topic.
     pub value: f64,
     /// Its publisher.
     pub id: DriverId,
@@ -50,27 +50,30 @@ impl fmt::Display for SampleRefused {
     }
 }
 
-/// The state of both inputs: their publishers, their conditioned values, and the counts of samples that were lost.
+/// The state of the inputs: their publishers, their conditioned values, and the counts of samples that were lost.
 #[derive(Debug, Clone)]
 pub struct Intake {
     drivers: Drivers,
     conditioner: Conditioner,
+    /// The inputs that the tool's mechanics depend on.
+    used: [bool; InputKind::COUNT],
     safe_values: SafeValueWatch,
-    unreadable: [u64; 2],
-    overrun: [u64; 2],
+    unreadable: [u64; InputKind::COUNT],
+    overrun: [u64; InputKind::COUNT],
     /// Of the newest good sample.
-    sources: [SampleSource; 2],
+    sources: [SampleSource; InputKind::COUNT],
 }
 
 impl Intake {
-    /// An intake that has received nothing.
-    pub fn new(inputs: &InputsConfig) -> Self {
+    /// An intake that has received nothing; `used` as in [`InputsConfig::rules_of`].
+    pub fn new(inputs: &InputsConfig, used: [bool; InputKind::COUNT]) -> Self {
         Self {
             drivers: Drivers::new(Rule::of(inputs)),
-            conditioner: Conditioner::new(inputs.rules()),
+            conditioner: Conditioner::new(inputs.rules_of(used)),
+            used,
             safe_values: SafeValueWatch::default(),
-            unreadable: [0; 2],
-            overrun: [0; 2],
+            unreadable: [0; InputKind::COUNT],
+            overrun: [0; InputKind::COUNT],
             sources: Default::default(),
         }
     }
@@ -88,7 +91,7 @@ impl Intake {
     /// Adopts the rules of a changed configuration from `now` on (s, the conditioner's clock).
     pub fn set_rules(&mut self, inputs: &InputsConfig, now: f64) {
         self.drivers.set_rule(Rule::of(inputs));
-        self.conditioner.set_rules(inputs.rules(), now);
+        self.conditioner.set_rules(inputs.rules_of(self.used), now);
     }
 
     /// Adds what discovery knows of a publisher.
@@ -190,7 +193,7 @@ mod tests {
     fn a_sample_of_another_than_the_driver_does_not_reach_the_conditioner() {
         let mut inputs = InputsConfig::default();
         inputs.driver.policy = flexdrill_config::DriverPolicy::First;
-        let mut intake = Intake::new(&inputs);
+        let mut intake = Intake::new(&inputs, [true; InputKind::COUNT]);
         intake.accept(&sample(1, 40.0, 1.0)).unwrap();
         let refused = intake.accept(&sample(2, 90.0, 1.5)).unwrap_err();
         assert!(matches!(refused, SampleRefused::Driver(_)));
@@ -204,7 +207,7 @@ mod tests {
     #[test]
     fn source_and_doubt_are_those_of_the_newest_good_sample() {
         let inputs = InputsConfig::default();
-        let mut intake = Intake::new(&inputs);
+        let mut intake = Intake::new(&inputs, [true; InputKind::COUNT]);
         let stamp = Stamp {
             age: 0.1,
             bad: false,

@@ -15,7 +15,7 @@ pub enum SafeValueEvent {
 #[derive(Debug, Clone, Default)]
 pub struct SafeValueWatch {
     /// When the last good sample came, while a ramp that was reported lasts; by [`InputKind::index`].
-    ramps: [Option<f64>; 2],
+    ramps: [Option<f64>; InputKind::COUNT],
 }
 
 impl SafeValueWatch {

@@ -121,6 +121,7 @@ fn run(case: &Case, start: f64) -> Outcome {
     let inputs = |[rpm, kn]: [f64; 2]| Inputs {
         rotary_speed: rpm_to_rad_per_s(rpm),
         weight_on_bit: 1e3 * kn + start,
+        ..Inputs::default()
     };
     let mut look = |at: [f64; 2]| {
         for _ in 0..steps {

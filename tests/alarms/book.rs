@@ -698,7 +698,7 @@ fn a_state_of_an_earlier_run_is_marked_until_it_changes() {
 }
 
 /// The items of `/diagnostics` with their alarms.
-const ITEMS: [(&str, &[AlarmId]); 8] = [
+const ITEMS: [(&str, &[AlarmId]); 10] = [
     ("pacing", &[AlarmId::RealTime]),
     ("solver", &[AlarmId::Solver, AlarmId::ModelQuality]),
     (
@@ -715,6 +715,16 @@ const ITEMS: [(&str, &[AlarmId]); 8] = [
     ),
     ("stick-slip", &[AlarmId::StickSlip]),
     ("shock", &[AlarmId::Shock]),
+    ("joint load", &[AlarmId::JointLoad]),
+    (
+        "transfer",
+        &[
+            AlarmId::WeightTransfer,
+            AlarmId::TorqueTransfer,
+            AlarmId::GuidePreload,
+            AlarmId::PressureFolding,
+        ],
+    ),
     ("recording", &[AlarmId::Recording]),
     ("network", &[AlarmId::Network]),
 ];

@@ -6,7 +6,14 @@
     reason = "helpers of tests fail by panicking"
 )]
 
+#[allow(dead_code, reason = "each test takes what it needs")]
+#[path = "../../crates/flexdrill-core/tests/support/random.rs"]
+mod random;
+
 mod advice;
+mod ahead;
 mod book;
+mod rig;
+mod transfer;
 mod whirl;
 mod words;

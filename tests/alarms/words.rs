@@ -218,7 +218,8 @@ fn the_document_lists_every_alarm_and_their_number() {
     }
 }
 
-/// What a sentence asks for: each `(raise, is the speed, limit)`, and whether it says to stop at once.
+/// What a sentence asks for: each `(raise, is the speed, limit)`, and whether it says to stop at once, or has another
+/// action than a change of speed or weight.
 fn asked(text: &str) -> (Vec<(bool, bool, f64)>, bool) {
     let mut asked = Vec::new();
     for (verb, raise) in [("Raise the ", true), ("Lower the ", false)] {
@@ -229,33 +230,44 @@ fn asked(text: &str) -> (Vec<(bool, bool, f64)>, bool) {
             asked.push((raise, quantity.starts_with("speed"), limit));
         }
     }
-    (asked, text.starts_with("Pick up"))
+    let actions = ["Pick up", "Do not push the tool", "Reduce the pump rate"];
+    (asked, actions.iter().any(|action| text.starts_with(action)))
 }
 
 /// All subsets of the tool's alarms at three levels, over the whole range of speed and weight: all texts together ask
-/// for one change at most, so that no two ask for opposite directions, and it changes the present inputs.
+/// for one change at most, so that no two ask for opposite directions, and it changes the present inputs. Alarms without
+/// limits of speed and weight come by turns with all subsets of the others.
 #[test]
 fn standing_alarms_never_contradict_each_other() {
     let config = config();
     let (most_rpm, most_kn) = (config.inputs.rotary_speed.max_rpm, config.inputs.weight_on_bit.max_kn);
-    let count = HazardKind::ALL.len() as u32;
+    let with_limits = |kind: &HazardKind| (*kind as u32) < HazardKind::WeightTransfer as u32;
+    let (limited, others): (Vec<_>, Vec<_>) = HazardKind::ALL.into_iter().partition(with_limits);
+    let levels = |kinds: &[HazardKind], subset: u32| -> Vec<Hazard> {
+        let level = |index: usize| subset / 4_u32.pow(index as u32) % 4;
+        let raised = |(index, kind): (usize, &HazardKind)| {
+            let severity = *Severity::RAISED.get((level(index) as usize).checked_sub(1)?)?;
+            Some(hazard(*kind, severity))
+        };
+        kinds.iter().enumerate().filter_map(raised).collect()
+    };
+    let count = limited.len() as u32;
     let mut steps = 0;
     for subset in 1..4_u32.pow(count) {
-        let hazards: Vec<Hazard> = HazardKind::ALL
-            .into_iter()
-            .enumerate()
-            .filter_map(|(index, kind)| {
-                let level = subset / 4_u32.pow(index as u32) % 4;
-                let severity = *Severity::RAISED.get((level as usize).checked_sub(1)?)?;
-                Some(hazard(kind, severity))
-            })
-            .collect();
+        let hazards = levels(&limited, subset);
         // Every tenth of both ranges, by turns with the subsets: all of them come with all pairs of levels.
         for cell in (subset % 3..121).step_by(3) {
             let (rpm, kn) = (
                 most_rpm * f64::from(cell % 11) / 10.0,
                 most_kn * f64::from(cell / 11) / 10.0,
             );
+            // Half of the cells have none of the others.
+            let other = if cell % 2 == 0 {
+                0
+            } else {
+                (7 * subset + cell) % 4_u32.pow(others.len() as u32)
+            };
+            let hazards = [hazards.clone(), levels(&others, other)].concat();
             let mut book = AlarmBook::fresh(Arc::clone(&config), 0);
             book.observe_tool(&snapshot(rpm, kn, &hazards), SECOND);
             let list = list(&book);

@@ -7,4 +7,5 @@
 )]
 
 mod paper;
+mod reach;
 mod usage;

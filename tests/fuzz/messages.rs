@@ -1,9 +1,9 @@
 //! CDR: every message type in both byte orders, and requests in both forms in which they travel.
 
 use flexdrill::messages::generated::{
-    TYPES, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs, rcl_interfaces,
-    rosgraph_msgs, sensor_msgs, service_msgs, std_msgs, std_srvs, tf2_msgs, type_description_interfaces,
-    visualization_msgs,
+    TYPES, action_msgs, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs,
+    rcl_interfaces, rosgraph_msgs, sensor_msgs, service_msgs, std_msgs, std_srvs, tf2_msgs,
+    type_description_interfaces, unique_identifier_msgs, visualization_msgs,
 };
 use flexdrill::messages::{Message, find_type, from_cdr, from_cdr_body, to_cdr, to_cdr_body};
 use flexdrill_core::inputs::InputKind;
@@ -40,23 +40,41 @@ macro_rules! types {
 }
 
 types! {
+    action_msgs::GoalInfo,
+    action_msgs::GoalStatus,
+    action_msgs::GoalStatusArray,
+    action_msgs::CancelGoalRequest,
+    action_msgs::CancelGoalResponse,
     builtin_interfaces::Duration,
     builtin_interfaces::Time,
     diagnostic_msgs::DiagnosticArray,
     diagnostic_msgs::DiagnosticStatus,
     diagnostic_msgs::KeyValue,
+    ours::WhatIfFeedback,
+    ours::WhatIfFeedbackMessage,
+    ours::WhatIfGetResultRequest,
+    ours::WhatIfGetResultResponse,
+    ours::WhatIfGoal,
+    ours::WhatIfResult,
+    ours::WhatIfSendGoalRequest,
+    ours::WhatIfSendGoalResponse,
     ours::Ageing,
     ours::Alarm,
+    ours::AlarmChance,
     ours::AlarmEvent,
     ours::AlarmList,
     ours::AppliedInputs,
     ours::BitState,
     ours::ContactForces,
+    ours::FigureBand,
     ours::JointDeflections,
     ours::Reactions,
     ours::RigInputs,
     ours::SessionInfo,
+    ours::Transfer,
     ours::TwinStatus,
+    ours::WhatIfAnswer,
+    ours::WhatIfCandidate,
     ours::WhirlState,
     ours::WhirlWarning,
     ours::AcknowledgeAlarmRequest,
@@ -114,6 +132,7 @@ types! {
     rosgraph_msgs::Clock,
     sensor_msgs::CompressedImage,
     sensor_msgs::JointState,
+    service_msgs::ServiceEventInfo,
     std_msgs::ColorRGBA,
     std_msgs::Float64,
     std_msgs::Header,
@@ -131,17 +150,21 @@ types! {
     type_description_interfaces::TypeSource,
     type_description_interfaces::GetTypeDescriptionRequest,
     type_description_interfaces::GetTypeDescriptionResponse,
+    unique_identifier_msgs::UUID,
     visualization_msgs::Marker,
     visualization_msgs::MarkerArray,
     visualization_msgs::MeshFile,
     visualization_msgs::UVCoordinate,
-    service_msgs::ServiceEventInfo,
+}
+
+/// The number of a type in [`READERS`].
+fn number<M: Message>() -> u8 {
+    READERS.iter().position(|(name, _)| *name == M::ROS_TYPE).unwrap() as u8
 }
 
 /// The number of a type, before bytes of it.
 fn input<M: Message>(message: &M) -> Vec<u8> {
-    let index = READERS.iter().position(|(name, _)| *name == M::ROS_TYPE).unwrap();
-    [vec![index as u8], to_cdr(message).unwrap()].concat()
+    [vec![number::<M>()], to_cdr(message).unwrap()].concat()
 }
 
 /// Messages with something in their lists.
@@ -202,8 +225,8 @@ fn filled() -> Vec<Vec<u8>> {
         input(&tf2_msgs::TFMessage {
             transforms: vec![geometry_msgs::TransformStamped::default(); 2],
         }),
-        // The other byte order.
-        [&[1, 0, 0, 0, 0][..], &[0, 0, 0, 7, 0, 0, 0, 9]].concat(),
+        // A time in the other byte order: 7 s and 9 ns.
+        [&[number::<builtin_interfaces::Time>(), 0, 0, 0, 0][..], &[0, 0, 0, 7, 0, 0, 0, 9]].concat(),
     ]
 }
 

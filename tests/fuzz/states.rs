@@ -30,6 +30,7 @@ fn checkpoint() {
     let inputs = Inputs {
         rotary_speed: 4.0,
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     let mut seeds = vec![twin.checkpoint().unwrap()];
     for _ in 0..400 {

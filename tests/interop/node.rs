@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
 
 /// All outputs with their types and how a reader asks for them.
-const OUTPUTS: [(&str, &str, &str); 16] = [
+const OUTPUTS: [(&str, &str, &str); 17] = [
     ("/twin/joint_deflections", "flexdrill/msg/JointDeflections", "reliable"),
     ("/twin/contact_forces", "flexdrill/msg/ContactForces", "reliable"),
     ("/twin/whirl", "flexdrill/msg/WhirlState", "reliable"),
@@ -15,6 +15,7 @@ const OUTPUTS: [(&str, &str, &str); 16] = [
     ("/twin/alarm_events", "flexdrill/msg/AlarmEvent", "reliable"),
     ("/twin/ageing", "flexdrill/msg/Ageing", "reliable"),
     ("/twin/reactions", "flexdrill/msg/Reactions", "reliable"),
+    ("/twin/transfer", "flexdrill/msg/Transfer", "reliable"),
     ("/twin/bit_state", "flexdrill/msg/BitState", "reliable"),
     (STATUS.0, STATUS.1, "reliable"),
     ("/twin/tool_shape", "visualization_msgs/msg/MarkerArray", "best_effort"),
@@ -112,6 +113,8 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "whirl",
         "stick-slip",
         "shock",
+        "joint load",
+        "transfer",
         "recording",
         "network",
         "alarms",
@@ -124,6 +127,19 @@ fn inputs_go_in_and_all_outputs_come_out() {
             .is_empty()
     );
     assert!(newest(&mut peer, "/twin/whirl").get("whirl_rate").is_some());
+    // A tool without a string has a bit and no surface; what it does not have is not a number, never zero.
+    let transfer = newest(&mut peer, "/twin/transfer");
+    for (field, known) in [
+        ("bit_weight", true),
+        ("kickoff_torque", true),
+        ("surface_torque", false),
+        ("hook_load", false),
+    ] {
+        let value = transfer
+            .get(field)
+            .unwrap_or_else(|| panic!("{field} is not in {transfer}"));
+        assert_eq!(value.as_f64().is_some_and(f64::is_finite), known, "{field}: {value}");
+    }
     twin.signal("INT");
     assert_eq!(twin.end(), Some(0));
 }
@@ -198,7 +214,7 @@ fn parameters_and_services_answer_both_kinds_of_clients() {
         "rcl_interfaces/srv/ListParameters",
         json!({"prefixes": ["outputs.rates"]}),
     );
-    assert_eq!(length(&listed["result"], "names"), 10);
+    assert_eq!(length(&listed["result"], "names"), 11);
 
     // The logger of the node's name, as `ros2 service call` would set it.
     let logger = |level: u32| json!({"levels": [{"name": "rig_7.flexdrill", "level": level}]});

@@ -99,11 +99,22 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
             "/flexdrill/get_type_description",
             "type_description_interfaces/srv/GetTypeDescription",
         ),
+        // An action is three services, for viewers that know no actions.
+        (
+            "/flexdrill/what_if/_action/send_goal",
+            "flexdrill/action/WhatIf_SendGoal",
+        ),
+        ("/flexdrill/what_if/_action/cancel_goal", "action_msgs/srv/CancelGoal"),
+        (
+            "/flexdrill/what_if/_action/get_result",
+            "flexdrill/action/WhatIf_GetResult",
+        ),
     ] {
         assert_eq!(services[name], kind);
     }
-    // Six of parameters, two of loggers, one of types, three of the run, three of alarms: all that DDS offers.
-    assert_eq!(services.len(), 15, "{services:?}");
+    // Six of parameters, two of loggers, one of types, three of the run, three of alarms, three of the action: all that
+    // DDS offers.
+    assert_eq!(services.len(), 18, "{services:?}");
     assert_eq!(seen["paused"], json!({"success": true, "message": "paused"}));
     assert_eq!(seen["resumed"], json!({"success": true, "message": "running"}));
     assert_eq!(seen["alarm"]["success"], false);
@@ -131,10 +142,10 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
     assert_eq!(seen["unreadable"]["unreadable"], json!([1, 0]));
     let stamped = &seen["stamped"];
     assert!((speed(stamped) - 50.0).abs() < 1e-6, "{stamped}");
-    assert_eq!(stamped["source"], json!(["a hand", "a hand"]));
+    assert_eq!(stamped["source"], json!(vec!["a hand"; 4]));
     assert_eq!(
         stamped["several_drivers"],
-        json!([false, false]),
+        json!(vec![false; 4]),
         "one viewer is one, by both ways"
     );
     assert_eq!(seen["quiet"], json!([]));

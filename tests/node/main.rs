@@ -13,3 +13,4 @@ mod alarms;
 mod clock;
 mod command_line;
 mod recording;
+mod what_if;

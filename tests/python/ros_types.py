@@ -1,4 +1,4 @@
-"""ROS 2 message types for Cyclone DDS, made at run time from the .msg and .srv files of this repository.
+"""ROS 2 message types for Cyclone DDS, made at run time from the .msg, .srv and .action files of this repository.
 
 Nothing of the Rust code is used: what is decoded here shows that the bytes on the wire are what the definitions say.
 """
@@ -34,8 +34,21 @@ _fields = {}
 
 
 def _definition(package, kind, name):
-    """The text of a definition and, for services, which half of it."""
+    """The text of a definition: of a service the half, of an action the part or what ROS 2 makes of it."""
     half = None
+    if kind == "action":
+        action, part = name.split("_", 1)
+        made = {
+            "SendGoal_Request": f"unique_identifier_msgs/UUID goal_id\n{package}/action/{action}_Goal goal",
+            "SendGoal_Response": "bool accepted\nbuiltin_interfaces/Time stamp",
+            "GetResult_Request": "unique_identifier_msgs/UUID goal_id",
+            "GetResult_Response": f"int8 status\n{package}/action/{action}_Result result",
+            "FeedbackMessage": f"unique_identifier_msgs/UUID goal_id\n{package}/action/{action}_Feedback feedback",
+        }
+        if part in made:
+            return made[part]
+        parts = re.split(r"^---$", (ROOT / "msg" / f"{action}.action").read_text(), flags=re.M)
+        return parts[["Goal", "Result", "Feedback"].index(part)]
     if kind == "srv":
         name, half = name.rsplit("_", 1)
     own = ROOT / "msg" / f"{name}.{kind}"
@@ -55,8 +68,11 @@ def _element(text, package):
         if kind in ZERO:
             return kind, ZERO[kind]
         return kind, 0.0 if text.startswith("float") else 0
+    if text.count("/") == 2:
+        made = make(text)
+        return made, made
     if "/" in text:
-        other, name = text.split("/")[0], text.split("/")[-1]
+        other, name = text.split("/")
     else:
         other, name = package, text
     made = make(f"{other}/msg/{name}")

@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod earlier;
 mod field_log;
 mod logs;
 mod report;

@@ -16,13 +16,13 @@ enum Task {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
-    /// Prints a reference page of the manual: topics or configuration.
+    /// Prints a reference page of the manual: topics, configuration or validation.
     Reference {
         /// Which page.
         page: String,
     },
-    /// Runs the measurements of docs/measurements.md that take minutes to hours: --cases real-time, scaling, memory,
-    /// step-error, truth, quality or all.
+    /// Runs the measurements of docs/measurements.md that take minutes to hours: --cases real-time, scaling, physics,
+    /// memory, step-error, truth, quality or all.
     #[command(disable_help_flag = true)]
     Bench {
         /// What the measurements accept; --help lists it.

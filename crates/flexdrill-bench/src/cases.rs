@@ -1,6 +1,7 @@
 //! The default tool and the hard cases.
 
-use flexdrill_config::{Config, ConfigError};
+use flexdrill_config::{Config, ConfigError, Model};
+use serde_json::{Value, json};
 
 /// A tool and a load that the twin must keep pace with.
 pub struct Case {
@@ -60,3 +61,55 @@ pub const WHIRLING: Case = Case {
             .with_value("contact.inner.friction_axial", 0.7)
     },
 };
+
+/// A tool below a string: as it is, with a string that rubs on the wall of an inclined hole, with worn joints, with stiffer
+/// contact. The weight is that slacked off at the surface.
+pub const BELOW_A_STRING: &[Case] = &[
+    Case {
+        name: "as it is, 10 kN",
+        wob: 10.0,
+        rpm: None,
+        changes: |config| Ok(config.clone()),
+    },
+    Case {
+        name: "string: 600 m vertical, 400 m at 60 deg; 10 kN",
+        wob: 10.0,
+        rpm: None,
+        changes: |config| config.with_value("string.sections", inclined()),
+    },
+    Case {
+        name: "pin friction 0.2, play 0.5 deg; 10 kN",
+        wob: 10.0,
+        rpm: None,
+        changes: |config| {
+            config
+                .with_value("tool.joint.friction", 0.2)?
+                .with_value("tool.joint.play_deg", 0.5)
+        },
+    },
+    Case {
+        name: "contact 3e7 / 5e7 N/m, 10 kN",
+        wob: 10.0,
+        rpm: None,
+        changes: |config| {
+            config
+                .with_value("contact.inner.stiffness", 3e7)?
+                .with_value("contact.outer.stiffness", 5e7)
+        },
+    },
+];
+
+/// A string of 2 7/8 in drill pipe, the lower part of which lies on the wall.
+pub fn inclined() -> Value {
+    let pipe = |length: f64, inclination: f64| json!({"length": length, "outer_diameter": 0.0730, "inner_diameter": 0.0546, "inclination_deg": inclination});
+    json!([pipe(600.0, 0.0), pipe(400.0, 60.0)])
+}
+
+/// The hard cases of a tool: those of the rig's below a string, those of the paper's otherwise.
+pub fn hard(config: &Config) -> &'static [Case] {
+    if config.string.model == Model::Line {
+        BELOW_A_STRING
+    } else {
+        CASES
+    }
+}

@@ -121,6 +121,7 @@ pub fn run(config: &Config, load: Load, duration: f64, mut every_frame: impl FnM
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(load.rpm),
         weight_on_bit: kn_to_n(load.wob),
+        ..Inputs::default()
     };
     let mut last = simulation.new_snapshot();
     let mut figures = Figures::new(&last);

@@ -26,12 +26,24 @@ section! {
         joint_load: ToolAlarm = ToolAlarm::default(), below;
         /// The pipe bounces without a steady direction.
         chaotic_whirl: ToolAlarm = ToolAlarm::default(), below;
+        /// Most of the weight at the surface does not arrive at the bit.
+        weight_transfer: ToolAlarm = ToolAlarm::default(), below;
+        /// Most of the torque at the surface does not arrive at the bit.
+        torque_transfer: ToolAlarm = ToolAlarm::default(), below;
+        /// The guide is bent beyond its rating.
+        guide_preload: ToolAlarm = ToolAlarm::default(), below;
+        /// Pressure compresses the pipe beyond its rating.
+        pressure_folding: ToolAlarm = ToolAlarm::default(), below;
         /// The energy errors of the steps make the motion doubtful.
         model_quality: ToolAlarm = ToolAlarm::default(), below;
         /// The rotary speed is not received, refused or stale.
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// The weight on bit is not received, refused or stale.
         weight_on_bit_input: NodeAlarm = NodeAlarm::default(), below;
+        /// The rate of penetration was sent, and is refused or stale.
+        rate_of_penetration_input: NodeAlarm = NodeAlarm::default(), below;
+        /// The standpipe pressure was sent, and is refused or stale.
+        standpipe_pressure_input: NodeAlarm = NodeAlarm::default(), below;
         /// More than one publisher sends an input.
         two_drivers: NodeAlarm = NodeAlarm::default(), below;
         /// The computer is too slow for the model.
@@ -91,6 +103,14 @@ pub struct AdviceTable {
     pub joint_load: Advice,
     /// Rule against chaotic whirl. Default: below 50 r/min.
     pub chaotic_whirl: Advice,
+    /// Rule against weight that does not arrive. Default: none; the alarm has its own action.
+    pub weight_transfer: Advice,
+    /// Rule against torque that does not arrive. Default: none; the alarm has its own action.
+    pub torque_transfer: Advice,
+    /// Rule against a guide bent beyond its rating. Default: none; the alarm has its own action.
+    pub guide_preload: Advice,
+    /// Rule against folding under pressure. Default: none; the alarm has its own action.
+    pub pressure_folding: Advice,
 }
 
 impl Default for AdviceTable {
@@ -105,6 +125,10 @@ impl Default for AdviceTable {
             },
             joint_load: Advice::lower(None, Some(40.0)),
             chaotic_whirl: Advice::lower(Some(50.0), None),
+            weight_transfer: Advice::default(),
+            torque_transfer: Advice::default(),
+            guide_preload: Advice::default(),
+            pressure_folding: Advice::default(),
         }
     }
 }
@@ -173,6 +197,10 @@ impl Alarms {
                 ("stick_slip", advice.stick_slip),
                 ("joint_load", advice.joint_load),
                 ("chaotic_whirl", advice.chaotic_whirl),
+                ("weight_transfer", advice.weight_transfer),
+                ("torque_transfer", advice.torque_transfer),
+                ("guide_preload", advice.guide_preload),
+                ("pressure_folding", advice.pressure_folding),
             ] {
                 c.below(key, |c| advice.check(c));
             }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::checker::Checker;
 use super::json_schema;
 use super::place::{At, Mesh};
-use flexdrill_core::tool::{Body, Direction, Location, Support, WobPath};
+use flexdrill_core::tool::{Body, Direction, Location, Support, WeightPlace, WobPath};
 
 /// Supports, drive and load path.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,6 +20,10 @@ pub struct Boundary {
     /// Default guide.
     #[schemars(with = "json_schema::WobPath")]
     pub wob_path: WobPath,
+    /// Where the weight on bit of the inputs is measured: at the `bit`, or at the `kickoff` as the axial force on the
+    /// guide. The weight at the bit then follows, less by the friction of the guide. Default bit.
+    #[schemars(with = "json_schema::WeightPlace")]
+    pub weight_on_bit_at: WeightPlace,
     /// Drive of the first pipe node: `top` turns it at the commanded speed, `none` leaves it to the supports. Default
     /// top.
     pub drive: Drive,
@@ -82,6 +86,7 @@ impl Default for Boundary {
             preset: Preset::default(),
             bottom_axial: BottomAxial::default(),
             wob_path: WobPath::Guide,
+            weight_on_bit_at: WeightPlace::Bit,
             drive: Drive::default(),
             supports: Vec::new(),
         }
@@ -137,10 +142,47 @@ impl Boundary {
             "free when the preset is none",
             "it belongs to the preset; hold u at the bottom with a support",
         );
+        let at_kickoff = self.weight_on_bit_at == WeightPlace::Kickoff;
+        c.require(
+            !at_kickoff || self.wob_path == WobPath::Guide,
+            "weight_on_bit_at",
+            "kickoff",
+            "",
+            "bit with boundary.wob_path shared",
+            "the pipe carries a part of the weight there",
+        );
+        let held = |bottom: bool| {
+            self.describe(mesh, false).iter().any(|support| {
+                let top = match support.location {
+                    Location::Top | Location::Station(0) => Some(true),
+                    Location::All => None,
+                    _ => Some(false),
+                };
+                support.body == Body::Guide
+                    && support.directions.contains(&Direction::U)
+                    && (top.is_none() || top == Some(!bottom))
+            })
+        };
+        c.require(
+            !at_kickoff || held(false),
+            "weight_on_bit_at",
+            "kickoff",
+            "",
+            "bit where no support in boundary.supports holds u of the guide at the top",
+            "the force at the kick-off is that of this support",
+        );
+        c.require(
+            !at_kickoff || !held(true),
+            "weight_on_bit_at",
+            "kickoff",
+            "",
+            "bit where boundary.supports or boundary.bottom_axial hold u of the guide below the top",
+            "such a support carries a part of the weight",
+        );
     }
 
-    /// Table 1 as supports.
-    pub(super) fn describe(&self, mesh: &Mesh) -> Vec<Support> {
+    /// Table 1 as supports. Below a hoist the guide's top is free along the hole.
+    pub(super) fn describe(&self, mesh: &Mesh, with_hoist: bool) -> Vec<Support> {
         use Direction::{U, V, W};
         let mut supports = Vec::new();
         if self.preset == Preset::Paper {
@@ -150,10 +192,13 @@ impl Boundary {
             };
             for (location, directions) in [(Location::Top, vec![U, V, W]), (Location::Bottom, bottom)] {
                 for body in [Body::Pipe, Body::Guide] {
+                    let hangs = with_hoist && location == Location::Top && body == Body::Guide;
+                    let mut directions = directions.clone();
+                    directions.retain(|&direction| !(hangs && direction == U));
                     supports.push(Support {
                         location,
                         body,
-                        directions: directions.clone(),
+                        directions,
                     });
                 }
             }

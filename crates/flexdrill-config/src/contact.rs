@@ -2,8 +2,15 @@
 
 use serde::Deserialize;
 
+use super::checker::{Bound, Checker};
+use super::json_schema;
 use super::section::section;
-use flexdrill_core::tool::GapDescription;
+use flexdrill_core::tool::{FrictionLaw, GapDescription};
+
+/// Sliding speeds of the regularisation (m/s).
+const SLIP_SPEED: Bound = Bound::within(1e-6, 1.0);
+/// Why they are limited.
+const SLIP_SPEED_REASON: &str = "0 would make friction jump at standstill; above 1 m/s it hardly holds anything";
 
 section! {
     /// Contact between pipe and guide and between guide and wall.
@@ -36,6 +43,35 @@ section! {
         friction_tangential: f64, within(0.0, 2.0), "", "dry surfaces stay below 1; 2 leaves room for trials";
         /// Coulomb friction coefficient along the axis. Default 0.2 inner, 0.3 outer.
         friction_axial: f64, within(0.0, 2.0), "", "dry surfaces stay below 1; 2 leaves room for trials";
+        /// How friction follows from sliding: `separate` limits it around and along by themselves (the paper's Eq. 25),
+        /// `vector` opposes the whole sliding velocity, `bristle` does so too and can stick. Default separate.
+        #[schemars(with = "json_schema::FrictionLaw")]
+        friction: FrictionLaw;
+        /// Sliding speed of this layer at which the regularised friction reaches 71 % of the Coulomb friction (m/s).
+        /// With `vector` choose at most a tenth of the slowest sliding that matters. Default `contact.slip_speed`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = SLIP_SPEED.in_schema())]
+        slip_speed: Option<f64>;
+    }
+}
+
+impl Contact {
+    pub(super) fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        for (key, layer) in [("inner", &self.inner), ("outer", &self.outer)] {
+            let Some(speed) = layer.slip_speed else { continue };
+            c.below(key, |c| {
+                c.number("slip_speed", speed, SLIP_SPEED, "m/s", SLIP_SPEED_REASON);
+                c.require(
+                    layer.friction != FrictionLaw::Bristle,
+                    "slip_speed",
+                    speed,
+                    "m/s",
+                    "left out with friction: bristle",
+                    "a bristle sticks and has no regularisation; use friction: vector for one",
+                );
+            });
+        }
     }
 }
 
@@ -47,6 +83,8 @@ struct PartialLayer {
     damping: Option<f64>,
     friction_tangential: Option<f64>,
     friction_axial: Option<f64>,
+    friction: Option<FrictionLaw>,
+    slip_speed: Option<f64>,
 }
 
 fn inner_layer<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Layer, D::Error> {
@@ -64,6 +102,8 @@ impl PartialLayer {
             damping: self.damping.unwrap_or(default.damping),
             friction_tangential: self.friction_tangential.unwrap_or(default.friction_tangential),
             friction_axial: self.friction_axial.unwrap_or(default.friction_axial),
+            friction: self.friction.unwrap_or(default.friction),
+            slip_speed: self.slip_speed,
         }
     }
 }
@@ -74,18 +114,24 @@ impl Layer {
         damping: 0.5,
         friction_tangential: 0.2,
         friction_axial: 0.2,
+        friction: FrictionLaw::Separate,
+        slip_speed: None,
     };
     const OUTER: Self = Self {
         stiffness: 2e7,
         damping: 0.5,
         friction_tangential: 0.3,
         friction_axial: 0.3,
+        friction: FrictionLaw::Separate,
+        slip_speed: None,
     };
 
     pub(super) fn describe(&self) -> GapDescription {
         let mut gap = GapDescription::new(self.stiffness, self.friction_tangential);
         gap.friction_axial = self.friction_axial;
         gap.damping = self.damping;
+        gap.friction_law = self.friction;
+        gap.slip_speed = self.slip_speed;
         gap
     }
 }

@@ -74,6 +74,23 @@ impl Config {
         PI * (lightest / self.contact.inner.stiffness).sqrt()
     }
 
+    /// Strain at the outer fibre of the guide that lies in the path, by the tightest section of the well and by straight
+    /// ones; 0 where it is without stress.
+    pub fn guide_bending_strain(&self) -> f64 {
+        let Some(free) = self.tool.guide.free_curvature() else {
+            return 0.0;
+        };
+        let (sin, cos) = (free.phase.sin(), free.phase.cos());
+        let bent = |path: f64| (path - free.curvature * cos).hypot(free.curvature * sin);
+        let largest = self
+            .well
+            .sections
+            .iter()
+            .map(|section| bent(section.curvature()))
+            .fold(0.0, f64::max);
+        0.5 * self.tool.guide.outer_diameter * largest
+    }
+
     /// Clearance between guide and wall (m).
     pub fn outer_clearance(&self) -> f64 {
         (self.well.hole_diameter - self.tool.guide.outer_diameter) / 2.0

@@ -34,9 +34,23 @@ section! {
         slew_kn_per_s: f64 = 100.0, above(0.0, 1e6), "kN/s", "a jump in load is a blow on the tool";
         /// Lowest value of `inputs.weight_on_bit.safe_ramp_kn_per_s` (kN/s).
         slowest_ramp_kn_per_s: f64 = 0.1, within(0.0, 1e6), "kN/s", "too slow a ramp never gets there";
-        /// Highest value of `slow_age` and `max_age` of both inputs (s).
+        /// Lowest value of `inputs.rate_of_penetration.min_m_per_h` (m/h).
+        min_m_per_h: f64 = -500.0, within(-3000.0, this.max_m_per_h), "m/h", "not above max_m_per_h";
+        /// Highest value of `inputs.rate_of_penetration.max_m_per_h` (m/h).
+        max_m_per_h: f64 = 500.0, within(-3000.0, 3000.0), "m/h", "pipe is not tripped faster";
+        /// Highest value of `inputs.rate_of_penetration.slew_m_per_h_per_s` (m/h per s).
+        slew_m_per_h_per_s: f64 = 100.0, above(0.0, 1e6), "m/h per s", "a jump in advance is a blow on the tool";
+        /// Lowest value of `inputs.standpipe_pressure.min_mpa` (MPa).
+        min_mpa: f64 = 0.0, within(-150.0, this.max_mpa), "MPa", "not above max_mpa";
+        /// Highest value of `inputs.standpipe_pressure.max_mpa` (MPa).
+        max_mpa: f64 = 105.0, within(-150.0, 150.0), "MPa", "beyond any pump";
+        /// Highest value of `inputs.standpipe_pressure.tare_error_mpa` (MPa).
+        tare_error_mpa: f64 = 1.0, within(0.0, 5.0), "MPa", "a reading further below zero is wrong, not untared";
+        /// Highest value of `inputs.standpipe_pressure.slew_mpa_per_s` (MPa/s).
+        slew_mpa_per_s: f64 = 10.0, above(0.0, 1e6), "MPa/s", "a jump in pressure is a blow on the tool";
+        /// Highest value of `slow_age` and `max_age` of all inputs (s).
         max_age: f64 = 60.0, above(0.0, 3600.0), "s", "an hour is not live any more";
-        /// Highest value of `hold_before_safe` of both inputs (s).
+        /// Highest value of `hold_before_safe` of all inputs (s).
         hold_before_safe: f64 = 600.0, within(0.0, 86_400.0), "s", "a day is not live any more";
         /// Highest value of all keys of `outputs.rates` (Hz).
         rate: f64 = 200.0, within(0.0, 1000.0), "Hz", "more would flood the network";
@@ -72,6 +86,7 @@ impl HardBounds {
     pub fn of(config: &Config) -> Self {
         let limits = &config.inputs.hard_limits;
         let (speed, weight) = ("inputs.rotary_speed", "inputs.weight_on_bit");
+        let (advance, pressure) = ("inputs.rate_of_penetration", "inputs.standpipe_pressure");
         let mut rows: Vec<(String, Side, &str, f64)> = Vec::new();
         for (group, key, side, limit, value) in [
             (speed, "min_rpm", Low, "min_rpm", limits.min_rpm),
@@ -116,6 +131,49 @@ impl HardBounds {
                 Low,
                 "slowest_ramp_kn_per_s",
                 limits.slowest_ramp_kn_per_s,
+            ),
+            (advance, "min_m_per_h", Low, "min_m_per_h", limits.min_m_per_h),
+            (advance, "max_m_per_h", High, "max_m_per_h", limits.max_m_per_h),
+            (
+                advance,
+                "slew_m_per_h_per_s",
+                High,
+                "slew_m_per_h_per_s",
+                limits.slew_m_per_h_per_s,
+            ),
+            (pressure, "min_mpa", Low, "min_mpa", limits.min_mpa),
+            (pressure, "max_mpa", High, "max_mpa", limits.max_mpa),
+            (
+                pressure,
+                "tare_error_mpa",
+                High,
+                "tare_error_mpa",
+                limits.tare_error_mpa,
+            ),
+            (
+                pressure,
+                "slew_mpa_per_s",
+                High,
+                "slew_mpa_per_s",
+                limits.slew_mpa_per_s,
+            ),
+            (advance, "slow_age", High, "max_age", limits.max_age),
+            (advance, "max_age", High, "max_age", limits.max_age),
+            (pressure, "slow_age", High, "max_age", limits.max_age),
+            (pressure, "max_age", High, "max_age", limits.max_age),
+            (
+                advance,
+                "hold_before_safe",
+                High,
+                "hold_before_safe",
+                limits.hold_before_safe,
+            ),
+            (
+                pressure,
+                "hold_before_safe",
+                High,
+                "hold_before_safe",
+                limits.hold_before_safe,
             ),
             (speed, "slow_age", High, "max_age", limits.max_age),
             (speed, "max_age", High, "max_age", limits.max_age),
@@ -210,6 +268,7 @@ impl HardBounds {
     pub(super) fn overridden(config: &Config) -> Vec<String> {
         let limits = &config.inputs.hard_limits;
         let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+        let (advance, pressure) = (&config.inputs.rate_of_penetration, &config.inputs.standpipe_pressure);
         let pairs = [
             (
                 "rotary_speed.max_rpm",
@@ -219,6 +278,20 @@ impl HardBounds {
                 "r/min",
             ),
             ("weight_on_bit.max_kn", weight.max_kn, "max_kn", limits.max_kn, "kN"),
+            (
+                "rate_of_penetration.max_m_per_h",
+                advance.max_m_per_h,
+                "max_m_per_h",
+                limits.max_m_per_h,
+                "m/h",
+            ),
+            (
+                "standpipe_pressure.max_mpa",
+                pressure.max_mpa,
+                "max_mpa",
+                limits.max_mpa,
+                "MPa",
+            ),
         ];
         let beyond = pairs.into_iter().filter(|(_, own, _, hard, _)| own > hard);
         beyond

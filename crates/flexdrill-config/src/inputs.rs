@@ -6,15 +6,19 @@ use serde::{Deserialize, Serialize};
 use super::checker::Checker;
 use super::hard_limits::HardLimits;
 use super::section::section;
-use flexdrill_core::inputs::{InputRule, InputRules};
+use flexdrill_core::inputs::{InputKind, InputRule, InputRules};
 
 section! {
-    /// Both inputs.
+    /// The inputs of the rig.
     pub struct InputsConfig(this) {
         /// Rotary speed of the top drive.
         rotary_speed: RotarySpeed = RotarySpeed::default(), below;
         /// Axial load that presses the bit on the rock.
         weight_on_bit: WeightOnBit = WeightOnBit::default(), below;
+        /// Advance of the tool along the hole. Optional: a rig that does not send it is normal.
+        rate_of_penetration: RateOfPenetration = RateOfPenetration::default(), below;
+        /// Pressure in the pipe above that outside, at the tool's top. Optional, as the rate of penetration.
+        standpipe_pressure: StandpipePressure = StandpipePressure::default(), below;
         /// Selection of the publisher of an input when there are several.
         driver: DriverRule = DriverRule::default();
         /// Checks of samples with a time stamp.
@@ -141,6 +145,63 @@ section! {
     }
 }
 
+section! {
+    /// `inputs.rate_of_penetration`: positive while the hole deepens, negative while the tool is pulled back.
+    #[derive(Copy)]
+    pub struct RateOfPenetration(this) {
+        /// Lowest accepted rate (m/h).
+        min_m_per_h: f64 = -200.0, within(-3000.0, this.max_m_per_h), "m/h", "not above max_m_per_h; pipe is not tripped faster";
+        /// Highest accepted rate (m/h).
+        max_m_per_h: f64 = 200.0, within(-3000.0, 3000.0), "m/h", "pipe is not tripped faster";
+        /// Fastest change of the rate that the model follows (m/h per s).
+        slew_m_per_h_per_s: f64 = 10.0, above(0.0, 1e6), "m/h per s",
+            "0 would never follow; a jump in advance is a blow on the tool";
+        /// Rate that the model assumes until the first sample, and throughout a run without samples.
+        assumed_m_per_h: f64 = 0.0, within(this.min_m_per_h, this.max_m_per_h), "m/h", "within min_m_per_h and max_m_per_h";
+        /// Safe value to which the model is brought when the input was sent and stays away. It is an upper bound: a held
+        /// value below it does not change.
+        safe_m_per_h: f64 = 0.0, within(this.min_m_per_h, this.max_m_per_h), "m/h", "within min_m_per_h and max_m_per_h";
+        /// Rate of the ramp to the safe value.
+        safe_ramp_m_per_h_per_s: f64 = 1.0, above(0.0, 1e6), "m/h per s", "0 would never get there";
+        /// Age of the newest good sample from which the input is SLOW (s).
+        slow_age: f64 = 15.0, above(0.0, this.max_age), "s", "slow comes before stale (max_age)";
+        /// Age of the newest good sample from which the input is STALE (s).
+        max_age: f64 = 30.0, above(0.0, 3600.0), "s", "an hour is not live any more";
+        /// Time for which the last good value is held after that, before the ramp to the safe value (s).
+        hold_before_safe: f64 = 60.0, within(0.0, 86_400.0), "s", "a day is not live any more";
+    }
+}
+
+section! {
+    /// `inputs.standpipe_pressure`: inside minus outside at the tool's top, which a gauge at the standpipe reads when the
+    /// losses above the tool are subtracted.
+    #[derive(Copy)]
+    pub struct StandpipePressure(this) {
+        /// Lowest accepted pressure (MPa).
+        min_mpa: f64 = 0.0, within(-150.0, this.max_mpa), "MPa", "not above max_mpa; beyond any pump";
+        /// Highest accepted pressure (MPa).
+        max_mpa: f64 = 70.0, within(-150.0, 150.0), "MPa", "beyond any pump";
+        /// Largest negative reading that counts as zero (MPa).
+        tare_error_mpa: f64 = 0.2, within(0.0, 5.0), "MPa", "a reading further below zero is wrong, not untared";
+        /// Fastest change of the pressure that the model follows (MPa/s).
+        slew_mpa_per_s: f64 = 1.0, above(0.0, 1e6), "MPa/s",
+            "0 would never follow; a jump in pressure is a blow on the tool";
+        /// Pressure that the model assumes until the first sample, and throughout a run without samples.
+        assumed_mpa: f64 = 0.0, within(this.min_mpa, this.max_mpa), "MPa", "within min_mpa and max_mpa";
+        /// Safe value to which the model is brought when the input was sent and stays away. It is an upper bound: a held
+        /// value below it does not change.
+        safe_mpa: f64 = 0.0, within(this.min_mpa, this.max_mpa), "MPa", "within min_mpa and max_mpa";
+        /// Rate of the ramp to the safe value.
+        safe_ramp_mpa_per_s: f64 = 0.2, above(0.0, 1e6), "MPa/s", "0 would never get there";
+        /// Age of the newest good sample from which the input is SLOW (s).
+        slow_age: f64 = 5.0, above(0.0, this.max_age), "s", "slow comes before stale (max_age)";
+        /// Age of the newest good sample from which the input is STALE (s).
+        max_age: f64 = 10.0, above(0.0, 3600.0), "s", "an hour is not live any more";
+        /// Time for which the last good value is held after that, before the ramp to the safe value (s).
+        hold_before_safe: f64 = 30.0, within(0.0, 86_400.0), "s", "a day is not live any more";
+    }
+}
+
 impl InputsConfig {
     pub(super) fn check(&self, c: &mut Checker) {
         self.check_numbers(c);
@@ -163,9 +224,15 @@ impl InputsConfig {
         );
     }
 
-    /// For the input conditioning.
+    /// For the input conditioning, of a tool that uses the required inputs only.
     pub fn rules(&self) -> InputRules {
+        self.rules_of(InputKind::ALL.map(|kind| !kind.is_optional()))
+    }
+
+    /// For the input conditioning; `used` says which inputs the tool's mechanics depend on, by [`InputKind::index`].
+    pub fn rules_of(&self, used: [bool; InputKind::COUNT]) -> InputRules {
         let (speed, weight) = (&self.rotary_speed, &self.weight_on_bit);
+        let (advance, pressure) = (&self.rate_of_penetration, &self.standpipe_pressure);
         [
             InputRule {
                 min: speed.min_rpm,
@@ -177,6 +244,7 @@ impl InputsConfig {
                 slow_age: speed.slow_age,
                 max_age: speed.max_age,
                 hold_before_safe: speed.hold_before_safe,
+                used: used[0],
             },
             InputRule {
                 min: weight.min_kn,
@@ -188,6 +256,31 @@ impl InputsConfig {
                 slow_age: weight.slow_age,
                 max_age: weight.max_age,
                 hold_before_safe: weight.hold_before_safe,
+                used: used[1],
+            },
+            InputRule {
+                min: advance.min_m_per_h,
+                max: advance.max_m_per_h,
+                tare_error: 0.0,
+                initial: advance.assumed_m_per_h,
+                safe: advance.safe_m_per_h,
+                safe_ramp: advance.safe_ramp_m_per_h_per_s,
+                slow_age: advance.slow_age,
+                max_age: advance.max_age,
+                hold_before_safe: advance.hold_before_safe,
+                used: used[2],
+            },
+            InputRule {
+                min: pressure.min_mpa,
+                max: pressure.max_mpa,
+                tare_error: pressure.tare_error_mpa,
+                initial: pressure.assumed_mpa,
+                safe: pressure.safe_mpa,
+                safe_ramp: pressure.safe_ramp_mpa_per_s,
+                slow_age: pressure.slow_age,
+                max_age: pressure.max_age,
+                hold_before_safe: pressure.hold_before_safe,
+                used: used[3],
             },
         ]
     }

@@ -104,6 +104,65 @@ pub(super) enum WobPath {
     Shared,
 }
 
+/// How the friction of a gap layer follows from sliding.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum FrictionLaw {
+    /// Around and along by themselves.
+    Separate,
+    /// Against the whole sliding velocity.
+    Vector,
+    /// Against the whole sliding velocity, and able to stick.
+    Bristle,
+}
+
+/// How much mud moves with the pipes.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum AddedMass {
+    /// None.
+    None,
+    /// As with small motion about the centre of each annulus.
+    Concentric,
+    /// More near the walls.
+    Eccentric,
+}
+
+/// What mud takes from a body that squeezes it out.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum MudFilm {
+    /// As about the centre.
+    None,
+    /// The full film of lubrication.
+    Squeeze,
+}
+
+/// Damping by the mud's viscosity.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum MudDamping {
+    /// None.
+    None,
+    /// Proportional to the relative velocity of the walls of an annulus.
+    Viscous,
+}
+
+/// Where the weight on bit of the inputs is measured.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum WeightPlace {
+    /// At the bit.
+    Bit,
+    /// At the kick-off, above the friction of the guide.
+    Kickoff,
+}
+
 /// Kinds of joint between two links.
 #[derive(JsonSchema)]
 #[schemars(rename_all = "snake_case")]
@@ -126,6 +185,17 @@ pub(super) enum HingeAngle {
     Straight,
     /// Links that keep the well's bend.
     AsBuilt,
+}
+
+/// How a link that tilts across its chord shortens along it.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+#[allow(dead_code, reason = "a schema only")]
+pub(super) enum Shortening {
+    /// Not at all, as in the paper.
+    None,
+    /// By the square of the tilt.
+    SecondOrder,
 }
 
 #[cfg(test)]
@@ -182,6 +252,26 @@ mod tests {
             tool::WobPath::Guide | tool::WobPath::Shared => 2,
         };
         holds::<WobPath, tool::WobPath>(paths(tool::WobPath::Guide));
+        let laws = |law| match law {
+            tool::FrictionLaw::Separate | tool::FrictionLaw::Vector | tool::FrictionLaw::Bristle => 3,
+        };
+        holds::<FrictionLaw, tool::FrictionLaw>(laws(tool::FrictionLaw::Separate));
+        let masses = |mass| match mass {
+            tool::AddedMass::None | tool::AddedMass::Concentric | tool::AddedMass::Eccentric => 3,
+        };
+        holds::<AddedMass, tool::AddedMass>(masses(tool::AddedMass::None));
+        let films = |film| match film {
+            tool::MudFilm::None | tool::MudFilm::Squeeze => 2,
+        };
+        holds::<MudFilm, tool::MudFilm>(films(tool::MudFilm::None));
+        let dampings = |damping| match damping {
+            tool::MudDamping::None | tool::MudDamping::Viscous => 2,
+        };
+        holds::<MudDamping, tool::MudDamping>(dampings(tool::MudDamping::None));
+        let places = |place| match place {
+            tool::WeightPlace::Bit | tool::WeightPlace::Kickoff => 2,
+        };
+        holds::<WeightPlace, tool::WeightPlace>(places(tool::WeightPlace::Bit));
         let kinds = |kind| match kind {
             tool::JointKind::Universal | tool::JointKind::BallCage | tool::JointKind::Revolute => 3,
         };
@@ -190,6 +280,10 @@ mod tests {
             tool::HingeAngle::Straight | tool::HingeAngle::AsBuilt => 2,
         };
         holds::<HingeAngle, tool::HingeAngle>(angles(tool::HingeAngle::Straight));
+        let shortenings = |shortening| match shortening {
+            tool::Shortening::None | tool::Shortening::SecondOrder => 2,
+        };
+        holds::<Shortening, tool::Shortening>(shortenings(tool::Shortening::None));
     }
 
     /// Every key that a configuration can have is in the schema, with a description.

@@ -20,22 +20,29 @@ mod inputs;
 mod json_schema;
 pub mod lines;
 mod loads;
+mod look_ahead;
+mod mud;
 mod network;
 mod outputs;
 mod pipe;
 mod place;
+mod pressure;
 pub mod reading;
+mod rock;
 mod run;
 mod section;
 mod sized;
 mod solver;
 mod start;
+mod string;
 mod texts;
 mod tool;
+mod transfer;
 mod vibration;
 mod warnings;
 mod well;
 mod whirl;
+mod whole;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
@@ -60,25 +67,31 @@ pub use hard_limits::{HardBounds, HardLimits};
 pub use inputs::{DriverPolicy, DriverRule, InputsConfig, Measured, RotarySpeed, StampRule, WeightOnBit};
 pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
+pub use look_ahead::LookAhead;
+pub use mud::Mud;
 pub use network::{Network, Reach, is_peer};
 pub use outputs::{Outputs, Rates};
-pub use pipe::{Guide, Piece, Pipe};
+pub use pipe::{AsBuilt, FreeBend, Guide, Piece, Pipe};
 pub use place::At;
+pub use pressure::{AtTop, End, Pressure, Standpipe};
+pub use rock::{DepthOfCut, Law, Rock, Weakening};
 pub use run::Run;
 pub use solver::{Solver, TimeScheme};
 pub use start::{Initial, Start};
+pub use string::{DrillString, Feed, Friction, Hoist, Model, Section as StringSection, TopDrive, Tuning};
 pub use texts::key_texts;
 pub use tool::{Bit, Damping, Joint, Material, Tool};
+pub use transfer::{GuidePreload, PressureFolding, Transfer};
 pub use vibration::{ChaoticWhirl, JointLoad, Repeats, Shock, Steps, StickSlip};
 pub use well::{Section, Well};
 pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
 
 use checker::Checker;
-use flexdrill_core::inputs::Inputs;
+use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_core::motion::WhirlSettings;
-use flexdrill_core::tool::{LiveParameters, ToolDescription};
+use flexdrill_core::tool::{FrictionLaw, LiveParameters, ToolDescription};
 use flexdrill_core::twin::SimulationSettings;
-use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use lines::Lines;
 use place::Mesh;
 
@@ -119,6 +132,12 @@ pub struct Schema {
     /// Supports, drive and load path.
     #[serde(default)]
     pub boundary: Boundary,
+    /// How the rock answers the bit.
+    #[serde(default)]
+    pub rock: Rock,
+    /// The drill string above the tool, up to top drive and hoist.
+    #[serde(default)]
+    pub string: DrillString,
     /// Loads in addition to gravity, drive and bit. Default none.
     #[serde(default)]
     pub loads: Vec<Load>,
@@ -156,9 +175,21 @@ pub struct Schema {
     /// Chaotic whirl, judged by the power of the collisions, and its levels.
     #[serde(default)]
     pub chaotic_whirl: ChaoticWhirl,
+    /// Torque, weight and power from the surface to the bit, and the levels of what does not arrive.
+    #[serde(default)]
+    pub transfer: Transfer,
+    /// Bending of a preloaded guide against its rating.
+    #[serde(default)]
+    pub guide_preload: GuidePreload,
+    /// Effective compression of a pipe under pressure against its rating.
+    #[serde(default)]
+    pub pressure_folding: PressureFolding,
     /// Alarms: delays, service, advice.
     #[serde(default)]
     pub alarms: Alarms,
+    /// Runs from forks of the present state: what would be under other speeds and weights.
+    #[serde(default)]
+    pub look_ahead: LookAhead,
     /// Frames and publishing rates of the outputs.
     #[serde(default)]
     pub outputs: Outputs,
@@ -281,23 +312,44 @@ impl Config {
             tool.pipe_sections = pipe.element_sections(elements);
             tool.pipe_contact_diameters = pipe.contact_diameters(elements);
             tool.guide_bending_factor = guide.bending_factor;
+            tool.guide_free_curvature = guide.free_curvature();
             tool.guide_fixed = guide.fixed;
             tool.joint = self.tool.joint.describe();
+            tool.shortening = self.tool.shortening;
             tool.rayleigh = self.tool.damping.describe();
             tool.inner = self.contact.inner.describe();
             tool.outer = self.contact.outer.describe();
             tool.slip_speed = self.contact.slip_speed;
             tool.bit = self.tool.bit.describe();
             tool.gravity = self.environment.effective_gravity();
-            tool.supports = self.boundary.describe(&mesh);
+            let sections = &tool.pipe_sections;
+            tool.pressure = self.environment.pressure.map(|pressure| pressure.describe(sections));
+            tool.mud = self.environment.mud.map(|mud| mud.describe());
+            tool.rock = self.rock.describe();
+            tool.string = self.string.describe(tool.gravity, self.has_hoist());
+            tool.supports = self.boundary.describe(&mesh, self.has_hoist());
             tool.drive_top = self.boundary.drive == Drive::Top;
             tool.wob_path = self.boundary.wob_path;
+            tool.weight_place = self.boundary.weight_on_bit_at;
             tool.loads = self.loads.iter().map(|load| load.describe(&mesh)).collect();
             tool.masses = self.masses.iter().map(|mass| mass.describe(&mesh)).collect();
             tool.initial_pipe_velocity = self.initial.velocity;
             tool.initial_pipe_displacement = self.initial.displacement;
             tool.initial_spin_rate = rpm_to_rad_per_s(self.initial.spin_rpm);
             tool.static_start = self.start == Start::Static;
+        })
+    }
+
+    /// Which inputs the tool's mechanics ask for, by [`InputKind::index`].
+    pub fn used_inputs(&self) -> [bool; InputKind::COUNT] {
+        let contact = &self.contact;
+        InputKind::ALL.map(|kind| match kind {
+            InputKind::RotarySpeed | InputKind::WeightOnBit => true,
+            // Separate friction is regularised at a multiple of a usual advance, so that a rig need not send it.
+            InputKind::RateOfPenetration => contact.outer.friction != FrictionLaw::Separate,
+            InputKind::StandpipePressure => {
+                (self.environment.pressure.as_ref()).is_some_and(|pressure| matches!(pressure.at_top, AtTop::Input(_)))
+            }
         })
     }
 
@@ -313,14 +365,21 @@ impl Config {
             settings.initial_inputs = Inputs {
                 rotary_speed: rpm_to_rad_per_s(speed.initial_rpm),
                 weight_on_bit: kn_to_n(weight.initial_kn),
+                rate_of_penetration: m_per_h_to_m_per_s(self.inputs.rate_of_penetration.assumed_m_per_h),
+                standpipe_pressure: mpa_to_pa(self.inputs.standpipe_pressure.assumed_mpa),
             };
             settings.rotary_speed_slew = rpm_to_rad_per_s(speed.fastest_change_rpm_per_s());
             settings.weight_on_bit_slew = kn_to_n(weight.slew_kn_per_s);
+            settings.rate_of_penetration_slew = m_per_h_to_m_per_s(self.inputs.rate_of_penetration.slew_m_per_h_per_s);
+            settings.standpipe_pressure_slew = mpa_to_pa(self.inputs.standpipe_pressure.slew_mpa_per_s);
             settings.whirl = self.whirl_settings();
             settings.stick_slip = self.stick_slip.describe();
             settings.shock = self.shock.describe();
             settings.joint_load = self.joint_load.describe();
             settings.chaotic_whirl = self.chaotic_whirl.describe();
+            settings.transfer = self.transfer.describe();
+            settings.guide_preload = self.guide_preload.describe();
+            settings.pressure_folding = self.pressure_folding.describe();
             settings.ageing = self.joint_load.describe_ageing();
             settings.watched = self.whirl.watched_stations(self.mesh().last_station());
             settings.whirl_sample_interval = 1.0 / self.whirl.sample_rate;
@@ -361,65 +420,6 @@ impl Config {
 
     fn mesh(&self) -> Mesh {
         self.schema.mesh()
-    }
-}
-
-impl Schema {
-    fn mesh(&self) -> Mesh {
-        Mesh {
-            links: self.tool.links,
-            elements_per_link: self.tool.elements_per_link,
-            length: self.well.length(),
-        }
-    }
-
-    fn check(&self, c: &mut Checker) {
-        let mesh = self.mesh();
-        c.below("run", |c| self.run.check(c));
-        c.below("well", |c| self.well.check(c));
-        c.below("tool", |c| self.tool.check(c));
-        let guide = self.tool.guide.outer_diameter;
-        c.require(
-            guide < self.well.hole_diameter,
-            "well.hole_diameter",
-            self.well.hole_diameter,
-            "m",
-            format!("above the guide's outer diameter, {guide} m"),
-            "the guide lies in the hole",
-        );
-        c.below("contact", |c| self.contact.check_numbers(c));
-        c.below("environment", |c| self.environment.check_numbers(c));
-        c.below("boundary", |c| self.boundary.check(c, &mesh));
-        let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();
-        c.require(
-            !guide_may_spin,
-            "boundary.supports",
-            "nothing that holds the guide's psi",
-            "",
-            "given psi of the guide in a straight well",
-            "only curvature keeps the guide from turning",
-        );
-        c.below("loads", |c| {
-            for (index, load) in self.loads.iter().enumerate() {
-                c.below(index, |c| load.check(c, &mesh));
-            }
-        });
-        c.below("masses", |c| {
-            for (index, mass) in self.masses.iter().enumerate() {
-                c.below(index, |c| mass.check(c, &mesh));
-            }
-        });
-        c.below("initial", |c| self.initial.check(c, self.start));
-        c.below("solver", |c| self.solver.check(c));
-        c.below("inputs", |c| self.inputs.check(c));
-        c.below("network", |c| self.network.check(c));
-        c.below("whirl", |c| self.whirl.check(c, &mesh));
-        c.below("stick_slip", |c| self.stick_slip.check(c));
-        c.below("shock", |c| self.shock.check(c));
-        c.below("joint_load", |c| self.joint_load.check(c));
-        c.below("chaotic_whirl", |c| self.chaotic_whirl.check(c));
-        c.below("alarms", |c| self.alarms.check(c));
-        c.below("outputs", |c| self.outputs.check(c));
     }
 }
 

@@ -41,6 +41,8 @@ section! {
         ageing: f64 = 1.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// Rate of `twin/reactions`.
         reactions: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
+        /// Rate of `twin/transfer`.
+        transfer: f64 = 10.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// Rate of `joint_states`.
         joint_states: f64 = 50.0, within(0.0, 1000.0), "Hz", "0 is off; more would flood the network";
         /// Rate of `/diagnostics`.
@@ -59,6 +61,7 @@ impl Rates {
             whirl: self.whirl.max(other.whirl),
             bit_state: self.bit_state.max(other.bit_state),
             reactions: self.reactions.max(other.reactions),
+            transfer: self.transfer.max(other.transfer),
             status: self.status.max(other.status),
             tool_shape: self.tool_shape.max(other.tool_shape),
             ageing: self.ageing.max(other.ageing),

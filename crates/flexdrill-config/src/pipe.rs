@@ -4,12 +4,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
-use flexdrill_core::tool::Tube;
+use flexdrill_core::tool::{FreeCurvature, Tube};
+use flexdrill_core::units::deg_to_rad;
 
 const DIAMETER: Bound = Bound::above(0.0, 2.0);
 /// 0 is a solid bar.
 const INNER_DIAMETER: Bound = Bound::within(0.0, 2.0);
 const BENDING_FACTOR: Bound = Bound::above(0.0, 10.0);
+/// Up to the tightest arc that a well may have.
+const FREE_CURVATURE: Bound = Bound::within(0.0, 2.0);
+const PHASE: Bound = Bound::within(-360.0, 360.0);
 const DIAMETER_REASON: &str = "given in metres";
 
 /// The links of the flexible pipe, all identical: either uniform (`outer_diameter`, `inner_diameter`) or stepped
@@ -65,9 +69,45 @@ pub struct Guide {
     #[serde(default = "one")]
     #[schemars(transform = BENDING_FACTOR.in_schema())]
     pub bending_factor: f64,
+    /// Curvature of the tube as made: a number in 1/m, 0 for a straight tube, or `as_built`, the path's own curvature, so
+    /// that it lies in the hole without stress. Default as_built.
+    ///
+    /// Allowed: within 0 to 2 1/m
+    #[serde(default)]
+    pub free_curvature: FreeBend,
+    /// Toolface of the bend of the free tube: its angle from the high side, clockwise looking down the hole. Default 0,
+    /// along the build.
+    #[serde(default)]
+    #[schemars(transform = PHASE.in_schema())]
+    pub free_curvature_phase_deg: f64,
     /// `true` holds every node in all directions, like the outer beam of the paper's Fig. 8. Default false.
     #[serde(default)]
     pub fixed: bool,
+}
+
+/// `as_built`, or a number in 1/m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(transform = FREE_CURVATURE.in_schema())]
+pub enum FreeBend {
+    /// The curvature of the path.
+    Path(AsBuilt),
+    /// In 1/m, 0 is straight.
+    Curvature(f64),
+}
+
+/// The word for a tube that has the curvature of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AsBuilt {
+    /// Without stress in the hole.
+    AsBuilt,
+}
+
+impl Default for FreeBend {
+    fn default() -> Self {
+        Self::Path(AsBuilt::AsBuilt)
+    }
 }
 
 fn one() -> f64 {
@@ -217,6 +257,41 @@ impl Guide {
             "",
             "1 is a plain tube; without any bending stiffness the guide would fold",
         );
+        let phase = self.free_curvature_phase_deg;
+        c.number("free_curvature_phase_deg", phase, PHASE, "deg", "one turn");
+        match self.free_curvature {
+            FreeBend::Curvature(curvature) => {
+                let reason = "0 is a straight tube; no arc of a well is tighter than 0.5 m";
+                c.number("free_curvature", curvature, FREE_CURVATURE, "1/m", reason);
+                c.require(
+                    !self.fixed,
+                    "free_curvature",
+                    curvature,
+                    "1/m",
+                    "as_built while tool.guide.fixed is true",
+                    "a guide that is held at every node does not bend",
+                );
+            }
+            FreeBend::Path(_) => c.require(
+                phase == 0.0,
+                "free_curvature_phase_deg",
+                phase,
+                "deg",
+                "0 while tool.guide.free_curvature is as_built",
+                "such a guide bends along the path",
+            ),
+        }
+    }
+
+    /// The free bend, if it is not that of the path.
+    pub(super) fn free_curvature(&self) -> Option<FreeCurvature> {
+        match self.free_curvature {
+            FreeBend::Path(_) => None,
+            FreeBend::Curvature(curvature) => Some(FreeCurvature {
+                curvature,
+                phase: deg_to_rad(self.free_curvature_phase_deg),
+            }),
+        }
     }
 
     pub(super) fn section(&self) -> Tube {

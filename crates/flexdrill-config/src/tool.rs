@@ -7,7 +7,10 @@ use super::checker::{Bound, Checker};
 use super::json_schema;
 use super::pipe::{Guide, Pipe};
 use super::section::section;
-use flexdrill_core::tool::{BitDescription, HingeAngle, JointDescription, JointKind, Material as Steel, Rayleigh};
+use flexdrill_core::tool::{
+    BitDescription, HingeAngle, JointDescription, JointKind, JointPlay, Material as Steel, PinFriction, Rayleigh,
+    Shortening,
+};
 use flexdrill_core::units::deg_to_rad;
 
 const LINKS: Bound = Bound::within(1.0, 500.0);
@@ -34,6 +37,11 @@ pub struct Tool {
     pub guide: Guide,
     /// The joints. Required.
     pub joint: Joint,
+    /// How a link that tilts across its chord shortens along it: `none`, as in the paper, or `second_order`, by the square
+    /// of the tilt. Default none.
+    #[serde(default)]
+    #[schemars(with = "json_schema::Shortening")]
+    pub shortening: Shortening,
     /// Rayleigh damping.
     #[serde(default)]
     pub damping: Damping,
@@ -88,7 +96,47 @@ section! {
         #[serde(default)]
         #[schemars(with = "json_schema::HingeAngle")]
         hinge_angle: HingeAngle;
+        /// Coefficient of friction in the pins of a `universal` joint's cross. Default 0, as in the paper.
+        #[serde(default)]
+        friction: f64, within(0.0, 1.0), "", "0 is none; steel in mud rubs with 0.1 to 0.4";
+        /// Radius of a pin of the cross (m). Default 6 mm. Used with `friction` only.
+        #[serde(default = "default_pin_radius")]
+        pin_radius: f64, above(0.0, 0.1), "m", "in metres; the pins fit into the joint";
+        /// Diameter of the circle on which the pins carry the torque (m). Default 40 mm. Used with `friction` only.
+        #[serde(default = "default_pin_circle")]
+        pin_circle_diameter: f64, above(0.0, 0.5), "m", "in metres; the pins lie within the joint";
+        /// Rate of swing at which the regularised friction of the pins reaches 71 % of Coulomb's (rad/s). Default 0.02:
+        /// a joint of the paper's arc swings by up to 0.2 rad/s at 40 r/min.
+        #[serde(default = "default_pin_slip_rate")]
+        pin_slip_rate: f64, within(1e-4, 1.0), "rad/s",
+            "0 would make the moment jump where a joint's swing turns; far above the swing there is no friction";
+        /// Play of a joint about its shaft: the angle by which its links turn freely against each other, from stop to
+        /// stop. Not with `revolute`. Default 0: the spins are a constraint.
+        #[serde(default)]
+        play_deg: f64, within(0.0, 20.0), "deg", "0 is none; a worn joint has some tenths of a degree";
+        /// Stiffness of the contact at either end of the play (N m/rad). Default 1e6. Used with `play_deg` only.
+        #[serde(default = "default_play_stiffness")]
+        play_stiffness: f64, above(0.0, 1e9), "N m/rad", "the contact carries the torque";
+        /// Hunt-Crossley damping of that contact (s/rad). Default 0.5. Used with `play_deg` only.
+        #[serde(default = "half")]
+        play_damping: f64, within(0.0, 1e3), "s/rad", "0 is elastic; far above 1 the contact hardly opens within a step";
     }
+}
+
+fn default_pin_radius() -> f64 {
+    PinFriction::NONE.pin_radius
+}
+
+fn default_pin_circle() -> f64 {
+    PinFriction::NONE.circle_diameter
+}
+
+fn default_pin_slip_rate() -> f64 {
+    PinFriction::NONE.slip_rate
+}
+
+fn default_play_stiffness() -> f64 {
+    JointPlay::NONE.stiffness
 }
 
 fn universal() -> JointKind {
@@ -185,7 +233,7 @@ impl Tool {
                 "the pipe turns inside the guide",
             );
         }
-        c.below("joint", |c| self.joint.check_numbers(c));
+        c.below("joint", |c| self.joint.check(c));
         c.below("damping", |c| self.damping.check_numbers(c));
         c.below("bit", |c| self.bit.check_numbers(c));
     }
@@ -202,6 +250,37 @@ impl Material {
 }
 
 impl Joint {
+    fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        c.require(
+            self.friction == 0.0 || self.kind == JointKind::Universal,
+            "friction",
+            self.friction,
+            "",
+            "0 unless tool.joint.kind is universal".to_owned(),
+            "the friction is that of the pins of a cross",
+        );
+        c.require(
+            self.friction == 0.0 || self.pin_circle_diameter > self.pin_radius,
+            "friction",
+            self.friction,
+            "",
+            format!(
+                "0 unless tool.joint.pin_circle_diameter, {} m, is above tool.joint.pin_radius, {} m",
+                self.pin_circle_diameter, self.pin_radius
+            ),
+            "the pins stand around the shaft",
+        );
+        c.require(
+            self.play_deg == 0.0 || self.kind != JointKind::Revolute,
+            "play_deg",
+            self.play_deg,
+            "deg",
+            "0 with tool.joint.kind revolute".to_owned(),
+            "play needs a joint with one row about the shaft; a hinge has two",
+        );
+    }
+
     pub(super) fn describe(&self) -> JointDescription {
         let mut joint = JointDescription::new(self.kind, deg_to_rad(self.limit_deg));
         joint.stop_stiffness = self.stop_stiffness;
@@ -209,6 +288,17 @@ impl Joint {
         joint.cross_phase = deg_to_rad(self.cross_phase_deg);
         joint.cross_phase_step = deg_to_rad(self.cross_phase_step_deg);
         joint.hinge_angle = self.hinge_angle;
+        joint.friction = PinFriction {
+            coefficient: self.friction,
+            pin_radius: self.pin_radius,
+            circle_diameter: self.pin_circle_diameter,
+            slip_rate: self.pin_slip_rate,
+        };
+        joint.play = JointPlay {
+            half_angle: 0.5 * deg_to_rad(self.play_deg),
+            stiffness: self.play_stiffness,
+            damping: self.play_damping,
+        };
         joint
     }
 }

@@ -1,12 +1,16 @@
 //! Warnings about values that are allowed but probably unintended.
 
 use super::{Config, HardBounds};
+use flexdrill_core::tool::{AddedMass, Location};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// Smallest duration of a collision of pipe and guide, in steps. The default tool's lasts 1.5 steps and is accurate; at
 /// 0.99 its motion is not, nor that of a stiffer contact at 0.85 (`docs/measurements.md`, model quality). The guide
 /// rests on the wall and does not strike it: contacts of 0.3 steps there did no harm.
 const FEWEST_STEPS: f64 = 1.1;
+
+/// Strain at which a guide of good steel yields: API 5DP grade S-135 has a yield strength of 931 MPa, at 206 GPa.
+const YIELD_STRAIN: f64 = 931e6 / 206e9;
 
 impl Config {
     /// Warnings as sentences, most important first.
@@ -15,6 +19,8 @@ impl Config {
         self.warn_of_joint_limit(&mut warnings);
         self.warn_of_sagitta(&mut warnings);
         self.warn_of_short_contacts(&mut warnings);
+        self.warn_of_yield(&mut warnings);
+        self.warn_of_mud(&mut warnings);
         let off_mesh = self.tool.pipe.pieces_off_mesh(self.tool.elements_per_link);
         if !off_mesh.is_empty() {
             warnings.push(format!(
@@ -44,6 +50,30 @@ impl Config {
         }
         warnings.extend(HardBounds::overridden(self));
         warnings
+    }
+
+    fn warn_of_mud(&self, warnings: &mut Vec<String>) {
+        let Some(mud) = &self.environment.mud else {
+            return;
+        };
+        let (buoyancy, steel) = (self.environment.buoyancy_factor, self.tool.material.density);
+        let floating = 1.0 - mud.density / steel;
+        if self.environment.gravity > 0.0 && (floating - buoyancy).abs() > 0.01 {
+            warnings.push(format!(
+                "environment.mud.density {} kg/m3 belongs to a buoyancy factor of {floating:.3}, not to environment.buoyancy_factor {buoyancy}",
+                mud.density
+            ));
+        }
+        if mud.added_mass != AddedMass::None
+            && self
+                .masses
+                .iter()
+                .any(|mass| mass.at.location(&self.mesh()) == Location::All)
+        {
+            warnings.push(
+                "masses at all stations and environment.mud.added_mass both add mass along the tool: leave out masses that stand for mud".to_owned(),
+            );
+        }
     }
 
     fn rates(&self) -> [(&'static str, f64); 3] {
@@ -84,6 +114,19 @@ impl Config {
                 1e3 * duration,
                 duration / step,
                 duration / FEWEST_STEPS
+            ));
+        }
+    }
+
+    fn warn_of_yield(&self, warnings: &mut Vec<String>) {
+        let strain = self.guide_bending_strain();
+        if strain > YIELD_STRAIN {
+            warnings.push(format!(
+                "tool.guide.free_curvature: bent into the hole, a plain tube of {} m is strained by {:.2} %, beyond the {:.2} % at which S-135 drill pipe yields: it would keep the bend or break; only slots that take the bend prevent this (tool.guide.bending_factor {})",
+                self.tool.guide.outer_diameter,
+                100.0 * strain,
+                100.0 * YIELD_STRAIN,
+                self.tool.guide.bending_factor
             ));
         }
     }
@@ -138,6 +181,34 @@ mod tests {
         }
         let finer = stiff.with_value("solver.time_step", 3.8e-4).unwrap();
         assert!(short_contacts(&finer).is_empty());
+    }
+
+    #[test]
+    fn a_guide_that_yields_in_the_hole_is_warned_of() {
+        let yields = |config: &Config| {
+            let mut warnings = Vec::new();
+            config.warn_of_yield(&mut warnings);
+            warnings
+        };
+        assert!(yields(&default_tool()).is_empty());
+        let straight = default_tool().with_value("tool.guide.free_curvature", 0.0).unwrap();
+        let warnings = yields(&straight);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        // 51 mm / 3.2 m.
+        for part in ["tool.guide.free_curvature", "1.59 %", "0.45 %", "bending_factor 1"] {
+            assert!(warnings[0].contains(part), "'{part}' is not in {}", warnings[0]);
+        }
+        // (1/3.2 - 0.23) x 51 mm = 0.42 %.
+        let bent = straight.with_value("tool.guide.free_curvature", 0.23).unwrap();
+        assert!(yields(&bent).is_empty());
+        // Against the build the same bend is an addition.
+        let turned = r#"[{"at": "top", "body": "guide", "fix": ["psi"]}]"#;
+        let turned: serde_json::Value = serde_json::from_str(turned).unwrap();
+        let against = [
+            ("boundary.supports", turned),
+            ("tool.guide.free_curvature_phase_deg", 180.0.into()),
+        ];
+        assert_eq!(yields(&bent.with_values("test", against).unwrap()).len(), 1);
     }
 
     #[test]

@@ -62,6 +62,16 @@ impl Section {
     }
 }
 
+impl Section {
+    /// Curvature (1/m), 0 where it is straight.
+    pub fn curvature(&self) -> f64 {
+        match *self {
+            Self::Straight { .. } => 0.0,
+            Self::Arc { radius, .. } => 1.0 / radius,
+        }
+    }
+}
+
 impl Well {
     /// Length along the path (m).
     pub fn length(&self) -> f64 {

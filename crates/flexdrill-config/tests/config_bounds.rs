@@ -190,14 +190,25 @@ fn numbers_without_a_bound_are_those_that_depend_on_other_keys() {
     }
     let of = |keys: &[&str]| keys.iter().map(|key| (*key).to_owned()).collect::<BTreeSet<_>>();
     let between = [
+        "inputs.rate_of_penetration.assumed_m_per_h",
+        "inputs.rate_of_penetration.safe_m_per_h",
         "inputs.rotary_speed.initial_rpm",
         "inputs.rotary_speed.safe_rpm",
+        "inputs.standpipe_pressure.assumed_mpa",
+        "inputs.standpipe_pressure.safe_mpa",
         "inputs.weight_on_bit.initial_kn",
         "inputs.weight_on_bit.safe_kn",
     ];
     assert_eq!(without_low, of(&between));
     let below_another = [
+        "environment.pressure.drop_per_metre",
+        "inputs.hard_limits.min_m_per_h",
+        "inputs.hard_limits.min_mpa",
         "inputs.hard_limits.min_rpm",
+        "inputs.rate_of_penetration.min_m_per_h",
+        "inputs.rate_of_penetration.slow_age",
+        "inputs.standpipe_pressure.min_mpa",
+        "inputs.standpipe_pressure.slow_age",
         "inputs.rotary_speed.min_rpm",
         "inputs.rotary_speed.slow_age",
         "inputs.weight_on_bit.min_kn",

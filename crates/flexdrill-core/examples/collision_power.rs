@@ -80,6 +80,7 @@ fn row(case: &Case) -> Result<String> {
             let inputs = Inputs {
                 rotary_speed: rpm_to_rad_per_s(rpm.unwrap_or(case.rpm)),
                 weight_on_bit: kn_to_n(case.kn),
+                ..Inputs::default()
             };
             twin.advance(&inputs).ok()?;
         }

@@ -28,6 +28,7 @@ fn main() -> Result<()> {
     let as_it_is = Inputs {
         rotary_speed: rpm_to_rad_per_s(40.0),
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     go_on(&mut twin, &as_it_is, 3.0)?;
     let saved = twin.checkpoint()?;

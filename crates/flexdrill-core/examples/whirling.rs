@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit: kn_to_n(wob) + more,
+            ..Inputs::default()
         };
         run(&tool, &inputs, parts as u32)?;
     }

@@ -34,6 +34,7 @@ fn main() -> Result<()> {
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(40.0),
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     let mut snapshot = twin.new_snapshot();
     // Where the pipe's orbit is drawn: at the joint in the middle.

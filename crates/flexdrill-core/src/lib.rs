@@ -24,7 +24,7 @@
 //! // Comes to rest under gravity first.
 //! let mut twin = Simulation::new(&tool, &settings)?;
 //!
-//! let inputs = Inputs { rotary_speed: rpm_to_rad_per_s(40.0), weight_on_bit: 10e3 };
+//! let inputs = Inputs { rotary_speed: rpm_to_rad_per_s(40.0), weight_on_bit: 10e3, ..Inputs::default() };
 //! let mut snapshot = twin.new_snapshot();
 //! while twin.time() < 0.1 {
 //!     twin.advance(&inputs).ok()?; // a step of half a millisecond, or the reason why there is none

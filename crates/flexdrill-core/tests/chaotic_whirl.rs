@@ -46,6 +46,7 @@ fn run(friction: f64, kn: f64, seconds: f64, rpm: impl Fn(f64) -> f64) -> Run {
             let inputs = Inputs {
                 rotary_speed: rpm_to_rad_per_s(rpm(twin.time())),
                 weight_on_bit: kn_to_n(kn),
+                ..Inputs::default()
             };
             twin.advance(&inputs).ok().unwrap();
         }

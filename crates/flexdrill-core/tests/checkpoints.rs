@@ -18,6 +18,7 @@ use support::tiny;
 const INPUTS: Inputs = Inputs {
     rotary_speed: 4.0,
     weight_on_bit: 1e3,
+    ..Inputs::ZERO
 };
 
 fn simulation(tool: &ToolDescription, settings: &SimulationSettings) -> Simulation {
@@ -137,7 +138,7 @@ fn other_formats_say_so() {
         assert!(
             error
                 .to_string()
-                .contains(&format!("format {format}, this build reads format 9")),
+                .contains(&format!("format {format}, this build reads format 15")),
             "{error}"
         );
     }
@@ -165,4 +166,56 @@ fn what_may_change_while_running_is_restored() {
         fresh.advance(&INPUTS).ok().unwrap();
     }
     assert_eq!(fresh.checkpoint().unwrap(), changed.checkpoint().unwrap());
+}
+
+/// Advance and pressure approach their targets by their slew limits, are part of a checkpoint, and come back from it.
+#[test]
+fn advance_and_pressure_follow_their_slew_limits_and_continue_from_a_checkpoint() {
+    let settings = SimulationSettings::default().with(|settings| {
+        settings.rate_of_penetration_slew = 1e-3;
+        settings.standpipe_pressure_slew = 2e6;
+    });
+    let mut twin = Simulation::new(&ToolDescription::paper().with_mesh(8, 2), &settings).unwrap();
+    let inputs = Inputs {
+        rate_of_penetration: -1e-3,
+        standpipe_pressure: 5e6,
+        ..INPUTS
+    };
+    let mut snapshot = twin.new_snapshot();
+    for _ in 0..20 {
+        assert!(twin.advance(&inputs).ok().is_ok());
+    }
+    twin.snapshot(&mut snapshot, true);
+    // 20 steps of 0.5 ms.
+    assert!(
+        (snapshot.applied.rate_of_penetration + 1e-5).abs() < 1e-12,
+        "{:?}",
+        snapshot.applied
+    );
+    assert!(
+        (snapshot.applied.standpipe_pressure - 2e4).abs() < 1e-6,
+        "{:?}",
+        snapshot.applied
+    );
+    let saved = twin.checkpoint().unwrap();
+    let mut other = Simulation::new(&ToolDescription::paper().with_mesh(8, 2), &settings).unwrap();
+    other.restore(&saved).unwrap();
+    for twin in [&mut twin, &mut other] {
+        for _ in 0..20 {
+            assert!(twin.advance(&inputs).ok().is_ok());
+        }
+    }
+    let mut continued = other.new_snapshot();
+    twin.snapshot(&mut snapshot, true);
+    other.snapshot(&mut continued, true);
+    assert_eq!(snapshot.applied, continued.applied);
+    twin.reset();
+    twin.snapshot(&mut snapshot, true);
+    assert_eq!(
+        (
+            snapshot.applied.rate_of_penetration,
+            snapshot.applied.standpipe_pressure
+        ),
+        (0.0, 0.0)
+    );
 }

@@ -30,6 +30,7 @@ fn drive(slew: f64, seconds: f64, rpm: impl Fn(f64) -> f64, mut look: impl FnMut
             let inputs = Inputs {
                 rotary_speed: rpm_to_rad_per_s(rpm(twin.time())),
                 weight_on_bit: kn_to_n(10.0),
+                ..Inputs::default()
             };
             twin.advance(&inputs).ok().unwrap();
         }

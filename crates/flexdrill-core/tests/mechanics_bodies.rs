@@ -39,6 +39,7 @@ fn run(tool: &ToolDescription, time_step: f64, duration: f64) -> Snapshot {
     let inputs = Inputs {
         rotary_speed: SPEED,
         weight_on_bit: 0.0,
+        ..Inputs::default()
     };
     let settings = SimulationSettings::default().with(|settings| {
         settings.time_step = time_step;
@@ -81,6 +82,7 @@ fn inertia_slows_the_bit() {
         let inputs = Inputs {
             rotary_speed: 4.0,
             weight_on_bit: 10e3,
+            ..Inputs::default()
         };
         let settings = SimulationSettings::default().with(|settings| {
             settings.initial_inputs = inputs;

@@ -24,6 +24,7 @@ fn inputs(step: u64) -> Inputs {
     Inputs {
         rotary_speed: 4.0 + (step / 300) as f64,
         weight_on_bit: load,
+        ..Inputs::default()
     }
 }
 

@@ -20,6 +20,7 @@ use support::{coarse, hard_settings, tiny};
 const INPUTS: Inputs = Inputs {
     rotary_speed: 4.0,
     weight_on_bit: 10e3,
+    ..Inputs::ZERO
 };
 
 /// The first failure within `steps` steps; afterwards everything is as before that step.
@@ -73,7 +74,7 @@ fn not_converged() {
 /// from it.
 #[test]
 fn inputs_out_of_bounds() {
-    use InputKind::{RotarySpeed, WeightOnBit};
+    use InputKind::{RateOfPenetration, RotarySpeed, StandpipePressure, WeightOnBit};
     for (kind, value) in [
         (RotarySpeed, f64::NAN),
         (RotarySpeed, f64::INFINITY),
@@ -83,12 +84,18 @@ fn inputs_out_of_bounds() {
         (WeightOnBit, f64::NEG_INFINITY),
         (WeightOnBit, 1e12),
         (WeightOnBit, -1.0),
+        (RateOfPenetration, f64::NAN),
+        (RateOfPenetration, -1.1),
+        (StandpipePressure, f64::INFINITY),
+        (StandpipePressure, 1.1e9),
     ] {
         let simulation = Simulation::new(&tiny(), &SimulationSettings::default()).unwrap();
         let mut inputs = INPUTS;
         match kind {
             RotarySpeed => inputs.rotary_speed = value,
             WeightOnBit => inputs.weight_on_bit = value,
+            RateOfPenetration => inputs.rate_of_penetration = value,
+            StandpipePressure => inputs.standpipe_pressure = value,
         }
         let failure = failure(simulation, &inputs, 1);
         assert_eq!(failure.cause, FailureCause::InputOutOfBounds(kind), "{failure}");
@@ -106,6 +113,8 @@ fn inputs_out_of_bounds() {
     let bound = Inputs {
         rotary_speed: -1000.0,
         weight_on_bit: 1e7,
+        rate_of_penetration: -1.0,
+        standpipe_pressure: 1e9,
     };
     assert_eq!(bound.out_of_bounds(), None);
     let settings = SimulationSettings::default().with(|settings| {
@@ -188,6 +197,7 @@ fn a_joint_held_in_place_starts_and_stays() {
     let inputs = Inputs {
         rotary_speed: 4.0,
         weight_on_bit: 1e3,
+        ..Inputs::default()
     };
     for _ in 0..100 {
         assert!(matches!(simulation.advance(&inputs), StepOutcome::Advanced { .. }));

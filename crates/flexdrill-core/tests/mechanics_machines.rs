@@ -25,6 +25,7 @@ fn run(tool: &ToolDescription, instructions: Instructions, steps: u64) -> (Vec<f
         let outcome = simulation.advance(&Inputs {
             rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
             weight_on_bit: 20e3,
+            ..Inputs::default()
         });
         assert!(matches!(outcome, StepOutcome::Advanced { .. }), "{outcome:?}");
     }

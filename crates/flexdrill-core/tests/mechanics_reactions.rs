@@ -12,7 +12,10 @@ mod support;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::SolverKind;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::tool::{Body, Direction, LoadHistory, Location, PointLoad, PointMass, ToolDescription};
+use flexdrill_core::tool::{
+    AddedMass, Body, Direction, FreeCurvature, LoadHistory, Location, MudDamping, MudDescription, MudFilm, PointLoad,
+    PointMass, PressureDescription, PressureEnd, PressureSource, ToolDescription,
+};
 use flexdrill_core::twin::{Reactions, Simulation, SimulationSettings};
 use nalgebra::Vector3;
 
@@ -25,6 +28,7 @@ fn simulation(tool: &ToolDescription, solver: SolverKind) -> Simulation {
         settings.initial_inputs = Inputs {
             rotary_speed: 0.0,
             weight_on_bit: 10e3,
+            ..Inputs::default()
         }
     });
     Simulation::with_solver(tool, &settings, solver, Instructions::best()).unwrap()
@@ -43,7 +47,8 @@ fn outside(reactions: &Reactions) -> Vector3<f64> {
     .sum()
 }
 
-/// The paper's tool with what else can act on one: a mass with an eccentricity and a load across the pipe.
+/// The paper's tool with what else can act on one: a mass with an eccentricity, a load across the pipe, a guide with a
+/// preload, pressure on a sealed end, mud.
 fn loaded() -> ToolDescription {
     let mut tool = ToolDescription::paper();
     tool.masses.push(PointMass {
@@ -54,6 +59,24 @@ fn loaded() -> ToolDescription {
         transverse_inertia: 0.02,
         eccentricity: 0.005,
         eccentricity_phase: 0.4,
+    });
+    tool.guide_free_curvature = Some(FreeCurvature {
+        curvature: 0.3,
+        phase: 0.0,
+    });
+    tool.pressure = Some(PressureDescription {
+        at_top: PressureSource::Constant(1e5),
+        drop_per_metre: 0.05,
+        end: PressureEnd::Sealed { diameter: 0.063 },
+        joint_seal_diameter: 0.062,
+    });
+    tool.mud = Some(MudDescription {
+        density: 1100.0,
+        viscosity: 0.1,
+        frequency: 2.0,
+        added_mass: AddedMass::Eccentric,
+        damping: MudDamping::Viscous,
+        film: MudFilm::Squeeze,
     });
     tool.loads.push(PointLoad {
         location: Location::Joint(10),
@@ -93,6 +116,7 @@ fn in_motion_inertia_and_damping_close_the_balance() {
         let inputs = Inputs {
             rotary_speed: 8.0,
             weight_on_bit: 10e3,
+            ..Inputs::default()
         };
         let (mut left, mut inertia) = (0.0_f64, 0.0_f64);
         for step in 0..2400 {

@@ -24,6 +24,7 @@ fn calm(tool: &ToolDescription, solver: SolverKind, weight_on_bit: f64, steps: u
     let inputs = Inputs {
         rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
         weight_on_bit,
+        ..Inputs::default()
     };
     let joints = simulation.joint_stations().to_vec();
     let mut out = vec![Vec::new(); 2 * joints.len()];

@@ -16,6 +16,7 @@ const LOAD: f64 = 10e3;
 const TURNING: Inputs = Inputs {
     rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
     weight_on_bit: LOAD,
+    ..Inputs::ZERO
 };
 
 /// Without bit torque, which lets small differences grow.

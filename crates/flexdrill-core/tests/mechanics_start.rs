@@ -22,6 +22,7 @@ fn first_swing(time_step: f64) -> (f64, f64, f64) {
     let inputs = Inputs {
         rotary_speed: tool.initial_spin_rate,
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     let settings = SimulationSettings::default().with(|settings| {
         settings.time_step = time_step;

@@ -47,6 +47,7 @@ fn cost(case: Case, refinement: u32) -> Cost {
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(case.rpm),
         weight_on_bit: kn_to_n(case.wob),
+        ..Inputs::default()
     };
     let mut simulation = Simulation::new(&tool, &settings).unwrap();
     simulation.set_refinement(refinement);

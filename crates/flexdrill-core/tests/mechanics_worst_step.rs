@@ -23,6 +23,7 @@ fn hard(max_iterations: u32, max_halvings: u32) -> (Simulation, Inputs) {
     let inputs = Inputs {
         rotary_speed: 12.57,
         weight_on_bit: 30e3,
+        ..Inputs::default()
     };
     (Simulation::new(&coarse(), &settings).unwrap(), inputs)
 }

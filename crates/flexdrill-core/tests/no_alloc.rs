@@ -53,6 +53,7 @@ fn advance_and_snapshot_allocate_nothing() {
     let inputs = Inputs {
         rotary_speed: 4.19,
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     simulation.advance(&inputs).ok().unwrap();
     let before = ALLOCATIONS.get();
@@ -78,6 +79,7 @@ fn steps_that_are_halved_or_fail_allocate_nothing() {
     let inputs = Inputs {
         rotary_speed: 4.19,
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     let before = ALLOCATIONS.get();
     let failed = (0..500)

@@ -21,12 +21,14 @@ fn run(tool: &ToolDescription, time_step: f64) -> (Simulation, Snapshot) {
         settings.initial_inputs = Inputs {
             rotary_speed: 0.0,
             weight_on_bit: 10e3,
+            ..Inputs::default()
         };
     });
     let mut twin = Simulation::new(tool, &settings).unwrap();
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(40.0),
         weight_on_bit: 10e3,
+        ..Inputs::default()
     };
     while twin.time() < JUDGED {
         twin.advance(&inputs).ok().unwrap();

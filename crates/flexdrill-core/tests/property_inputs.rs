@@ -10,7 +10,7 @@ use flexdrill_core::inputs::{Conditioner, InputKind, InputRule, InputState, Reje
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use proptest::prelude::*;
 
-use InputKind::{RotarySpeed, WeightOnBit};
+use InputKind::{RateOfPenetration, RotarySpeed, StandpipePressure, WeightOnBit};
 
 /// Rules like those of `config/default.yaml`.
 fn conditioner() -> Conditioner {
@@ -24,6 +24,7 @@ fn conditioner() -> Conditioner {
         slow_age: 2.5,
         max_age: 5.0,
         hold_before_safe: 10.0,
+        used: true,
     };
     let weight_on_bit = InputRule {
         max: 60.0,
@@ -31,7 +32,22 @@ fn conditioner() -> Conditioner {
         safe_ramp: 1.0,
         ..rotary_speed
     };
-    Conditioner::new([rotary_speed, weight_on_bit])
+    let rate_of_penetration = InputRule {
+        min: -200.0,
+        max: 200.0,
+        initial: 3.0,
+        safe_ramp: 1.0,
+        used: true,
+        ..rotary_speed
+    };
+    let standpipe_pressure = InputRule {
+        max: 70.0,
+        tare_error: 0.2,
+        safe_ramp: 0.2,
+        used: false,
+        ..rotary_speed
+    };
+    Conditioner::new([rotary_speed, weight_on_bit, rate_of_penetration, standpipe_pressure])
 }
 
 #[test]
@@ -51,6 +67,55 @@ fn good_samples_act_in_si() {
     assert_eq!(targets.rotary_speed, rpm_to_rad_per_s(40.0));
     assert_eq!(targets.weight_on_bit, kn_to_n(10.0));
     assert_eq!(conditioner.quality(1.5), InputState::Ok);
+}
+
+#[test]
+fn optional_inputs_act_in_si_and_are_refused_beyond_their_limits() {
+    let mut conditioner = conditioner();
+    assert!(!conditioner.is_of_interest(StandpipePressure));
+    // The tool uses it.
+    assert!(conditioner.is_of_interest(RateOfPenetration));
+    assert_eq!(conditioner.targets(0.0).rate_of_penetration, 3.0 / 3600.0);
+    conditioner.offer(RateOfPenetration, -36.0, 1.0).unwrap();
+    conditioner.offer(StandpipePressure, 20.0, 1.0).unwrap();
+    let targets = conditioner.targets(1.5);
+    assert_eq!((targets.rate_of_penetration, targets.standpipe_pressure), (-0.01, 2e7));
+    assert!(conditioner.is_of_interest(StandpipePressure));
+    // A gauge that reads slightly below zero.
+    conditioner.offer(StandpipePressure, -0.1, 2.0).unwrap();
+    assert_eq!(conditioner.target(StandpipePressure, 2.0), 0.0);
+    for (kind, value, words) in [
+        (
+            RateOfPenetration,
+            f64::NAN,
+            "rig/rate_of_penetration: NaN m/h refused: not a finite number",
+        ),
+        (
+            RateOfPenetration,
+            -201.0,
+            "-201 m/h refused: below the minimum of -200 m/h (inputs.rate_of_penetration)",
+        ),
+        (
+            StandpipePressure,
+            f64::INFINITY,
+            "rig/standpipe_pressure: inf MPa refused: not a finite number",
+        ),
+        (
+            StandpipePressure,
+            71.0,
+            "71 MPa refused: above the maximum of 70 MPa (inputs.standpipe_pressure)",
+        ),
+        (
+            StandpipePressure,
+            -1.0,
+            "negative by more than the tare error of 0.2 MPa (inputs.standpipe_pressure)",
+        ),
+    ] {
+        let sentence = conditioner.offer(kind, value, 3.0).unwrap_err().to_string();
+        assert!(sentence.contains(words), "{sentence}");
+    }
+    assert_eq!(conditioner.counts(RateOfPenetration).rejected_total(), 2);
+    assert_eq!(conditioner.counts(StandpipePressure).rejected_total(), 3);
 }
 
 #[test]
@@ -148,7 +213,7 @@ fn refused_values_for_longer_than_max_age_are_stale_and_lead_to_the_safe_value()
 /// Without a good sample ever, too: then the start value is what is held.
 #[test]
 fn an_input_that_was_never_good_becomes_stale() {
-    let mut rules = [*conditioner().rule(RotarySpeed); 2];
+    let mut rules = [*conditioner().rule(RotarySpeed); InputKind::COUNT];
     rules[0].initial = 20.0;
     let mut conditioner = Conditioner::new(rules);
     conditioner.offer(RotarySpeed, f64::NAN, 10.0).unwrap_err();
@@ -238,7 +303,7 @@ fn a_silent_rig_is_never_sped_up_by_its_safe_value() {
         (0.0, -20.0, 0.0),
         (60.0, 0.0, 0.0),
     ] {
-        let mut rules = [*conditioner().rule(RotarySpeed); 2];
+        let mut rules = [*conditioner().rule(RotarySpeed); InputKind::COUNT];
         (rules[0].min, rules[0].safe) = (-120.0, safe);
         let mut conditioner = Conditioner::new(rules);
         conditioner.offer(RotarySpeed, value, 0.0).unwrap();
@@ -266,7 +331,8 @@ fn no_change_of_rules_raises_the_target_of_a_silent_rig() {
             conditioner.offer(RotarySpeed, 40.0, 0.0).unwrap();
             let mut rule = *conditioner.rule(RotarySpeed);
             change(&mut rule);
-            let rules = [rule, *conditioner.rule(WeightOnBit)];
+            let mut rules = InputKind::ALL.map(|kind| *conditioner.rule(kind));
+            rules[0] = rule;
             assert_eq!(conditioner.target(RotarySpeed, at), present);
             conditioner.set_rules(rules, at);
             for later in [0.0, 1.0, 100.0, 1e5] {
@@ -288,7 +354,7 @@ fn no_change_of_rules_raises_the_target_of_a_silent_rig() {
 fn a_changed_ramp_begins_at_the_present_value() {
     let mut conditioner = conditioner();
     conditioner.offer(RotarySpeed, 40.0, 0.0).unwrap();
-    let mut rules = [*conditioner.rule(RotarySpeed), *conditioner.rule(WeightOnBit)];
+    let mut rules = InputKind::ALL.map(|kind| *conditioner.rule(kind));
     rules[0].safe_ramp = 1.0;
     // Held to 15 s, then 5 r/min per s for 2 s, then 1 r/min per s.
     conditioner.set_rules(rules, 17.0);
@@ -325,13 +391,12 @@ proptest! {
 
     #[test]
     fn targets_stay_within_limits_whatever_comes(
-        samples in prop::collection::vec((any::<bool>(), any_value(), any_value()), 0..50),
+        samples in prop::collection::vec((0..InputKind::COUNT, any_value(), any_value()), 0..50),
         now in any_value(),
     ) {
         let mut conditioner = conditioner();
-        for (speed, value, time) in samples {
-            let kind = if speed { RotarySpeed } else { WeightOnBit };
-            let _ = conditioner.offer(kind, value, time);
+        for (index, value, time) in samples {
+            let _ = conditioner.offer(InputKind::ALL[index], value, time);
             for kind in InputKind::ALL {
                 let target = conditioner.target(kind, now);
                 prop_assert!(target >= conditioner.rule(kind).min && target <= conditioner.rule(kind).max, "{kind}: {target}");
@@ -341,13 +406,59 @@ proptest! {
     }
 
     #[test]
-    fn every_sample_is_counted_once(samples in prop::collection::vec((any_value(), 0.0..1e3f64), 0..50)) {
+    fn every_sample_is_counted_once(
+        samples in prop::collection::vec((0..InputKind::COUNT, any_value(), 0.0..1e3f64), 0..50),
+    ) {
         let mut conditioner = conditioner();
-        for (value, time) in &samples {
-            let _ = conditioner.offer(WeightOnBit, *value, *time);
+        for (index, value, time) in &samples {
+            let _ = conditioner.offer(InputKind::ALL[*index], *value, *time);
         }
-        let counts = conditioner.counts(WeightOnBit);
-        prop_assert_eq!(counts.accepted + counts.rejected_total(), samples.len() as u64);
+        for kind in InputKind::ALL {
+            let counts = conditioner.counts(kind);
+            let sent = samples.iter().filter(|(index, ..)| *index == kind.index()).count();
+            prop_assert_eq!(counts.accepted + counts.rejected_total(), sent as u64);
+        }
+    }
+
+    /// Whatever the other inputs do, one that is optional and was never sent is assumed, and changes no quality.
+    #[test]
+    fn an_optional_input_that_never_came_changes_nothing(
+        samples in prop::collection::vec((any::<bool>(), any_value(), 0.0..1e3f64), 0..50),
+        now in 0.0..2e3f64,
+    ) {
+        let mut conditioner = conditioner();
+        for (speed, value, time) in samples {
+            let _ = conditioner.offer(if speed { RotarySpeed } else { WeightOnBit }, value, time);
+        }
+        let required = conditioner.state(RotarySpeed, now).worse(conditioner.state(WeightOnBit, now));
+        prop_assert_eq!(conditioner.quality(now), required);
+        for (kind, assumed) in [(RateOfPenetration, 3.0), (StandpipePressure, 0.0)] {
+            prop_assert_eq!(conditioner.state(kind, now), InputState::Assumed);
+            prop_assert_eq!(conditioner.target(kind, now), assumed);
+            prop_assert!(!conditioner.is_brought_to_safe(kind, now));
+        }
+    }
+
+    /// An optional input that was sent ages as the others do, and the quality says so.
+    #[test]
+    fn an_optional_input_that_was_sent_becomes_stale(value in -200.0..200.0f64, silence in 0.0..100.0f64) {
+        let mut conditioner = conditioner();
+        conditioner.offer(RateOfPenetration, value, 0.0).unwrap();
+        for kind in [RotarySpeed, WeightOnBit] {
+            conditioner.offer(kind, 10.0, silence).unwrap();
+        }
+        let expected = match silence {
+            silence if silence < 2.5 => InputState::Ok,
+            silence if silence < 5.0 => InputState::Slow,
+            _ => InputState::Stale,
+        };
+        prop_assert_eq!(conditioner.state(RateOfPenetration, silence), expected);
+        prop_assert_eq!(conditioner.quality(silence), expected);
+        let target = conditioner.target(RateOfPenetration, silence);
+        prop_assert!(target.abs() <= value.abs() && target * value >= 0.0, "{target} from {value}");
+        if silence <= 15.0 {
+            prop_assert_eq!(target, value);
+        }
     }
 
     /// Between samples the target never moves away from the safe value and never faster than the ramp.

@@ -24,6 +24,7 @@ use support::tiny;
 const INPUTS: Inputs = Inputs {
     rotary_speed: 4.0,
     weight_on_bit: 1e3,
+    ..Inputs::ZERO
 };
 
 /// The tool with one of everything, so that every numeric field is there.

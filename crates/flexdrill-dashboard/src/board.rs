@@ -31,12 +31,13 @@ const LONGEST_TEXT: usize = 1000;
 const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
 const EXAGGERATION: &str = "outputs.exaggeration";
-/// Outputs of which the page only shows the age.
-const AGE_ONLY: [&str; 4] = [
+/// Outputs of which the server keeps the age alone.
+const AGE_ONLY: [&str; 5] = [
     topics::JOINT_STATES.name,
     topics::DIAGNOSTICS.name,
     topics::AGEING.name,
     topics::REACTIONS.name,
+    topics::TRANSFER.name,
 ];
 
 struct Known {

@@ -191,6 +191,9 @@ impl Control {
             weight_on_bit_kn: drive.sent[1],
             quality: RigInputs::GOOD,
             source: format!("dashboard: {}", drive.operator),
+            // The page drives speed and weight; the rig's other inputs keep acting.
+            rate_of_penetration_m_per_h: f64::NAN,
+            standpipe_pressure_mpa: f64::NAN,
         };
         if let Ok(body) = to_cdr_body(&message) {
             self.parts.inputs.publish(body);

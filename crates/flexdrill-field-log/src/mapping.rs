@@ -1,14 +1,17 @@
 //! The mapping file: the meaning, unit and quality limits of a log's columns.
 
+mod units;
+
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+
+pub use units::{Decimal, PressureUnit, RateUnit, SpeedUnit, TorqueUnit, WeightUnit};
 
 use crate::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
-use flexdrill_core::units::{kft_lbf_to_kn_m, kgf_to_kn, klbf_to_kn, lbf_to_kn, n_to_kn, rad_per_s_to_rpm, tf_to_kn};
 
 /// The meaning of a log's columns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,44 +40,6 @@ fn comma() -> char {
     ','
 }
 
-/// The decimal separator.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Decimal {
-    /// `12.5`.
-    #[default]
-    Point,
-    /// `12,5`. A point in a number is refused then: `1.234` may be a thousand or one.
-    Comma,
-}
-
-impl Decimal {
-    /// Parses a number of the log; `None` when the text is no number in this notation.
-    pub(crate) fn parse(self, text: &str) -> Option<f64> {
-        match self {
-            Self::Point => text.parse().ok(),
-            Self::Comma if text.contains('.') => None,
-            Self::Comma => text.replacen(',', ".", 1).parse().ok(),
-        }
-    }
-
-    /// The change of the mapping that would make `text` a number; empty when the other notation does not help.
-    pub(crate) fn hint(self, text: &str) -> &'static str {
-        let other = match self {
-            Self::Point => Self::Comma,
-            Self::Comma => Self::Point,
-        };
-        match self {
-            // Text that both notations read, such as "inf", has another problem.
-            _ if self.parse(text).is_some() || other.parse(text).is_none() => "",
-            Self::Point => "; if its comma is a decimal comma, set `decimal: comma` in the mapping",
-            Self::Comma => {
-                "; under `decimal: comma` a point may separate thousands: remove `decimal: comma` if this is a decimal point"
-            }
-        }
-    }
-}
-
 /// The columns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -88,6 +53,32 @@ pub struct Columns {
     /// Torque of the drive, for the report only: the model has its own. Default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torque: Option<TorqueColumn>,
+    /// Advance of the tool along the hole. Default none: the configured constant is assumed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate_of_penetration: Option<RateColumn>,
+    /// Pressure inside minus outside at the tool's top. Default none: the configured constant is assumed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standpipe_pressure: Option<PressureColumn>,
+}
+
+/// Rate of penetration, negative while the tool is pulled back.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RateColumn {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: RateUnit,
+}
+
+/// Standpipe pressure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PressureColumn {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: PressureUnit,
 }
 
 /// Torque of the drive.
@@ -98,34 +89,6 @@ pub struct TorqueColumn {
     pub column: String,
     /// Required.
     pub unit: TorqueUnit,
-}
-
-/// Units of torque.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TorqueUnit {
-    /// Newton metre.
-    #[serde(rename = "N.m")]
-    NewtonMetre,
-    /// Kilonewton metre.
-    #[serde(rename = "kN.m")]
-    KilonewtonMetre,
-    /// Foot-pound-force.
-    #[serde(rename = "ft.lbf")]
-    FootPound,
-    /// Thousand foot-pounds-force.
-    #[serde(rename = "kft.lbf")]
-    KilofootPound,
-}
-
-impl TorqueUnit {
-    pub(crate) fn to_kn_m(self, value: f64) -> f64 {
-        match self {
-            Self::NewtonMetre => n_to_kn(value),
-            Self::KilonewtonMetre => value,
-            Self::FootPound => kft_lbf_to_kn_m(value / 1e3),
-            Self::KilofootPound => kft_lbf_to_kn_m(value),
-        }
-    }
 }
 
 /// Time.
@@ -154,69 +117,6 @@ pub struct RotarySpeedColumn {
 
 fn one() -> f64 {
     1.0
-}
-
-/// Units of speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SpeedUnit {
-    /// Turns per minute.
-    #[serde(rename = "r/min", alias = "rpm")]
-    RevolutionsPerMinute,
-    /// Radians per second.
-    #[serde(rename = "rad/s")]
-    RadiansPerSecond,
-    /// Turns per second.
-    #[serde(rename = "Hz")]
-    Hertz,
-}
-
-impl SpeedUnit {
-    pub(crate) fn to_rpm(self, value: f64) -> f64 {
-        match self {
-            Self::RevolutionsPerMinute => value,
-            Self::RadiansPerSecond => rad_per_s_to_rpm(value),
-            Self::Hertz => value * 60.0,
-        }
-    }
-}
-
-/// Units of weight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum WeightUnit {
-    /// Newton.
-    N,
-    /// Kilonewton.
-    #[serde(rename = "kN")]
-    Kilonewton,
-    /// Thousand decanewtons (10 kN).
-    #[serde(rename = "kdaN")]
-    Kilodecanewton,
-    /// Kilogram-force.
-    #[serde(rename = "kgf")]
-    KilogramForce,
-    /// Tonne-force: a thousand kilograms-force.
-    #[serde(rename = "tf", alias = "t")]
-    TonneForce,
-    /// Pound-force.
-    #[serde(rename = "lbf")]
-    PoundForce,
-    /// Thousand pounds-force.
-    #[serde(rename = "klbf")]
-    Kilopound,
-}
-
-impl WeightUnit {
-    pub(crate) fn to_kn(self, value: f64) -> f64 {
-        match self {
-            Self::N => n_to_kn(value),
-            Self::Kilonewton => value,
-            Self::Kilodecanewton => value * 10.0,
-            Self::KilogramForce => kgf_to_kn(value),
-            Self::TonneForce => tf_to_kn(value),
-            Self::PoundForce => lbf_to_kn(value),
-            Self::Kilopound => klbf_to_kn(value),
-        }
-    }
 }
 
 /// Where the weight on bit comes from.
@@ -320,6 +220,10 @@ const REQUIRED: &[&str] = &[
     "columns.rotary_speed",
     "columns.rotary_speed.column",
     "columns.rotary_speed.unit",
+    "columns.rate_of_penetration.column",
+    "columns.rate_of_penetration.unit",
+    "columns.standpipe_pressure.column",
+    "columns.standpipe_pressure.unit",
     "columns.torque.column",
     "columns.torque.unit",
     "columns.weight_on_bit",

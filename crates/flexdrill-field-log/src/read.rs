@@ -176,7 +176,7 @@ fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> 
 
 fn sequence(rows: &[Row], mapping: &Mapping) -> InputSequence {
     let begin = rows.first().map_or(0.0, |row| row.time);
-    let scales = [mapping.columns.rotary_speed.scale, mapping.weight_scale()];
+    let scales = [mapping.columns.rotary_speed.scale, mapping.weight_scale(), 1.0, 1.0];
     let mut inputs = Vec::with_capacity(2 * rows.len());
     for row in rows {
         for ((kind, value), scale) in InputKind::ALL.into_iter().zip(row.values).zip(scales) {

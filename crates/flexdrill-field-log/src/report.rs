@@ -187,7 +187,7 @@ pub struct Report {
     /// Duration (s).
     pub duration: f64,
     /// Per input, in the order of [`InputKind::ALL`].
-    pub inputs: [Summary; 2],
+    pub inputs: [Summary; InputKind::COUNT],
     /// Torque of the drive, where the mapping names its column.
     pub torque: Option<TorqueSummary>,
     /// A longer time between two rows is a gap (s).
@@ -246,6 +246,14 @@ impl fmt::Display for Report {
                 .try_for_each(|(index, part)| write!(f, "part {}\n{part}", index + 1));
         }
         for input in &self.inputs {
+            if input.kind.is_optional() && input.samples == 0 {
+                writeln!(
+                    f,
+                    "  NOTE: {} is not in the log; the model assumes the value of the configuration",
+                    input.kind.name()
+                )?;
+                continue;
+            }
             writeln!(
                 f,
                 "  {:<14} {:>6} samples, {:.1} to {:.1} {}, median {:.1}",

@@ -4,7 +4,6 @@ use crate::mapping::{Mapping, WeightOnBitColumn};
 use crate::parts::{TimeAxis, Timed, order};
 use crate::report::{IssueKind, Issues};
 use crate::{Condition, FieldLogError};
-#[cfg(doc)]
 use flexdrill_core::inputs::InputKind;
 
 /// One row with a readable, advancing time.
@@ -14,8 +13,8 @@ pub(crate) struct Row {
     pub(crate) number: u64,
     /// Since the log's first row (s).
     pub(crate) time: f64,
-    /// By [`InputKind::index`]: speed (r/min); weight on bit or hookload (kN).
-    pub(crate) values: [Option<f64>; 2],
+    /// By [`InputKind::index`]: speed (r/min); weight on bit or hookload (kN); rate (m/h); pressure (MPa).
+    pub(crate) values: [Option<f64>; InputKind::COUNT],
     /// Whether the bit drills; `None` when the log does not say.
     pub(crate) drilling: Option<bool>,
     /// Whether the bit is off bottom; `None` when the log does not say.
@@ -36,6 +35,8 @@ struct ColumnIndices {
     drilling: Option<usize>,
     off_bottom: Option<usize>,
     torque: Option<usize>,
+    rate: Option<usize>,
+    pressure: Option<usize>,
 }
 
 /// The rows of a log.
@@ -326,8 +327,14 @@ impl ColumnIndices {
             }
         };
         let torque = (columns.torque.as_ref()).map(|torque| find(&torque.column, "columns.torque.column"));
+        let rate = columns.rate_of_penetration.as_ref();
+        let rate = rate.map(|rate| find(&rate.column, "columns.rate_of_penetration.column"));
+        let pressure = columns.standpipe_pressure.as_ref();
+        let pressure = pressure.map(|pressure| find(&pressure.column, "columns.standpipe_pressure.column"));
         Ok(Self {
             torque: torque.transpose()?,
+            rate: rate.transpose()?,
+            pressure: pressure.transpose()?,
             width: header.len(),
             time: find(&columns.time.column, "columns.time.column")?,
             speed: find(&columns.rotary_speed.column, "columns.rotary_speed.column")?,
@@ -388,11 +395,16 @@ impl ColumnIndices {
         let torque = self.torque.zip(columns.torque.as_ref());
         let torque =
             torque.and_then(|(index, torque)| value(index, &torque.column).map(|value| torque.unit.to_kn_m(value)));
+        let rate = self.rate.zip(columns.rate_of_penetration.as_ref());
+        let rate = rate.and_then(|(index, rate)| value(index, &rate.column).map(|value| rate.unit.to_m_per_h(value)));
+        let pressure = self.pressure.zip(columns.standpipe_pressure.as_ref());
+        let pressure = pressure
+            .and_then(|(index, pressure)| value(index, &pressure.column).map(|value| pressure.unit.to_mpa(value)));
         Row {
             torque,
             number,
             time,
-            values: [speed, weight],
+            values: [speed, weight, rate, pressure],
             drilling,
             off_bottom,
         }

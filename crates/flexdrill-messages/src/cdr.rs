@@ -4,7 +4,7 @@ use byteorder::{BigEndian, LittleEndian};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::Message;
+use super::{Message, grown};
 
 /// Header of plain little-endian CDR.
 const LITTLE_ENDIAN: [u8; 4] = [0, 1, 0, 0];
@@ -96,6 +96,16 @@ pub fn from_cdr_body<T: DeserializeOwned>(body: &[u8]) -> Result<(T, usize), cdr
     cdr_encoding::from_bytes::<T, LittleEndian>(body)
 }
 
+/// The message in a little-endian body, of a sender with the present definition or an older, shorter one.
+///
+/// # Errors
+/// When the bytes are too short or do not fit the type.
+pub fn message_from_cdr_body<M: Message>(body: &[u8]) -> Result<M, cdr_encoding::Error> {
+    from_cdr_body(body)
+        .map(|(message, _)| message)
+        .or_else(|error| grown::complete(body, false).ok_or(error))
+}
+
 /// The message in CDR bytes with their header, of either byte order.
 ///
 /// # Errors
@@ -118,7 +128,12 @@ pub fn from_cdr<M: Message>(bytes: &[u8]) -> Result<M, CdrError> {
             });
         }
     };
-    let (message, used) = decoded.map_err(|source| CdrError::Decode { ros_type, source })?;
+    let (message, used) = match decoded {
+        Ok(decoded) => decoded,
+        Err(source) => {
+            return grown::complete(body, header[1] == 0).ok_or(CdrError::Decode { ros_type, source });
+        }
+    };
     match body.len().saturating_sub(used) {
         extra if extra > MOST_PADDING => Err(CdrError::TooLong { ros_type, extra }),
         _ => Ok(message),

@@ -1,6 +1,156 @@
 //! Generated from `msg/` and `crates/flexdrill-messages/external/` by `cargo xtask messages`. Do not edit.
 
-use super::{ServiceInfo, TypeInfo};
+use super::{ActionInfo, ServiceInfo, TypeInfo};
+
+/// Messages of the ROS package `action_msgs`.
+pub mod action_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::Message;
+
+    /// A goal: its identifier and when it was accepted.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GoalInfo {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+        pub stamp: super::builtin_interfaces::Time,
+    }
+
+    impl Message for GoalInfo {
+        const PACKAGE: &'static str = "action_msgs";
+        const NAME: &'static str = "GoalInfo";
+        const ROS_TYPE: &'static str = "action_msgs/msg/GoalInfo";
+        const DDS_TYPE: &'static str = "action_msgs::msg::dds_::GoalInfo_";
+        const RIHS01: &'static str = "RIHS01_6398fe763154554353930716b225947f93b672f0fb2e49fdd01bb7a7e37933e9";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalInfo.msg"),
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "action_msgs/msg/GoalInfo", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}, {"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
+    }
+
+    /// The state of a goal.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GoalStatus {
+        pub goal_info: GoalInfo,
+        /// One of the above.
+        pub status: i8,
+    }
+
+    impl GoalStatus {
+        pub const STATUS_UNKNOWN: i8 = 0;
+        pub const STATUS_ACCEPTED: i8 = 1;
+        pub const STATUS_EXECUTING: i8 = 2;
+        pub const STATUS_CANCELING: i8 = 3;
+        pub const STATUS_SUCCEEDED: i8 = 4;
+        pub const STATUS_CANCELED: i8 = 5;
+        pub const STATUS_ABORTED: i8 = 6;
+    }
+
+    impl Message for GoalStatus {
+        const PACKAGE: &'static str = "action_msgs";
+        const NAME: &'static str = "GoalStatus";
+        const ROS_TYPE: &'static str = "action_msgs/msg/GoalStatus";
+        const DDS_TYPE: &'static str = "action_msgs::msg::dds_::GoalStatus_";
+        const RIHS01: &'static str = "RIHS01_32f4cfd717735d17657e1178f24431c1ce996c878c515230f6c5b3476819dbb9";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalStatus.msg"),
+            "================================================================================\nMSG: action_msgs/GoalInfo\n",
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalInfo.msg"),
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "action_msgs/msg/GoalStatus", "fields": [{"name": "goal_info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/msg/GoalInfo"}}, {"name": "status", "type": {"type_id": 2, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// The states of all goals that an action server knows.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GoalStatusArray {
+        pub status_list: Vec<GoalStatus>,
+    }
+
+    impl Message for GoalStatusArray {
+        const PACKAGE: &'static str = "action_msgs";
+        const NAME: &'static str = "GoalStatusArray";
+        const ROS_TYPE: &'static str = "action_msgs/msg/GoalStatusArray";
+        const DDS_TYPE: &'static str = "action_msgs::msg::dds_::GoalStatusArray_";
+        const RIHS01: &'static str = "RIHS01_6c1684b00f177d37438febe6e709fc4e2b0d4248dca4854946f9ed8b30cda83e";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalStatusArray.msg"),
+            "================================================================================\nMSG: action_msgs/GoalStatus\n",
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalStatus.msg"),
+            "================================================================================\nMSG: action_msgs/GoalInfo\n",
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalInfo.msg"),
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "action_msgs/msg/GoalStatusArray", "fields": [{"name": "status_list", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/msg/GoalStatus"}}]}"#;
+    }
+
+    /// `action_msgs/srv/CancelGoal_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct CancelGoalRequest {
+        /// Which goals: all where both are zero, one where the identifier is given, those accepted before an instant otherwise.
+        pub goal_info: GoalInfo,
+    }
+
+    impl Message for CancelGoalRequest {
+        const PACKAGE: &'static str = "action_msgs";
+        const NAME: &'static str = "CancelGoal_Request";
+        const ROS_TYPE: &'static str = "action_msgs/srv/CancelGoal_Request";
+        const DDS_TYPE: &'static str = "action_msgs::srv::dds_::CancelGoal_Request_";
+        const RIHS01: &'static str = "RIHS01_3d3c84653c1f96918086887e1dcb236faec88b81a5b14fd4cf4840065bcdf8af";
+        const SCHEMA: &'static str = concat!(
+            "# Which goals: all where both are zero, one where the identifier is given, those accepted before an instant otherwise.\nGoalInfo goal_info\n",
+            "================================================================================\nMSG: action_msgs/GoalInfo\n",
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalInfo.msg"),
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "action_msgs/srv/CancelGoal_Request", "fields": [{"name": "goal_info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/msg/GoalInfo"}}]}"#;
+    }
+
+    /// `action_msgs/srv/CancelGoal_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct CancelGoalResponse {
+        pub return_code: i8,
+        /// The goals that will be cancelled.
+        pub goals_canceling: Vec<GoalInfo>,
+    }
+
+    impl CancelGoalResponse {
+        pub const ERROR_NONE: i8 = 0;
+        pub const ERROR_REJECTED: i8 = 1;
+        pub const ERROR_UNKNOWN_GOAL_ID: i8 = 2;
+        pub const ERROR_GOAL_TERMINATED: i8 = 3;
+    }
+
+    impl Message for CancelGoalResponse {
+        const PACKAGE: &'static str = "action_msgs";
+        const NAME: &'static str = "CancelGoal_Response";
+        const ROS_TYPE: &'static str = "action_msgs/srv/CancelGoal_Response";
+        const DDS_TYPE: &'static str = "action_msgs::srv::dds_::CancelGoal_Response_";
+        const RIHS01: &'static str = "RIHS01_35e682cf3f510e83c70a82a4aac888496dedee56773bf9d8e5e0aa81f9e1c960";
+        const SCHEMA: &'static str = concat!(
+            "int8 ERROR_NONE=0\nint8 ERROR_REJECTED=1\nint8 ERROR_UNKNOWN_GOAL_ID=2\nint8 ERROR_GOAL_TERMINATED=3\n\nint8 return_code\n# The goals that will be cancelled.\nGoalInfo[] goals_canceling\n",
+            "================================================================================\nMSG: action_msgs/GoalInfo\n",
+            include_str!("../../../crates/flexdrill-messages/external/action_msgs/msg/GoalInfo.msg"),
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "action_msgs/srv/CancelGoal_Response", "fields": [{"name": "return_code", "type": {"type_id": 2, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "goals_canceling", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/msg/GoalInfo"}}]}"#;
+    }
+}
 
 /// Messages of the ROS package `builtin_interfaces`.
 pub mod builtin_interfaces {
@@ -130,6 +280,232 @@ pub mod flexdrill {
     use serde::{Deserialize, Serialize};
 
     use crate::Message;
+
+    /// `flexdrill/action/WhatIf_Feedback`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfFeedback {
+        /// Members that have ended.
+        pub done: u32,
+        /// Members that may have to run yet.
+        pub remaining: u32,
+        /// What they say so far, one per candidate.
+        pub answers: Vec<WhatIfAnswer>,
+    }
+
+    impl Message for WhatIfFeedback {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_Feedback";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Feedback";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Feedback_";
+        const RIHS01: &'static str = "RIHS01_e435299ca362989b6fd50934224a51215dc9a0718b66fe738d8b7e48f65d2944";
+        const SCHEMA: &'static str = concat!(
+            "# Members that have ended.\nuint32 done\n# Members that may have to run yet.\nuint32 remaining\n# What they say so far, one per candidate.\nWhatIfAnswer[] answers\n",
+            "================================================================================\nMSG: flexdrill/WhatIfAnswer\n",
+            include_str!("../../../msg/WhatIfAnswer.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+            "================================================================================\nMSG: flexdrill/FigureBand\n",
+            include_str!("../../../msg/FigureBand.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_Feedback", "fields": [{"name": "done", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "remaining", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "answers", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfAnswer"}}]}"#;
+    }
+
+    /// `flexdrill/action/WhatIf_FeedbackMessage`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfFeedbackMessage {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+        pub feedback: WhatIfFeedback,
+    }
+
+    impl Message for WhatIfFeedbackMessage {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_FeedbackMessage";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_FeedbackMessage";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_FeedbackMessage_";
+        const RIHS01: &'static str = "RIHS01_492c6995616148904d3864b1eaa79f33d3f7fee53b70339bbf149c4c6ead8210";
+        const SCHEMA: &'static str = concat!(
+            "unique_identifier_msgs/UUID goal_id\nflexdrill/WhatIf_Feedback feedback\n",
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIf_Feedback\n",
+            "# Members that have ended.\nuint32 done\n# Members that may have to run yet.\nuint32 remaining\n# What they say so far, one per candidate.\nWhatIfAnswer[] answers\n",
+            "================================================================================\nMSG: flexdrill/WhatIfAnswer\n",
+            include_str!("../../../msg/WhatIfAnswer.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+            "================================================================================\nMSG: flexdrill/FigureBand\n",
+            include_str!("../../../msg/FigureBand.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_FeedbackMessage", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Feedback"}}]}"#;
+    }
+
+    /// `flexdrill/action/WhatIf_GetResult_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfGetResultRequest {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+    }
+
+    impl Message for WhatIfGetResultRequest {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_GetResult_Request";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_GetResult_Request";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_GetResult_Request_";
+        const RIHS01: &'static str = "RIHS01_2c598a3606b99d25b6df56466b130ce5b081881b2737472c462dfc4746c64146";
+        const SCHEMA: &'static str = concat!(
+            "unique_identifier_msgs/UUID goal_id\n",
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_GetResult_Request", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}]}"#;
+    }
+
+    /// `flexdrill/action/WhatIf_GetResult_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfGetResultResponse {
+        pub status: i8,
+        pub result: WhatIfResult,
+    }
+
+    impl Message for WhatIfGetResultResponse {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_GetResult_Response";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_GetResult_Response";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_GetResult_Response_";
+        const RIHS01: &'static str = "RIHS01_bf70cea94379287092b3d337bbbcac83211ff67d323972d9a985c0a46b25a556";
+        const SCHEMA: &'static str = concat!(
+            "int8 status\nflexdrill/WhatIf_Result result\n",
+            "================================================================================\nMSG: flexdrill/WhatIf_Result\n",
+            "# The instant of the state that was looked ahead from, on the rig's clock.\nbuiltin_interfaces/Time from_stamp\n# Model step of that state.\nuint64 from_step\n# Whether all members ran that were needed; false after a cancellation.\nbool complete\n# In a sentence: what was found, or why nothing was.\nstring message\n# One per candidate, in the order of the goal.\nWhatIfAnswer[] answers\n",
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfAnswer\n",
+            include_str!("../../../msg/WhatIfAnswer.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+            "================================================================================\nMSG: flexdrill/FigureBand\n",
+            include_str!("../../../msg/FigureBand.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_GetResult_Response", "fields": [{"name": "status", "type": {"type_id": 2, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Result"}}]}"#;
+    }
+
+    /// Looks ahead from the present state of the twin: many short runs of each candidate, which differ by disturbances too small
+    /// to measure. The live run goes on meanwhile.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfGoal {
+        /// Speeds and weights to be tried, 1 to 16.
+        pub candidates: Vec<WhatIfCandidate>,
+        /// Model time that each member is judged over, after the way to the candidate (s), 10 to 600.
+        pub horizon: f64,
+        /// Members per candidate at most, 1 to 200.
+        pub members: u32,
+        /// Whether all members run, also where the first ones decide every alarm.
+        pub run_all: bool,
+        /// Seed of the disturbances. The same goal from the same state gives the same result.
+        pub seed: u64,
+    }
+
+    impl Message for WhatIfGoal {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_Goal";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Goal";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Goal_";
+        const RIHS01: &'static str = "RIHS01_d0072da13cbfe2407b455fc60e344d21d09ff1624c40484d996c2d465d5cc1e8";
+        const SCHEMA: &'static str = concat!(
+            "# Looks ahead from the present state of the twin: many short runs of each candidate, which differ by disturbances too small\n# to measure. The live run goes on meanwhile.\n\n# Speeds and weights to be tried, 1 to 16.\nWhatIfCandidate[] candidates\n# Model time that each member is judged over, after the way to the candidate (s), 10 to 600.\nfloat64 horizon\n# Members per candidate at most, 1 to 200.\nuint32 members\n# Whether all members run, also where the first ones decide every alarm.\nbool run_all\n# Seed of the disturbances. The same goal from the same state gives the same result.\nuint64 seed\n",
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_Goal", "fields": [{"name": "candidates", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfCandidate"}}, {"name": "horizon", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "run_all", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "seed", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `flexdrill/action/WhatIf_Result`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfResult {
+        /// The instant of the state that was looked ahead from, on the rig's clock.
+        pub from_stamp: super::builtin_interfaces::Time,
+        /// Model step of that state.
+        pub from_step: u64,
+        /// Whether all members ran that were needed; false after a cancellation.
+        pub complete: bool,
+        /// In a sentence: what was found, or why nothing was.
+        pub message: std::string::String,
+        /// One per candidate, in the order of the goal.
+        pub answers: Vec<WhatIfAnswer>,
+    }
+
+    impl Message for WhatIfResult {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_Result";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Result";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Result_";
+        const RIHS01: &'static str = "RIHS01_b69781761257e544b7d4cfb16d54131da0abccecac489195e2e6a0ee01ae27f9";
+        const SCHEMA: &'static str = concat!(
+            "# The instant of the state that was looked ahead from, on the rig's clock.\nbuiltin_interfaces/Time from_stamp\n# Model step of that state.\nuint64 from_step\n# Whether all members ran that were needed; false after a cancellation.\nbool complete\n# In a sentence: what was found, or why nothing was.\nstring message\n# One per candidate, in the order of the goal.\nWhatIfAnswer[] answers\n",
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfAnswer\n",
+            include_str!("../../../msg/WhatIfAnswer.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+            "================================================================================\nMSG: flexdrill/FigureBand\n",
+            include_str!("../../../msg/FigureBand.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_Result", "fields": [{"name": "from_stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "from_step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "complete", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "answers", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfAnswer"}}]}"#;
+    }
+
+    /// `flexdrill/action/WhatIf_SendGoal_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfSendGoalRequest {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+        pub goal: WhatIfGoal,
+    }
+
+    impl Message for WhatIfSendGoalRequest {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_SendGoal_Request";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_SendGoal_Request";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_SendGoal_Request_";
+        const RIHS01: &'static str = "RIHS01_0d87129d2d12939bb7ffd275e2e5173d3551698a1e25deffd66b62873d9b7196";
+        const SCHEMA: &'static str = concat!(
+            "unique_identifier_msgs/UUID goal_id\nflexdrill/WhatIf_Goal goal\n",
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIf_Goal\n",
+            "# Looks ahead from the present state of the twin: many short runs of each candidate, which differ by disturbances too small\n# to measure. The live run goes on meanwhile.\n\n# Speeds and weights to be tried, 1 to 16.\nWhatIfCandidate[] candidates\n# Model time that each member is judged over, after the way to the candidate (s), 10 to 600.\nfloat64 horizon\n# Members per candidate at most, 1 to 200.\nuint32 members\n# Whether all members run, also where the first ones decide every alarm.\nbool run_all\n# Seed of the disturbances. The same goal from the same state gives the same result.\nuint64 seed\n",
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_SendGoal_Request", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}, {"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Goal"}}]}"#;
+    }
+
+    /// `flexdrill/action/WhatIf_SendGoal_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfSendGoalResponse {
+        pub accepted: bool,
+        pub stamp: super::builtin_interfaces::Time,
+    }
+
+    impl Message for WhatIfSendGoalResponse {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIf_SendGoal_Response";
+        const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_SendGoal_Response";
+        const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_SendGoal_Response_";
+        const RIHS01: &'static str = "RIHS01_b37fe453111616af53872e38ffee0abe18f90427da0deb94b9d0eace2fa0b9d9";
+        const SCHEMA: &'static str = concat!(
+            "bool accepted\nbuiltin_interfaces/Time stamp\n",
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/action/WhatIf_SendGoal_Response", "fields": [{"name": "accepted", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
+    }
 
     /// Fatigue damage and friction work since the start or the last reset, to compare joints, stations and drilling
     /// parameters with each other. No absolute life follows from them.
@@ -294,6 +670,38 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Alarm", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "active", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "acknowledged", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_until", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "shelved_one_shot", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "value", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "threshold", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "confidence", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "evidence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "consequence", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_to_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "annunciations_last_minute", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "category", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "from_earlier_run", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "what_the_engineer_can_do", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "worst_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "ended", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "ended_at", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
     }
 
+    /// How many members of a look-ahead saw an alarm: raised after the first 5 s of the horizon, or standing in its second half.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct AlarmChance {
+        /// Id of the alarm, such as backward_whirl.
+        pub id: std::string::String,
+        /// Its name for people.
+        pub name: std::string::String,
+        /// Of this priority or a higher one: Alarm.LOW, MEDIUM or HIGH.
+        pub priority: u8,
+        /// Members that saw it.
+        pub seen: u32,
+        /// Members that ended.
+        pub members: u32,
+        /// Share of the members; NaN where none ended.
+        pub probability: f64,
+        /// The 95 % interval of the probability (Wilson).
+        pub lower: f64,
+        pub upper: f64,
+        /// Median of the time from the beginning of the horizon until the alarm counts (s), over the members that saw it.
+        pub time_to_first: f64,
+    }
+
+    impl Message for AlarmChance {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "AlarmChance";
+        const ROS_TYPE: &'static str = "flexdrill/msg/AlarmChance";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AlarmChance_";
+        const RIHS01: &'static str = "RIHS01_b09881a359085a3ee2125e592e203f926e9891e2cb86e051c7a67408e9bf44fd";
+        const SCHEMA: &'static str = include_str!("../../../msg/AlarmChance.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AlarmChance", "fields": [{"name": "id", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "seen", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "probability", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_to_first", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// One change of one alarm: an entry of the journal. Alarm defines the states and priorities.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AlarmEvent {
@@ -444,7 +852,8 @@ pub mod flexdrill {
         pub rotary_speed: f64,
         /// Target weight on bit, before the slew limit (N).
         pub weight_on_bit: f64,
-        /// The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
+        /// The worst state of the inputs that the tool uses: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or
+        /// INPUT_REJECTED. An optional input of which no sample has arrived does not count.
         pub input_quality: u8,
         /// Slew limit of the rotary speed (rad/s2).
         pub rotary_speed_slew: f64,
@@ -464,6 +873,14 @@ pub mod flexdrill {
         pub parameter_asked_by: Vec<std::string::String>,
         /// Every model step is solved in 2^refinement equal parts: as many as the motion requires and the pace allows.
         pub refinement: u8,
+        /// Target rate of penetration, before the slew limit (m/s); negative while the tool is pulled back.
+        pub rate_of_penetration: f64,
+        /// Target standpipe pressure, inside minus outside, before the slew limit (Pa).
+        pub standpipe_pressure: f64,
+        /// Slew limit of the rate of penetration (m/s2).
+        pub rate_of_penetration_slew: f64,
+        /// Slew limit of the standpipe pressure (Pa/s).
+        pub standpipe_pressure_slew: f64,
     }
 
     impl AppliedInputs {
@@ -477,6 +894,8 @@ pub mod flexdrill {
         pub const INPUT_STALE: u8 = 3;
         /// The newest sample was refused; the last good value is held.
         pub const INPUT_REJECTED: u8 = 4;
+        /// An optional input of which no sample has arrived: the twin runs on its configured constant.
+        pub const INPUT_ASSUMED: u8 = 5;
     }
 
     impl Message for AppliedInputs {
@@ -484,7 +903,7 @@ pub mod flexdrill {
         const NAME: &'static str = "AppliedInputs";
         const ROS_TYPE: &'static str = "flexdrill/msg/AppliedInputs";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::AppliedInputs_";
-        const RIHS01: &'static str = "RIHS01_1c82816f859bebe6dc1a7f3241f352f0a9eadcdf18327edfd5871298a6be51f3";
+        const RIHS01: &'static str = "RIHS01_34b14ec2983cc54e4f27e00fa9e2b35e00a1b7ebe8aae8126996f58894e5fd76";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/AppliedInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -492,7 +911,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AppliedInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "skipped_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reset", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inner_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "outer_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_asked_by", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "refinement", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AppliedInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "skipped_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reset", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inner_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "outer_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_asked_by", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "refinement", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// The bit.
@@ -644,6 +1063,30 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ContactForces", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_pipe_guide_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_pipe_guide_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_impulse", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_layer", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// A figure of a look-ahead over its members.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct FigureBand {
+        /// bit_speed_ripple, pipe_guide_force, guide_wall_force, stop_moment, bending_cycles, damage, torque_transfer or
+        /// weight_transfer.
+        pub name: std::string::String,
+        /// Unit; empty for a ratio.
+        pub unit: std::string::String,
+        /// Quantiles over the members at 5, 50 and 95 %; NaN where no member has the figure.
+        pub p5: f64,
+        pub p50: f64,
+        pub p95: f64,
+    }
+
+    impl Message for FigureBand {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "FigureBand";
+        const ROS_TYPE: &'static str = "flexdrill/msg/FigureBand";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::FigureBand_";
+        const RIHS01: &'static str = "RIHS01_232c55beb50dfd1e690034962b6e3d73f6ddc61f6279b58c7e40069dc1c747dd";
+        const SCHEMA: &'static str = include_str!("../../../msg/FigureBand.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/FigureBand", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p5", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p95", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
     /// entry 0 is joint_01 of joint_states.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -769,8 +1212,8 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Reactions", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "drive_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "support_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "wall_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inertia_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "damping_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unbalanced_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// Both inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm
-    /// and rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
+    /// The inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm,
+    /// rig/weight_on_bit_kn, rig/rate_of_penetration and rig/standpipe_pressure carry the numbers alone. Topic rig/inputs.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct RigInputs {
         /// Stamp: time of the measurement, on the rig's clock. The age of the input counts from it. Frame: not used.
@@ -779,10 +1222,14 @@ pub mod flexdrill {
         pub rotary_speed_rpm: f64,
         /// Weight on bit (kN), NaN if not given.
         pub weight_on_bit_kn: f64,
-        /// Quality of both values: GOOD, SUSPECT or BAD.
+        /// Quality of all values: GOOD, SUSPECT or BAD.
         pub quality: u8,
         /// Sensor or program of origin, for displays; may be empty.
         pub source: std::string::String,
+        /// Rate of penetration (m/h), negative while the tool is pulled back; NaN if not given.
+        pub rate_of_penetration_m_per_h: f64,
+        /// Standpipe pressure, inside minus outside at the tool's top (MPa), NaN if not given.
+        pub standpipe_pressure_mpa: f64,
     }
 
     impl RigInputs {
@@ -799,7 +1246,7 @@ pub mod flexdrill {
         const NAME: &'static str = "RigInputs";
         const ROS_TYPE: &'static str = "flexdrill/msg/RigInputs";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::RigInputs_";
-        const RIHS01: &'static str = "RIHS01_2c72cf99edd4f28f8dc259cc4421f48494a0cb51aeae5c7a0580529132a032ac";
+        const RIHS01: &'static str = "RIHS01_da73ca5b1d4349463ac48b05c8b2fb39f27eb04741adc3e476a022c960ed0a12";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/RigInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -807,7 +1254,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_m_per_h", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_mpa", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Configuration and version of a run, so that a recording is self-contained.
@@ -841,6 +1288,121 @@ pub mod flexdrill {
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/SessionInfo", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "start", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "configuration", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// Torque, weight and power from the surface to the bit, and where they are lost. All figures are means over the last
+    /// `duration` seconds, in which every step counts; those ending in `_rms` are root mean squares over the same time.
+    /// A figure that the tool does not have is NaN: surface torque and hook load need the string above, surface weight and
+    /// drag of the string its hoist, the depth of cut a rock that holds the bit.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Transfer {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Time that the means cover (s): transfer.window, less at the beginning; 0 before the first tenth of a second.
+        pub duration: f64,
+        /// Torque of the top drive (N m), positive when it drives.
+        pub surface_torque: f64,
+        /// Root mean square of it (N m).
+        pub surface_torque_rms: f64,
+        /// Torque on the top of the tool (N m), positive when it drives.
+        pub kickoff_torque: f64,
+        /// Root mean square of it (N m).
+        pub kickoff_torque_rms: f64,
+        /// Torque of the rock against the bit (N m).
+        pub bit_torque: f64,
+        /// Root mean square of it (N m).
+        pub bit_torque_rms: f64,
+        /// Torque at the bit over that at the surface, without a string over that at the kick-off. NaN below 1 N m there.
+        pub torque_efficiency: f64,
+        /// Torque of the rotation that friction between pipe and guide takes (N m): its power over the speed of the tool's top.
+        /// NaN while the tool stands, as for the next two.
+        pub pipe_guide_friction_torque: f64,
+        /// Torque of the rotation that friction between guide and wall takes (N m), without what the advance takes.
+        pub guide_wall_friction_torque: f64,
+        /// Torque of the rotation that the pins of the joints take (N m).
+        pub joint_friction_torque: f64,
+        /// Torque that the friction of the wall takes from the string above (N m).
+        pub string_friction_torque: f64,
+        /// Weight that is slacked off at the surface (N).
+        pub surface_weight: f64,
+        /// Root mean square of it (N).
+        pub surface_weight_rms: f64,
+        /// Axial force on the guide at the kick-off (N), positive where it pushes down the hole.
+        pub kickoff_weight: f64,
+        /// Root mean square of it (N).
+        pub kickoff_weight_rms: f64,
+        /// Weight on the bit (N).
+        pub bit_weight: f64,
+        /// Root mean square of it (N).
+        pub bit_weight_rms: f64,
+        /// Load on the hook (N).
+        pub hook_load: f64,
+        /// Axial friction of the guide on the pipe (N), positive where it pushes up the hole.
+        pub pipe_guide_axial_drag: f64,
+        /// Axial friction of the wall on the guide (N), positive where it pushes up the hole.
+        pub guide_wall_axial_drag: f64,
+        /// Axial friction of the wall on the string above (N), positive where it pushes up the hole.
+        pub string_axial_drag: f64,
+        /// Depth of cut (m per turn).
+        pub depth_of_cut: f64,
+        /// Rate of penetration of the bit (m/s), negative when the tool is pulled back.
+        pub rate_of_penetration: f64,
+        /// Power put in: of the top drive (W).
+        pub drive_power: f64,
+        /// Of the hoist (W).
+        pub hoist_power: f64,
+        /// Of the weight on bit, where the weight is given (W).
+        pub weight_on_bit_power: f64,
+        /// Of gravity (W).
+        pub gravity_power: f64,
+        /// Of the point loads (W).
+        pub load_power: f64,
+        /// Of the advance of the tool against the friction of the wall (W).
+        pub feed_power: f64,
+        /// Of the pressure in the pipe (W).
+        pub pressure_power: f64,
+        /// Power taken: by the rock (W).
+        pub bit_power: f64,
+        /// By friction in both layers and in the joints (W): the sum of the next three, to the accuracy of a step.
+        pub friction_power: f64,
+        /// By friction between pipe and guide (W).
+        pub pipe_guide_friction_power: f64,
+        /// By friction between guide and wall (W).
+        pub guide_wall_friction_power: f64,
+        /// By friction in the joints (W).
+        pub joint_friction_power: f64,
+        /// By the damping of contacts, stops and joints with play (W).
+        pub contact_damping_power: f64,
+        /// By Rayleigh damping (W).
+        pub rayleigh_damping_power: f64,
+        /// By the time integration (W).
+        pub numerical_damping_power: f64,
+        /// By the string above, to friction on the wall and to the mud (W).
+        pub string_power: f64,
+        /// Of updating the axial force in the geometric stiffness (W), positive when put in.
+        pub axial_update_power: f64,
+        /// Stored as motion and deformation (W), negative when it is released.
+        pub stored_power: f64,
+        /// Put in, less taken, less stored (W): the error of the energy audit.
+        pub error_power: f64,
+        /// By the mud that moves with pipe and guide (W): power taken, part of the same balance.
+        pub mud_power: f64,
+    }
+
+    impl Message for Transfer {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Transfer";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Transfer";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Transfer_";
+        const RIHS01: &'static str = "RIHS01_6b2d808978473e5fe3b74336f6c2b20ae586c69bab21147455d7e086a39ece27";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/Transfer.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Transfer", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_efficiency", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hook_load", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "depth_of_cut", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drive_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hoist_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "gravity_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "feed_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pressure_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rayleigh_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "numerical_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_update_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stored_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "error_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mud_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Health of the twin. The sequence is its heartbeat: when it stops, the twin has stopped.
@@ -903,9 +1465,10 @@ pub mod flexdrill {
         pub config_hash: std::string::String,
         /// Version of flexdrill.
         pub version: std::string::String,
-        /// Per input: rotary_speed, weight_on_bit.
+        /// Per input: rotary_speed, weight_on_bit; then rate_of_penetration and standpipe_pressure where the tool uses them, a
+        /// value other than zero is assumed, or a sample arrived.
         pub input_name: Vec<std::string::String>,
-        /// INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
+        /// INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE, INPUT_REJECTED or INPUT_ASSUMED.
         pub input_state: Vec<u8>,
         /// Time since the newest good sample (s), NaN if there was none.
         pub input_age: Vec<f64>,
@@ -1004,6 +1567,8 @@ pub mod flexdrill {
         pub const INPUT_STALE: u8 = 3;
         /// The newest sample was refused; the last good value is held.
         pub const INPUT_REJECTED: u8 = 4;
+        /// An optional input of which no sample has arrived: the twin runs on its configured constant.
+        pub const INPUT_ASSUMED: u8 = 5;
         /// Not recording.
         pub const RECORDING_OFF: u8 = 0;
         /// Recording to recording_path.
@@ -1041,6 +1606,78 @@ pub mod flexdrill {
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/TwinStatus", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "sequence", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_time", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_count", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "time_step", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "real_time_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateness", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "deadline_misses", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_skipped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_p99", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_time_max", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "newton_iterations_mean", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rejected_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "halved_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "last_rejection_measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_path", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_messages", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "config_hash", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "version", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_age", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_received", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_applied", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_rejected", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_topic", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_sent", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "output_dropped", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "phase_time", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "model_quality_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "energy_error_share", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_up", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restarts", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_restart_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "dds_stalled_reader", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "namesake", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "clock_set_by", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_driver", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_publishers", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_several_drivers", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_not_driving", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_unreadable", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_safe", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_source", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_suspect", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "frames_dropped", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "events_lost", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_overrun", "type": {"type_id": 153, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_in_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "step_wanted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pace_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "recording_drops_cause", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steps_stood_still", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// What a look-ahead says of one candidate.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfAnswer {
+        /// Which.
+        pub candidate: WhatIfCandidate,
+        /// Time of the way to the candidate's speed and weight, before the horizon (s); NaN where they were not reached.
+        pub run_up: f64,
+        /// Members that count: those up to the first number at which every alarm is decided.
+        pub members: u32,
+        /// Members among them whose motion could not be computed to the end. They are in no probability: what would have come is
+        /// unknown, not safe.
+        pub failed: u32,
+        /// Why the first of these failed, or why there is no member at all; empty where none did.
+        pub failure: std::string::String,
+        /// Whether the members decide every alarm: a sequential test between a chance of a tenth or less and one of a half or more,
+        /// with a risk of 5 % for either error.
+        pub decided: bool,
+        /// Chance that a member saw any alarm, with its 95 % interval (Wilson); NaN where no member ended.
+        pub any_alarm: f64,
+        pub any_alarm_lower: f64,
+        pub any_alarm_upper: f64,
+        /// The alarms that a member saw, with each priority.
+        pub alarms: Vec<AlarmChance>,
+        /// The continuous figures.
+        pub figures: Vec<FigureBand>,
+        /// Members by the worst quality of their computed motion.
+        pub quality_good: u32,
+        pub quality_degraded: u32,
+        pub quality_poor: u32,
+    }
+
+    impl Message for WhatIfAnswer {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIfAnswer";
+        const ROS_TYPE: &'static str = "flexdrill/msg/WhatIfAnswer";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhatIfAnswer_";
+        const RIHS01: &'static str = "RIHS01_4a210afc4b28ad008bb3e1f11533227192bc517075c2364d2c04ad1a643e57cd";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/WhatIfAnswer.msg"),
+            "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
+            include_str!("../../../msg/WhatIfCandidate.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+            "================================================================================\nMSG: flexdrill/FigureBand\n",
+            include_str!("../../../msg/FigureBand.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhatIfAnswer", "fields": [{"name": "candidate", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfCandidate"}}, {"name": "run_up", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "decided", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "figures", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/FigureBand"}}, {"name": "quality_good", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_degraded", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_poor", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// A rotary speed and a weight on bit to be tried in a look-ahead.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct WhatIfCandidate {
+        /// Rotary speed (r/min), within inputs.rotary_speed of the configuration.
+        pub rotary_speed: f64,
+        /// Weight on bit (kN), within inputs.weight_on_bit of the configuration.
+        pub weight_on_bit: f64,
+        /// How fast the speed changes on the way there (r/min per s); 0: as fast as the configuration's slew limit.
+        pub speed_ramp: f64,
+        /// How fast the weight changes on the way there (kN/s); 0: as fast as the configuration's slew limit.
+        pub weight_ramp: f64,
+    }
+
+    impl Message for WhatIfCandidate {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "WhatIfCandidate";
+        const ROS_TYPE: &'static str = "flexdrill/msg/WhatIfCandidate";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhatIfCandidate_";
+        const RIHS01: &'static str = "RIHS01_b392e04faf28921ab0c566de14e41ba9c8b3166bff07086a1746ac7d13848921";
+        const SCHEMA: &'static str = include_str!("../../../msg/WhatIfCandidate.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhatIfCandidate", "fields": [{"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "speed_ramp", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_ramp", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Whirl at every watched station. All arrays have one entry per watched station and pipe.
@@ -1148,7 +1785,8 @@ pub mod flexdrill {
         pub window: f64,
         /// When this level was reached, on the rig's clock.
         pub since: super::builtin_interfaces::Time,
-        /// The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED.
+        /// The worst state of the inputs that the tool uses: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or
+        /// INPUT_REJECTED.
         pub input_quality: u8,
         /// Number of changes so far, of the level, its station and kind, or of the trust in the inputs.
         pub sequence: u64,
@@ -1198,6 +1836,8 @@ pub mod flexdrill {
         pub const INPUT_STALE: u8 = 3;
         /// The newest sample was refused; the last good value is held.
         pub const INPUT_REJECTED: u8 = 4;
+        /// An optional input of which no sample has arrived: the twin runs on its configured constant.
+        pub const INPUT_ASSUMED: u8 = 5;
     }
 
     impl Message for WhirlWarning {
@@ -2890,6 +3530,29 @@ pub mod type_description_interfaces {
     }
 }
 
+/// Messages of the ROS package `unique_identifier_msgs`.
+pub mod unique_identifier_msgs {
+    use serde::{Deserialize, Serialize};
+
+    use crate::Message;
+
+    /// A universally unique identifier.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct UUID {
+        pub uuid: [u8; 16],
+    }
+
+    impl Message for UUID {
+        const PACKAGE: &'static str = "unique_identifier_msgs";
+        const NAME: &'static str = "UUID";
+        const ROS_TYPE: &'static str = "unique_identifier_msgs/msg/UUID";
+        const DDS_TYPE: &'static str = "unique_identifier_msgs::msg::dds_::UUID_";
+        const RIHS01: &'static str = "RIHS01_1b8e8aca958cbea28fe6ef60bf6c19b683c97a9ef60bb34752067d0f2f7ab437";
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "unique_identifier_msgs/msg/UUID", "fields": [{"name": "uuid", "type": {"type_id": 51, "capacity": 16, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+}
+
 /// Messages of the ROS package `visualization_msgs`.
 pub mod visualization_msgs {
     use serde::{Deserialize, Serialize};
@@ -3053,23 +3716,41 @@ pub mod visualization_msgs {
 
 /// Every generated type, sorted by name.
 pub const TYPES: &[TypeInfo] = &[
+    <action_msgs::GoalInfo as super::Message>::INFO,
+    <action_msgs::GoalStatus as super::Message>::INFO,
+    <action_msgs::GoalStatusArray as super::Message>::INFO,
+    <action_msgs::CancelGoalRequest as super::Message>::INFO,
+    <action_msgs::CancelGoalResponse as super::Message>::INFO,
     <builtin_interfaces::Duration as super::Message>::INFO,
     <builtin_interfaces::Time as super::Message>::INFO,
     <diagnostic_msgs::DiagnosticArray as super::Message>::INFO,
     <diagnostic_msgs::DiagnosticStatus as super::Message>::INFO,
     <diagnostic_msgs::KeyValue as super::Message>::INFO,
+    <flexdrill::WhatIfFeedback as super::Message>::INFO,
+    <flexdrill::WhatIfFeedbackMessage as super::Message>::INFO,
+    <flexdrill::WhatIfGetResultRequest as super::Message>::INFO,
+    <flexdrill::WhatIfGetResultResponse as super::Message>::INFO,
+    <flexdrill::WhatIfGoal as super::Message>::INFO,
+    <flexdrill::WhatIfResult as super::Message>::INFO,
+    <flexdrill::WhatIfSendGoalRequest as super::Message>::INFO,
+    <flexdrill::WhatIfSendGoalResponse as super::Message>::INFO,
     <flexdrill::Ageing as super::Message>::INFO,
     <flexdrill::Alarm as super::Message>::INFO,
+    <flexdrill::AlarmChance as super::Message>::INFO,
     <flexdrill::AlarmEvent as super::Message>::INFO,
     <flexdrill::AlarmList as super::Message>::INFO,
     <flexdrill::AppliedInputs as super::Message>::INFO,
     <flexdrill::BitState as super::Message>::INFO,
     <flexdrill::ContactForces as super::Message>::INFO,
+    <flexdrill::FigureBand as super::Message>::INFO,
     <flexdrill::JointDeflections as super::Message>::INFO,
     <flexdrill::Reactions as super::Message>::INFO,
     <flexdrill::RigInputs as super::Message>::INFO,
     <flexdrill::SessionInfo as super::Message>::INFO,
+    <flexdrill::Transfer as super::Message>::INFO,
     <flexdrill::TwinStatus as super::Message>::INFO,
+    <flexdrill::WhatIfAnswer as super::Message>::INFO,
+    <flexdrill::WhatIfCandidate as super::Message>::INFO,
     <flexdrill::WhirlState as super::Message>::INFO,
     <flexdrill::WhirlWarning as super::Message>::INFO,
     <flexdrill::AcknowledgeAlarmRequest as super::Message>::INFO,
@@ -3145,6 +3826,7 @@ pub const TYPES: &[TypeInfo] = &[
     <type_description_interfaces::TypeSource as super::Message>::INFO,
     <type_description_interfaces::GetTypeDescriptionRequest as super::Message>::INFO,
     <type_description_interfaces::GetTypeDescriptionResponse as super::Message>::INFO,
+    <unique_identifier_msgs::UUID as super::Message>::INFO,
     <visualization_msgs::Marker as super::Message>::INFO,
     <visualization_msgs::MarkerArray as super::Message>::INFO,
     <visualization_msgs::MeshFile as super::Message>::INFO,
@@ -3153,6 +3835,30 @@ pub const TYPES: &[TypeInfo] = &[
 
 /// Every service, sorted by name.
 pub const SERVICES: &[ServiceInfo] = &[
+    ServiceInfo {
+        ros_type: "action_msgs/srv/CancelGoal",
+        rihs01: "RIHS01_573d8b0a534451d7bc2ac8c5ffde8ac14b8593b7001175d0cd6516dcbeb8689a",
+        source: include_str!("../../../crates/flexdrill-messages/external/action_msgs/srv/CancelGoal.srv"),
+        description: r#"{"type_name": "action_msgs/srv/CancelGoal", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/srv/CancelGoal_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/srv/CancelGoal_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "action_msgs/srv/CancelGoal_Event"}}]}"#,
+        event_type: "action_msgs/srv/CancelGoal_Event",
+        event_description: r#"{"type_name": "action_msgs/srv/CancelGoal_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "action_msgs/srv/CancelGoal_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "action_msgs/srv/CancelGoal_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "flexdrill/action/WhatIf_GetResult",
+        rihs01: "RIHS01_40e367122f03488e5bb29a6c566e3e1d8f886dc933f46c1565ba7edd50b04cdb",
+        source: "",
+        description: r#"{"type_name": "flexdrill/action/WhatIf_GetResult", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Event"}}]}"#,
+        event_type: "flexdrill/action/WhatIf_GetResult_Event",
+        event_description: r#"{"type_name": "flexdrill/action/WhatIf_GetResult_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "flexdrill/action/WhatIf_SendGoal",
+        rihs01: "RIHS01_411266d3df75bbbdbfd218287e270f84321195ee0090836411c7e6d7aa13cf37",
+        source: "",
+        description: r#"{"type_name": "flexdrill/action/WhatIf_SendGoal", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal_Event"}}]}"#,
+        event_type: "flexdrill/action/WhatIf_SendGoal_Event",
+        event_description: r#"{"type_name": "flexdrill/action/WhatIf_SendGoal_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal_Response"}}]}"#,
+    },
     ServiceInfo {
         ros_type: "flexdrill/srv/AcknowledgeAlarm",
         rihs01: "RIHS01_edcf727feeabd4248a12a54fe946fb8c26e4cadd2265b4e0a1baef3c9966e439",
@@ -3296,5 +4002,15 @@ pub const SERVICES: &[ServiceInfo] = &[
         description: r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Event"}}]}"#,
         event_type: "type_description_interfaces/srv/GetTypeDescription_Event",
         event_description: r#"{"type_name": "type_description_interfaces/srv/GetTypeDescription_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "type_description_interfaces/srv/GetTypeDescription_Response"}}]}"#,
+    },
+];
+
+/// Every action, sorted by name.
+pub const ACTIONS: &[ActionInfo] = &[
+    ActionInfo {
+        ros_type: "flexdrill/action/WhatIf",
+        rihs01: "RIHS01_8046104adc59ab53605dcfd9a29dee2510e34b28fccbcf9b192362140e2ac955",
+        source: include_str!("../../../msg/WhatIf.action"),
+        description: r#"{"type_name": "flexdrill/action/WhatIf", "fields": [{"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Goal"}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Result"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Feedback"}}, {"name": "send_goal_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal"}}, {"name": "get_result_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult"}}, {"name": "feedback_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_FeedbackMessage"}}]}"#,
     },
 ];

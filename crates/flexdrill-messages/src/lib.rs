@@ -3,6 +3,7 @@
 
 mod cdr;
 pub mod fill;
+mod grown;
 mod journal;
 pub mod large_array;
 mod message;
@@ -18,10 +19,12 @@ pub mod words;
 #[rustfmt::skip]
 pub mod generated;
 
-pub use cdr::{CdrError, MOST_PADDING, from_cdr, from_cdr_body, to_cdr, to_cdr_body, to_cdr_into};
+pub use cdr::{
+    CdrError, MOST_PADDING, from_cdr, from_cdr_body, message_from_cdr_body, to_cdr, to_cdr_body, to_cdr_into,
+};
 pub use generated::flexdrill::*;
 pub use generated::{
-    builtin_interfaces, diagnostic_msgs, geometry_msgs, lifecycle_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs,
-    std_msgs, std_srvs, tf2_msgs, type_description_interfaces, visualization_msgs,
+    action_msgs, builtin_interfaces, diagnostic_msgs, geometry_msgs, lifecycle_msgs, rcl_interfaces, rosgraph_msgs,
+    sensor_msgs, std_msgs, std_srvs, tf2_msgs, type_description_interfaces, unique_identifier_msgs, visualization_msgs,
 };
-pub use message::{Message, ServiceInfo, TypeInfo, find_service, find_type};
+pub use message::{ActionInfo, Message, ServiceInfo, TypeInfo, find_action, find_service, find_type};

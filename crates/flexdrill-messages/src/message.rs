@@ -84,6 +84,24 @@ pub struct ServiceInfo {
     pub event_description: &'static str,
 }
 
+/// The constants of an action type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ActionInfo {
+    /// Full name: `flexdrill/action/WhatIf`.
+    pub ros_type: &'static str,
+    /// Type hash of the action as a whole.
+    pub rihs01: &'static str,
+    /// Its definition.
+    pub source: &'static str,
+    /// As [`TypeInfo::description`]: its fields are goal, result, feedback, and the services and message that carry them.
+    pub description: &'static str,
+}
+
+/// The action type of that full name.
+pub fn find_action(ros_type: &str) -> Option<&'static ActionInfo> {
+    generated::ACTIONS.iter().find(|info| info.ros_type == ros_type)
+}
+
 /// The service type of that full name.
 pub fn find_service(ros_type: &str) -> Option<&'static ServiceInfo> {
     generated::SERVICES.iter().find(|info| info.ros_type == ros_type)

@@ -12,8 +12,8 @@ use super::tf2_msgs::TFMessage;
 use super::topics::{self, TopicInfo};
 use super::visualization_msgs::MarkerArray;
 use super::{
-    Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, Reactions, SessionInfo, WhirlState,
-    WhirlWarning, to_cdr_into,
+    Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, Reactions, SessionInfo, Transfer,
+    WhirlState, WhirlWarning, to_cdr_into,
 };
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
@@ -73,6 +73,7 @@ pub struct Outputs {
     tool_shape: MarkerArray,
     ageing: Ageing,
     reactions: Reactions,
+    transfer: Transfer,
     /// Sequence of the level that was sent last, and whether it was suppressed.
     warned: Option<(u64, bool)>,
     /// How often a warning was suppressed or released; counts as a change too.
@@ -102,6 +103,7 @@ fn schedule_of(config: &Config, rates: &Rates) -> Schedule {
         Output::ToolShape => rates.tool_shape,
         Output::Ageing => rates.ageing,
         Output::Reactions => rates.reactions,
+        Output::Transfer => rates.transfer,
         Output::Alarms => ALARM_RATE,
     })
 }
@@ -130,6 +132,7 @@ impl Outputs {
             tool_shape: MarkerArray::default(),
             ageing: Ageing::default(),
             reactions: Reactions::default(),
+            transfer: Transfer::default(),
             warned: None,
             suppressions: 0,
             last_applied: None,
@@ -210,6 +213,11 @@ impl Outputs {
                     fill::reactions(snapshot, &header, &mut self.reactions);
                     to_cdr_into(&self.reactions, &mut self.bytes)?;
                     &topics::REACTIONS
+                }
+                Output::Transfer => {
+                    fill::transfer(snapshot, &header, &mut self.transfer);
+                    to_cdr_into(&self.transfer, &mut self.bytes)?;
+                    &topics::TRANSFER
                 }
                 Output::Alarms => continue,
             };
@@ -311,6 +319,10 @@ impl Outputs {
             parameter_value: changes.iter().map(|change| change.value).collect(),
             parameter_asked_by: changes.iter().map(|change| change.asked_by.clone()).collect(),
             refinement: u8::try_from(inputs.refinement).unwrap_or(u8::MAX),
+            rate_of_penetration: inputs.inputs.rate_of_penetration,
+            standpipe_pressure: inputs.inputs.standpipe_pressure,
+            rate_of_penetration_slew: inputs.slew[2],
+            standpipe_pressure_slew: inputs.slew[3],
         };
         to_cdr_into(&message, &mut self.bytes)?;
         send(Encoded {
@@ -392,8 +404,15 @@ pub fn run_inputs(message: &AppliedInputs, config: &Config, begun: &Rates) -> Ru
         inputs: flexdrill_core::inputs::Inputs {
             rotary_speed: message.rotary_speed,
             weight_on_bit: message.weight_on_bit,
+            rate_of_penetration: message.rate_of_penetration,
+            standpipe_pressure: message.standpipe_pressure,
         },
-        slew: [message.rotary_speed_slew, message.weight_on_bit_slew],
+        slew: [
+            message.rotary_speed_slew,
+            message.weight_on_bit_slew,
+            message.rate_of_penetration_slew,
+            message.standpipe_pressure_slew,
+        ],
         live: flexdrill_core::tool::LiveParameters {
             inner_friction: message.inner_friction,
             outer_friction: message.outer_friction,

@@ -2,7 +2,7 @@
 
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
-    RigInputs, SessionInfo, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs,
+    RigInputs, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs,
     sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
 
@@ -89,7 +89,21 @@ pub const WEIGHT_ON_BIT_KN: TopicInfo = TopicInfo::new(
     Cadence::Received,
     BEST_EFFORT,
 );
-/// Input: both values with stamp, quality and source.
+/// Input: advance of the tool along the hole in m/h. Optional.
+pub const RATE_OF_PENETRATION: TopicInfo = TopicInfo::new(
+    "rig/rate_of_penetration",
+    std_msgs::Float64::INFO,
+    Cadence::Received,
+    BEST_EFFORT,
+);
+/// Input: pressure inside minus outside at the tool's top in MPa. Optional.
+pub const STANDPIPE_PRESSURE: TopicInfo = TopicInfo::new(
+    "rig/standpipe_pressure",
+    std_msgs::Float64::INFO,
+    Cadence::Received,
+    BEST_EFFORT,
+);
+/// Input: all values with stamp, quality and source.
 pub const RIG_INPUTS: TopicInfo = TopicInfo::new("rig/inputs", RigInputs::INFO, Cadence::Received, BEST_EFFORT);
 /// Input: the rig's clock, with `use_sim_time` only.
 pub const CLOCK: TopicInfo = TopicInfo::new("/clock", rosgraph_msgs::Clock::INFO, Cadence::Received, BEST_EFFORT);
@@ -133,6 +147,9 @@ pub const REACTIONS: TopicInfo = TopicInfo::new(
     Cadence::Rate("reactions"),
     reliable(10),
 );
+/// Output: torque, weight and power from the surface to the bit.
+pub const TRANSFER: TopicInfo =
+    TopicInfo::new("twin/transfer", Transfer::INFO, Cadence::Rate("transfer"), reliable(10));
 /// Output: health and heartbeat.
 pub const STATUS: TopicInfo = TopicInfo::new("twin/status", TwinStatus::INFO, Cadence::Rate("status"), reliable(10));
 /// Output: picture of the tool.
@@ -170,9 +187,11 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 20] = [
+pub const ALL: [TopicInfo; 23] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
+    RATE_OF_PENETRATION,
+    STANDPIPE_PRESSURE,
     RIG_INPUTS,
     CLOCK,
     JOINT_DEFLECTIONS,
@@ -184,6 +203,7 @@ pub const ALL: [TopicInfo; 20] = [
     AGEING,
     BIT_STATE,
     REACTIONS,
+    TRANSFER,
     STATUS,
     TOOL_SHAPE,
     APPLIED_INPUTS,

@@ -74,6 +74,7 @@ pub fn input_state(code: u8) -> &'static str {
         TwinStatus::INPUT_SLOW => "slow",
         TwinStatus::INPUT_STALE => "stale",
         TwinStatus::INPUT_REJECTED => "rejected",
+        TwinStatus::INPUT_ASSUMED => "assumed",
         _ => UNKNOWN,
     }
 }

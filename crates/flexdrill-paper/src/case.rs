@@ -78,6 +78,7 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(case.rotary_speed_rpm),
         weight_on_bit: kn_to_n(case.weight_on_bit_kn),
+        ..Inputs::default()
     };
     let dt = settings.time_step;
     let per_sample = (1.0 / (case.sample_rate * dt)).round().max(1.0) as u64;

@@ -14,8 +14,8 @@ use super::panel::{Figure, Legend, Line, Mark, Panel};
 
 /// Units of the drawing per unit of its stated size.
 pub(crate) const SCALE: u32 = 4;
-/// Width of a drawing.
-pub(crate) const WIDTH: u32 = 1080 * SCALE;
+/// Stated width of a drawing that fills a page.
+pub(crate) const WIDTH: u32 = 1080;
 /// The font, so that figures have the same layout on every machine. `font/README.md` has its source.
 pub(crate) const FONT: &[u8] = include_bytes!("font/Roboto-Regular.ttf");
 /// Its name.
@@ -53,6 +53,14 @@ pub struct DrawError {
 /// # Errors
 /// When the drawing library fails, which it does not for finite data.
 pub fn svg(figure: &Figure) -> Result<String, DrawError> {
+    svg_of_width(figure, WIDTH)
+}
+
+/// The figure as SVG of another width. Texts keep their size, so that a figure of 480 units is still read on a telephone.
+///
+/// # Errors
+/// As [`svg`].
+pub fn svg_of_width(figure: &Figure, width: u32) -> Result<String, DrawError> {
     static FONT_IS_KNOWN: OnceLock<bool> = OnceLock::new();
     let failed = |reason: String| DrawError {
         figure: figure.name,
@@ -62,12 +70,13 @@ pub fn svg(figure: &Figure) -> Result<String, DrawError> {
         return Err(failed("the embedded font is not one".to_owned()));
     }
     let rows = layout(figure);
+    let (stated, width) = (width, width * SCALE);
     let height = figure.height * SCALE * rows.len() as u32;
     let mut text = String::new();
     {
-        let area = SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area();
+        let area = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
         area.fill(&WHITE).map_err(|error| failed(error.to_string()))?;
-        let unit = WIDTH / figure.columns as u32;
+        let unit = width / figure.columns as u32;
         for (row, panels) in rows.iter().enumerate() {
             let mut column = 0;
             for &index in panels {
@@ -82,8 +91,8 @@ pub fn svg(figure: &Figure) -> Result<String, DrawError> {
         }
         area.present().map_err(|error| failed(error.to_string()))?;
     }
-    let inner = format!("<svg width=\"{WIDTH}\" height=\"{height}\"");
-    let outer = format!("<svg width=\"{}\" height=\"{}\"", WIDTH / SCALE, height / SCALE);
+    let inner = format!("<svg width=\"{width}\" height=\"{height}\"");
+    let outer = format!("<svg width=\"{stated}\" height=\"{}\"", height / SCALE);
     Ok(text.replacen(&inner, &outer, 1))
 }
 

@@ -6,7 +6,7 @@ mod panel;
 #[cfg(feature = "png")]
 mod png;
 
-pub use draw::{DrawError, svg};
+pub use draw::{DrawError, svg, svg_of_width};
 pub use panel::{Figure, Legend, Line, Mark, Panel, csv};
 #[cfg(feature = "png")]
 pub use png::png;

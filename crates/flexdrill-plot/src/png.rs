@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use resvg::{tiny_skia, usvg};
 
-use crate::draw::{FONT, FONT_FAMILY, SCALE, WIDTH};
+use crate::draw::{FONT, FONT_FAMILY, WIDTH};
 
 /// Pixels per unit of a figure's width of 1080: 2160 pixels are 300 dpi over 183 mm, a page's width.
 const PIXELS: f32 = 2.0;
@@ -20,8 +20,8 @@ pub fn png(svg: &str) -> Option<Vec<u8>> {
         ..usvg::Options::default()
     };
     let tree = usvg::Tree::from_str(svg, &options).ok()?;
-    let height = tree.size().height() / tree.size().width() * WIDTH as f32 / SCALE as f32;
-    let width = WIDTH as f32 / SCALE as f32;
+    let height = tree.size().height() / tree.size().width() * WIDTH as f32;
+    let width = WIDTH as f32;
     let mut pixels = tiny_skia::Pixmap::new((PIXELS * width) as u32, (PIXELS * height).round() as u32)?;
     pixels.fill(tiny_skia::Color::WHITE);
     let scale = PIXELS * width / tree.size().width();

@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU8, AtomicU64, Ordering};
-use std::sync::mpsc::SyncSender;
 
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::dynamics::phases::{self, PhaseTimes};
-use flexdrill_core::inputs::Inputs;
+use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_core::motion::WhirlSettings;
 use flexdrill_core::tool::LiveParameters;
 use flexdrill_core::twin::{CheckpointError, Frame, RunInputs, Schedule};
@@ -19,6 +18,9 @@ pub const FRAMES: usize = 64;
 const EVENTS: usize = 4096;
 /// Capacity for commands.
 const COMMANDS: usize = 256;
+/// Capacity for states on their way back. One is asked for at a time, so that more are there only where requests were
+/// given up.
+const STATES: usize = 8;
 /// Capacity for step times.
 const STEP_TIMES: usize = 1 << 16;
 
@@ -27,12 +29,48 @@ const STEP_TIMES: usize = 1 << 16;
 pub struct Settings {
     /// Coefficients.
     pub live: LiveParameters,
-    /// Slew limits: rotary speed (rad/s2), weight on bit (N/s).
-    pub slew: [f64; 2],
+    /// Slew limits, as in [`flexdrill_core::twin::RunInputs::slew`].
+    pub slew: [f64; 4],
     /// Thresholds of the whirl analysis.
     pub whirl: WhirlSettings,
     /// Publishing rates.
     pub schedule: Schedule,
+}
+
+/// Room for the whole state of a run, which travels to the solver and back: the solver fills it without allocating.
+#[derive(Debug)]
+pub struct StateSlot {
+    /// Tells the answer to one request from that to another that was given up.
+    pub number: u64,
+    /// Room for a checkpoint, then its bytes at the front.
+    pub room: Vec<u8>,
+    /// Bytes of the checkpoint, or why there is none.
+    pub length: Result<usize, CheckpointError>,
+    /// What acted on the model then; none before the slot was filled.
+    pub applied: Option<RunInputs>,
+    /// Steps taken or skipped before.
+    pub ticks: u64,
+}
+
+impl StateSlot {
+    /// A slot for a checkpoint of up to `room` bytes.
+    pub fn new(room: usize) -> Box<Self> {
+        Box::new(Self {
+            number: 0,
+            room: vec![0; room],
+            length: Err(CheckpointError::NoRoom { room }),
+            applied: None,
+            ticks: 0,
+        })
+    }
+
+    /// The checkpoint.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn checkpoint(&self) -> Result<&[u8], &CheckpointError> {
+        self.length.as_ref().map(|&length| &self.room[..length])
+    }
 }
 
 /// Requests that the loop executes between periods.
@@ -45,8 +83,8 @@ pub enum Command {
     Pause(bool),
     /// Reset the model to the state after the start.
     Reset,
-    /// Send the whole state. The one command that allocates on the solver's thread.
-    Checkpoint(SyncSender<Result<Vec<u8>, CheckpointError>>),
+    /// Fill the slot with the whole state and send it back.
+    State(Box<StateSlot>),
 }
 
 /// Events of the loop, in order.
@@ -159,8 +197,8 @@ impl Gauges {
 /// The newest targets, in separate cells. The values that the loop read are published as [`LoopEvent::Applied`].
 #[derive(Debug, Default)]
 pub struct Targets {
-    rotary_speed: AtomicU64,
-    weight_on_bit: AtomicU64,
+    /// SI, by [`InputKind::index`].
+    values: [AtomicU64; InputKind::COUNT],
     quality: AtomicU8,
 }
 
@@ -174,17 +212,19 @@ impl Targets {
 
     /// Replaces the targets and the quality of the inputs (the messages' INPUT_ constants).
     pub fn set(&self, inputs: Inputs, quality: u8) {
-        self.rotary_speed
-            .store(inputs.rotary_speed.to_bits(), Ordering::Relaxed);
-        self.weight_on_bit
-            .store(inputs.weight_on_bit.to_bits(), Ordering::Relaxed);
+        for kind in InputKind::ALL {
+            self.values[kind.index()].store(inputs.get(kind).to_bits(), Ordering::Relaxed);
+        }
         self.quality.store(quality, Ordering::Relaxed);
     }
 
     pub(crate) fn get(&self) -> (Inputs, u8) {
+        let value = |kind: InputKind| f64::from_bits(self.values[kind.index()].load(Ordering::Relaxed));
         let inputs = Inputs {
-            rotary_speed: f64::from_bits(self.rotary_speed.load(Ordering::Relaxed)),
-            weight_on_bit: f64::from_bits(self.weight_on_bit.load(Ordering::Relaxed)),
+            rotary_speed: value(InputKind::RotarySpeed),
+            weight_on_bit: value(InputKind::WeightOnBit),
+            rate_of_penetration: value(InputKind::RateOfPenetration),
+            standpipe_pressure: value(InputKind::StandpipePressure),
         };
         (inputs, self.quality.load(Ordering::Relaxed))
     }
@@ -196,6 +236,7 @@ pub struct LoopEnd {
     pub(crate) events: Producer<LoopEvent>,
     pub(crate) empty: Consumer<Box<Frame>>,
     pub(crate) step_times: Producer<u32>,
+    pub(crate) states: Producer<Box<StateSlot>>,
     pub(crate) targets: Arc<Targets>,
     pub(crate) gauges: Arc<Gauges>,
 }
@@ -210,18 +251,28 @@ pub struct PublisherEnd {
     pub step_times: Consumer<u32>,
 }
 
-/// Creates both ends, and the sender of commands.
-pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (LoopEnd, PublisherEnd, Producer<Command>) {
+/// The end of those who ask the loop for something.
+pub struct RequestEnd {
+    /// Requests.
+    pub commands: Producer<Command>,
+    /// The answers to [`Command::State`].
+    pub states: Consumer<Box<StateSlot>>,
+}
+
+/// Creates the ends.
+pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (LoopEnd, PublisherEnd, RequestEnd) {
     let (command_sender, commands) = RingBuffer::new(COMMANDS);
     let (events, event_receiver) = RingBuffer::new(FRAMES + EVENTS);
     let (empty_sender, empty) = RingBuffer::new(FRAMES + 1);
     let (step_times, step_time_receiver) = RingBuffer::new(STEP_TIMES);
+    let (states, state_receiver) = RingBuffer::new(STATES);
     (
         LoopEnd {
             commands,
             events,
             empty,
             step_times,
+            states,
             targets,
             gauges,
         },
@@ -230,6 +281,9 @@ pub fn link(targets: Arc<Targets>, gauges: Arc<Gauges>) -> (LoopEnd, PublisherEn
             empty: empty_sender,
             step_times: step_time_receiver,
         },
-        command_sender,
+        RequestEnd {
+            commands: command_sender,
+            states: state_receiver,
+        },
     )
 }

@@ -1,5 +1,5 @@
 //! The solver's thread. It advances the run in periods with absolute deadlines, reads inputs and commands between
-//! periods, and emits frames. It does not lock, log, allocate or touch ROS; only a requested checkpoint allocates.
+//! periods, and emits frames. It does not lock, log, allocate or touch ROS.
 //!
 //! A period is a whole number of model steps. The loop catches up small lateness. Beyond the tolerance it skips and
 //! counts whole periods, so that model and clock stay together. The refinement of the steps is the one that the motion
@@ -157,9 +157,12 @@ impl<C: Clock> RealTimeLoop<C> {
                 }
                 Command::Pause(paused) => self.paused = paused,
                 Command::Reset => self.reset_asked = true,
-                Command::Checkpoint(reply) => {
-                    // The requester may have given up waiting.
-                    let _ = reply.try_send(self.run.simulation().checkpoint());
+                Command::State(mut slot) => {
+                    slot.length = self.run.simulation().checkpoint_into(&mut slot.room);
+                    (slot.applied, slot.ticks) = (Some(self.run.applied()), self.run.ticks());
+                    // It is full only where requester after requester has given up; then this one has, too.
+                    let _ = self.end.states.push(slot);
+                    continue;
                 }
             }
             self.changed = true;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::history::{HELD, History};
+use crate::history::{HELD, History, Range};
 use crate::shares::Shares;
-use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use flexdrill_messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
 
 /// Below this speed the drive counts as stopped, and its torque says nothing about transfer (rad/s): 1 r/min.
@@ -17,6 +17,23 @@ const CHANGES: usize = 200;
 pub(crate) struct InputPair {
     pub rotary_speed: History,
     pub weight_on_bit: History,
+}
+
+/// An optional input over time, SI.
+#[derive(Debug, Default)]
+pub(crate) struct OptionalInput {
+    /// As received from the rig.
+    pub received: History,
+    /// As accepted by the twin, or assumed, before the slew limit.
+    pub accepted: History,
+}
+
+impl OptionalInput {
+    /// Whether it acted or was sent.
+    pub(crate) fn concerns(&self) -> bool {
+        let acted = |range: &Range| range.min != 0.0 || range.max != 0.0;
+        self.received.range().is_some() || self.accepted.range().as_ref().is_some_and(acted)
+    }
 }
 
 /// A change of a parameter during the run.
@@ -66,6 +83,10 @@ pub(crate) struct Drive {
     pub received: InputPair,
     /// Inputs as accepted by the twin, before the slew limit.
     pub accepted: InputPair,
+    /// Rate of penetration (m/s).
+    pub rate_of_penetration: OptionalInput,
+    /// Standpipe pressure (Pa).
+    pub standpipe_pressure: OptionalInput,
     /// Speed of the bit (rad/s), weight on it (N).
     pub bit: InputPair,
     /// Torque through the uppermost joint (N m).
@@ -74,7 +95,7 @@ pub(crate) struct Drive {
     pub stick_slip: History,
     pub lateral_acceleration: History,
     pub transfer: Transfer,
-    /// The worse state of both inputs.
+    /// The worst state of the inputs.
     pub input_quality: Shares,
     pub changes: Vec<ParameterChange>,
     /// Number of further changes.
@@ -88,6 +109,8 @@ impl Drive {
     pub(crate) fn rig_inputs(&mut self, time: f64, message: &RigInputs) {
         self.received_speed(time, message.rotary_speed_rpm);
         self.received_weight(time, message.weight_on_bit_kn);
+        self.received_rate(time, message.rate_of_penetration_m_per_h);
+        self.received_pressure(time, message.standpipe_pressure_mpa);
     }
 
     pub(crate) fn received_speed(&mut self, time: f64, rpm: f64) {
@@ -98,9 +121,23 @@ impl Drive {
         self.received.weight_on_bit.push(time, kn_to_n(kn));
     }
 
+    pub(crate) fn received_rate(&mut self, time: f64, m_per_h: f64) {
+        self.rate_of_penetration
+            .received
+            .push(time, m_per_h_to_m_per_s(m_per_h));
+    }
+
+    pub(crate) fn received_pressure(&mut self, time: f64, mpa: f64) {
+        self.standpipe_pressure.received.push(time, mpa_to_pa(mpa));
+    }
+
     pub(crate) fn applied(&mut self, time: f64, message: &AppliedInputs) {
         self.accepted.rotary_speed.push(time, message.rotary_speed);
         self.accepted.weight_on_bit.push(time, message.weight_on_bit);
+        self.rate_of_penetration
+            .accepted
+            .push(time, message.rate_of_penetration);
+        self.standpipe_pressure.accepted.push(time, message.standpipe_pressure);
         self.input_quality.push(time, message.input_quality);
         self.resets += u64::from(message.reset);
         for (name, value) in message.parameter_name.iter().zip(&message.parameter_value) {

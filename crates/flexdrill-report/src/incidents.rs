@@ -76,7 +76,12 @@ impl Default for Incidents {
 }
 
 /// Ids of the alarms of an input, in the order of `InputKind::ALL`.
-pub const INPUT_ALARMS: [&str; 2] = ["rotary_speed_input", "weight_on_bit_input"];
+pub const INPUT_ALARMS: [&str; 4] = [
+    "rotary_speed_input",
+    "weight_on_bit_input",
+    "rate_of_penetration_input",
+    "standpipe_pressure_input",
+];
 
 fn is_input(id: &str) -> bool {
     INPUT_ALARMS.contains(&id)

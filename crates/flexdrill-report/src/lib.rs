@@ -6,7 +6,7 @@
 //! # Layout
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
-//!   `incidents` (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model,
+//!   `transfer` (torque, weight and power from the surface to the bit), `incidents` (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model,
 //!   recording).
 //! - `plots`: the figures. `page`: the HTML, with everything in one file.
 
@@ -22,6 +22,7 @@ mod plots;
 mod reading;
 mod roles;
 mod shares;
+mod transfer;
 
 use std::path::{Path, PathBuf};
 

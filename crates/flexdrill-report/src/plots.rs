@@ -112,6 +112,49 @@ pub(crate) fn torque(summary: &Summary) -> Option<Figure> {
     figure("torque", 2, ROW, vec![torque.span(2), index, lateral])
 }
 
+/// Torque and weight from the surface to the bit, and what friction takes.
+pub(crate) fn transfer(summary: &Summary) -> Option<Figure> {
+    let axis = Axis::of(summary);
+    let transfer = &summary.transfer;
+    let draw = |title: &str, unit: &str, factor: f64, of: &[(&crate::transfer::Quantity, &str, usize)]| {
+        of.iter()
+            .fold(axis.panel(title, unit), |panel, (quantity, name, color)| {
+                axis.draw(panel, name, *color, &quantity.history, factor)
+            })
+    };
+    let (torque, weight) = (&transfer.torque.quantities, &transfer.weight.quantities);
+    let (friction, drag) = (&transfer.friction.quantities, &transfer.drag.quantities);
+    let places = |of: &[crate::transfer::Quantity], title, unit, factor| match of {
+        [surface, kickoff, bit] => draw(
+            title,
+            unit,
+            factor,
+            &[(surface, "surface", 6), (kickoff, "kick-off", 1), (bit, "bit", 0)],
+        ),
+        _ => axis.panel(title, unit),
+    };
+    let taken = |of: &[crate::transfer::Quantity], title, unit, factor| {
+        let colored: Vec<_> = of
+            .iter()
+            .zip(0..)
+            .map(|(quantity, color)| (quantity, quantity.name, color))
+            .collect();
+        draw(title, unit, factor, &colored)
+    };
+    figure(
+        "transfer",
+        2,
+        ROW,
+        vec![
+            places(torque, "Torque", "N m", 1.0),
+            // The hook load comes first and is ten times as large.
+            places(weight.get(1..).unwrap_or_default(), "Weight", "kN", kn()),
+            taken(friction, "Torque that friction takes", "N m", 1.0),
+            taken(drag, "Axial drag", "kN", kn()),
+        ],
+    )
+}
+
 /// Forces and moments along the tool.
 pub(crate) fn envelopes(summary: &Summary) -> Option<Figure> {
     let locations = &summary.locations;

@@ -8,13 +8,15 @@ use crate::health::Health;
 use crate::incidents::Incidents;
 use crate::locations::Locations;
 use crate::roles::{OUTPUTS, Roles};
+use crate::transfer::TransferHistory;
 use flexdrill_bag::{BagError, BagMessage, Gap, Gaps};
 use flexdrill_config::Config;
+use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::{Float64, Header};
-use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs, SessionInfo,
-    TwinStatus, WhirlState,
+    Transfer, TwinStatus, WhirlState,
 };
 
 /// Largest number of damaged parts listed.
@@ -38,6 +40,7 @@ pub struct Summary {
     pub(crate) config: Option<Config>,
     pub(crate) config_problem: Option<String>,
     pub(crate) drive: Drive,
+    pub(crate) transfer: TransferHistory,
     pub(crate) incidents: Incidents,
     pub(crate) locations: Locations,
     pub(crate) health: Health,
@@ -124,6 +127,7 @@ impl Reader {
                 config: None,
                 config_problem: None,
                 drive: Drive::default(),
+                transfer: TransferHistory::default(),
                 incidents: Incidents::default(),
                 locations: Locations::default(),
                 health: Health::default(),
@@ -201,6 +205,11 @@ impl Reader {
                 let time = self.stamp(&whirl.header);
                 self.summary.locations.whirl(time, &whirl);
             }
+            Transfer::ROS_TYPE => {
+                let transfer: Transfer = message.decode()?;
+                let time = self.stamp(&transfer.header);
+                self.summary.transfer.push(time, &transfer);
+            }
             AlarmList::ROS_TYPE => {
                 let list: AlarmList = message.decode()?;
                 let _ = self.stamp(&list.header);
@@ -229,10 +238,12 @@ impl Reader {
                 let value = message.decode::<Float64>()?.data;
                 if let Some(time) = self.received_at(message) {
                     let drive = &mut self.summary.drive;
-                    if known.name == topics::ROTARY_SPEED_RPM.name {
-                        drive.received_speed(time, value);
-                    } else {
-                        drive.received_weight(time, value);
+                    match InputKind::ALL.into_iter().find(|kind| kind.topic() == known.name) {
+                        Some(InputKind::RotarySpeed) => drive.received_speed(time, value),
+                        Some(InputKind::WeightOnBit) => drive.received_weight(time, value),
+                        Some(InputKind::RateOfPenetration) => drive.received_rate(time, value),
+                        Some(InputKind::StandpipePressure) => drive.received_pressure(time, value),
+                        None => {}
                     }
                 }
             }
@@ -304,6 +315,7 @@ fn without(known: &TopicInfo) -> &'static str {
         JointDeflections::ROS_TYPE => "moments along the tool and orbits are not known",
         ContactForces::ROS_TYPE => "contact forces are not known",
         WhirlState::ROS_TYPE => "whirl is not known",
+        Transfer::ROS_TYPE => "transfer from the surface to the bit is not known (older versions do not publish it)",
         AlarmList::ROS_TYPE => "alarms that stood before it began are not known",
         AlarmEvent::ROS_TYPE => "alarms and incidents are not known",
         // A replay has no status, because it does not run in real time.

@@ -8,21 +8,24 @@ use flexdrill_bag::{Bag, Topic};
 use flexdrill_messages::topics::{self, TopicInfo};
 
 /// Outputs of the twin that the report uses.
-pub(crate) const OUTPUTS: [&TopicInfo; 9] = [
+pub(crate) const OUTPUTS: [&TopicInfo; 10] = [
     &topics::SESSION,
     &topics::APPLIED_INPUTS,
     &topics::BIT_STATE,
     &topics::JOINT_DEFLECTIONS,
     &topics::CONTACT_FORCES,
     &topics::WHIRL,
+    &topics::TRANSFER,
     &topics::ALARMS,
     &topics::ALARM_EVENTS,
     &topics::STATUS,
 ];
 /// Inputs that the report uses, as received.
-const INPUTS: [&TopicInfo; 3] = [
+const INPUTS: [&TopicInfo; 5] = [
     &topics::ROTARY_SPEED_RPM,
     &topics::WEIGHT_ON_BIT_KN,
+    &topics::RATE_OF_PENETRATION,
+    &topics::STANDPIPE_PRESSURE,
     &topics::RIG_INPUTS,
 ];
 

@@ -12,6 +12,7 @@
 //! - [`logging`]: log lines on standard error and `/rosout`. [`loggers`] and [`type_description`]: the services that
 //!   every ROS 2 node has.
 
+pub mod action;
 pub mod args;
 pub mod client;
 pub mod dds;

@@ -7,13 +7,17 @@ use ros2_client::rcl_interfaces::{
 };
 use serde::Serialize;
 
+use flexdrill_messages::action_msgs::CancelGoalResponse;
 use flexdrill_messages::lifecycle_msgs::{
     ChangeStateResponse, GetAvailableStatesResponse, GetAvailableTransitionsResponse, GetStateResponse,
 };
 use flexdrill_messages::rcl_interfaces::{GetLoggerLevelsResponse, SetLoggerLevelsResponse, SetLoggerLevelsResult};
 use flexdrill_messages::std_srvs::{SetBoolResponse, TriggerResponse};
 use flexdrill_messages::type_description_interfaces::GetTypeDescriptionResponse;
-use flexdrill_messages::{AcknowledgeAlarmResponse, ShelveAlarmResponse, UnshelveAlarmResponse};
+use flexdrill_messages::{
+    AcknowledgeAlarmResponse, ShelveAlarmResponse, UnshelveAlarmResponse, WhatIfGetResultResponse,
+    WhatIfSendGoalResponse,
+};
 
 /// Bytes for the reasons of a list of results together, when they must be cut.
 const REASONS: usize = 30_000;
@@ -59,11 +63,27 @@ macro_rules! list {
 list!(
     GetParametersResponse { values },
     GetParameterTypesResponse { values },
-    DescribeParametersResponse { values },
     GetLoggerLevelsResponse { levels },
     GetAvailableStatesResponse { available_states },
     GetAvailableTransitionsResponse { available_transitions }
 );
+
+/// Most descriptions of parameters that fit without their texts: a name, two flags and a range each.
+const MOST_DESCRIBED: usize = 400;
+
+impl Reply for DescribeParametersResponse {
+    /// Names, types and ranges remain where they fit: a tool that asks for all parameters at once needs them, and can ask
+    /// for the texts of one.
+    fn shortened(mut self, _why: &str) -> Self {
+        if self.values.len() > MOST_DESCRIBED {
+            self.values = Vec::new();
+        }
+        for value in &mut self.values {
+            (value.description, value.additional_constraints) = (String::new(), String::new());
+        }
+        self
+    }
+}
 
 /// Replies that are never long.
 macro_rules! short {
@@ -75,7 +95,12 @@ macro_rules! short {
         }
     )*};
 }
-short!(ChangeStateResponse, GetStateResponse);
+short!(
+    CancelGoalResponse,
+    ChangeStateResponse,
+    GetStateResponse,
+    WhatIfSendGoalResponse
+);
 
 impl Reply for ListParametersResponse {
     fn shortened(self, _why: &str) -> Self {
@@ -136,6 +161,17 @@ impl Reply for GetTypeDescriptionResponse {
             failure_reason: why.to_owned(),
             ..Self::default()
         }
+    }
+}
+
+impl Reply for WhatIfGetResultResponse {
+    /// The chances of any alarm remain; the lists are left out.
+    fn shortened(mut self, why: &str) -> Self {
+        self.result.message = format!("{why}; ask for fewer candidates");
+        for answer in &mut self.result.answers {
+            (answer.alarms, answer.figures) = (Vec::new(), Vec::new());
+        }
+        self
     }
 }
 

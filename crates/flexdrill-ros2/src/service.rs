@@ -5,11 +5,14 @@
 //! type exactly either with or without those 16 bytes. A server here therefore recognises the mapping and answers each
 //! client in the client's own, so that `ros2 param` works from both.
 
+use std::collections::VecDeque;
 use std::future::Future;
 use std::pin::Pin;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use futures::StreamExt as _;
+use futures::stream::FuturesUnordered;
 use serde::de::DeserializeOwned;
 
 use super::replies::Reply;
@@ -155,27 +158,70 @@ impl ServiceServer {
     {
         loop {
             let received = self.requests.next().await;
-            let mapping = if received.is_from_dds() {
-                self.mapping
-            } else {
-                ServiceMapping::Only(Dialect::Enhanced)
-            };
-            let (dialect, request) = match interpret::<Req>(mapping, &received.body) {
-                Ok(request) => request,
-                Err(why) => {
-                    tracing::warn!(
-                        "service {}: a request of {} bytes could not be read: {why}",
-                        self.name,
-                        received.body.len()
-                    );
-                    continue;
-                }
+            let Some((dialect, request)) = self.read::<Req>(&received) else {
+                continue;
             };
             let response = CLIENT
                 .scope(received.client.clone(), async { handler(request).await })
                 .await;
             self.reply(received, dialect, response);
         }
+    }
+
+    /// Answers requests, up to `most` at once: for answers that come after a while. Where more clients wait, the one that has
+    /// waited longest gets no answer.
+    pub async fn serve_each<Req, Resp, Handler, Answer>(self, most: usize, handler: Handler)
+    where
+        Req: DeserializeOwned,
+        Resp: Reply,
+        Handler: Fn(Req) -> Answer,
+        Answer: Future<Output = Resp>,
+    {
+        let mut waiting = FuturesUnordered::new();
+        let mut dropped = VecDeque::new();
+        loop {
+            tokio::select! {
+                received = self.requests.next() => {
+                    let Some((dialect, request)) = self.read::<Req>(&received) else { continue };
+                    let answer = CLIENT.scope(received.client.clone(), handler(request));
+                    let (keep, given_up) = tokio::sync::oneshot::channel::<()>();
+                    dropped.push_back(keep);
+                    if dropped.len() > most {
+                        dropped.pop_front();
+                    }
+                    waiting.push(async move {
+                        tokio::select! {
+                            response = answer => Some((received, dialect, response)),
+                            _ = given_up => None,
+                        }
+                    });
+                }
+                Some(answered) = waiting.next() => {
+                    if let Some((received, dialect, response)) = answered {
+                        self.reply(received, dialect, response);
+                    }
+                    dropped.retain(|keep: &tokio::sync::oneshot::Sender<()>| !keep.is_closed());
+                }
+            }
+        }
+    }
+
+    /// The request in what was received; a log line where there is none.
+    fn read<Req: DeserializeOwned>(&self, received: &Request) -> Option<(Dialect, Req)> {
+        let mapping = if received.is_from_dds() {
+            self.mapping
+        } else {
+            ServiceMapping::Only(Dialect::Enhanced)
+        };
+        interpret::<Req>(mapping, &received.body)
+            .map_err(|why| {
+                tracing::warn!(
+                    "service {}: a request of {} bytes could not be read: {why}",
+                    self.name,
+                    received.body.len()
+                );
+            })
+            .ok()
     }
 
     fn reply<Resp: Reply>(&self, asked: Request, dialect: Dialect, response: Resp) {

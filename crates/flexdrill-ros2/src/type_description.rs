@@ -10,7 +10,7 @@ use flexdrill_messages::type_description_interfaces::{
     Field, FieldType, GetTypeDescriptionRequest, GetTypeDescriptionResponse, IndividualTypeDescription, KeyValue,
     TypeDescription, TypeSource,
 };
-use flexdrill_messages::{find_service, find_type, generated};
+use flexdrill_messages::{find_action, find_service, find_type, generated};
 use flexdrill_text::printable;
 
 /// Why a type is not described.
@@ -104,7 +104,15 @@ impl Known {
             return Some(Self {
                 name: info.ros_type,
                 description: info.description,
-                encoding: "srv",
+                encoding: if info.source.is_empty() { "implicit" } else { "srv" },
+                text: info.source,
+            });
+        }
+        if let Some(info) = find_action(name) {
+            return Some(Self {
+                name: info.ros_type,
+                description: info.description,
+                encoding: "action",
                 text: info.source,
             });
         }
@@ -263,8 +271,15 @@ mod tests {
             let expected = ["Request", "Response", "Event"].map(|part| format!("{name}_{part}"));
             assert_eq!(parts, expected, "{name}");
             let sources = &described.type_sources;
-            assert!(
-                sources[0].encoding == "srv" && sources[0].raw_file_contents.contains("---"),
+            let own = (
+                sources[0].encoding.as_str(),
+                sources[0].raw_file_contents.contains("---"),
+            );
+            // ROS 2 makes the services of an action from the action's definition.
+            let of_action = name.contains("/action/");
+            assert_eq!(
+                own,
+                if of_action { ("implicit", false) } else { ("srv", true) },
                 "{name}"
             );
             for part in parts {

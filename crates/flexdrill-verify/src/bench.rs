@@ -14,16 +14,31 @@ const FILES: &[(&str, &str)] = &[
         "beam_frequencies",
         include_str!("../../../config/verify/beam_frequencies.yaml"),
     ),
+    (
+        "block_on_slope",
+        include_str!("../../../config/verify/block_on_slope.yaml"),
+    ),
     ("cantilever", include_str!("../../../config/verify/cantilever.yaml")),
+    ("capstan", include_str!("../../../config/verify/capstan.yaml")),
+    (
+        "capstan_chain",
+        include_str!("../../../config/verify/capstan_chain.yaml"),
+    ),
+    (
+        "capstan_weight",
+        include_str!("../../../config/verify/capstan_weight.yaml"),
+    ),
     (
         "chain_in_guide",
         include_str!("../../../config/verify/chain_in_guide.yaml"),
     ),
     ("curved_guide", include_str!("../../../config/verify/curved_guide.yaml")),
+    ("depth_of_cut", include_str!("../../../config/verify/depth_of_cut.yaml")),
     (
         "free_vibration",
         include_str!("../../../config/verify/free_vibration.yaml"),
     ),
+    ("hanging_link", include_str!("../../../config/verify/hanging_link.yaml")),
     (
         "hinged_beam_in_tube",
         include_str!("../../../config/verify/hinged_beam_in_tube.yaml"),
@@ -31,20 +46,65 @@ const FILES: &[(&str, &str)] = &[
     ("hooke_chain", include_str!("../../../config/verify/hooke_chain.yaml")),
     ("hooke_pair", include_str!("../../../config/verify/hooke_pair.yaml")),
     ("hooke_single", include_str!("../../../config/verify/hooke_single.yaml")),
+    ("joint_play", include_str!("../../../config/verify/joint_play.yaml")),
     (
         "mass_onto_gap",
         include_str!("../../../config/verify/mass_onto_gap.yaml"),
     ),
+    ("mud_squeeze", include_str!("../../../config/verify/mud_squeeze.yaml")),
+    ("mud_pipe", include_str!("../../../config/verify/mud_pipe.yaml")),
+    ("mud_coupled", include_str!("../../../config/verify/mud_coupled.yaml")),
+    ("mud_together", include_str!("../../../config/verify/mud_together.yaml")),
+    ("pin_friction", include_str!("../../../config/verify/pin_friction.yaml")),
+    ("pin_holding", include_str!("../../../config/verify/pin_holding.yaml")),
     (
         "pipe_in_guide",
         include_str!("../../../config/verify/pipe_in_guide.yaml"),
+    ),
+    ("play_rotor", include_str!("../../../config/verify/play_rotor.yaml")),
+    (
+        "preload_chord",
+        include_str!("../../../config/verify/preload_chord.yaml"),
+    ),
+    ("preload_tool", include_str!("../../../config/verify/preload_tool.yaml")),
+    (
+        "preload_turning",
+        include_str!("../../../config/verify/preload_turning.yaml"),
+    ),
+    ("preload_wall", include_str!("../../../config/verify/preload_wall.yaml")),
+    (
+        "pressure_buckling",
+        include_str!("../../../config/verify/pressure_buckling.yaml"),
+    ),
+    (
+        "pressure_closed",
+        include_str!("../../../config/verify/pressure_closed.yaml"),
+    ),
+    (
+        "pressure_seal",
+        include_str!("../../../config/verify/pressure_seal.yaml"),
+    ),
+    (
+        "pressure_folding",
+        include_str!("../../../config/verify/pressure_folding.yaml"),
     ),
     (
         "rolling_rotor",
         include_str!("../../../config/verify/rolling_rotor.yaml"),
     ),
+    (
+        "sinusoidal_buckling",
+        include_str!("../../../config/verify/sinusoidal_buckling.yaml"),
+    ),
     ("sliding_mass", include_str!("../../../config/verify/sliding_mass.yaml")),
+    ("stuck_guide", include_str!("../../../config/verify/stuck_guide.yaml")),
     ("tied_rods", include_str!("../../../config/verify/tied_rods.yaml")),
+    ("tilted_link", include_str!("../../../config/verify/tilted_link.yaml")),
+    ("toggle", include_str!("../../../config/verify/toggle.yaml")),
+    (
+        "string_windup",
+        include_str!("../../../config/verify/string_windup.yaml"),
+    ),
     (
         "torque_buckling",
         include_str!("../../../config/verify/torque_buckling.yaml"),
@@ -63,6 +123,18 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/unbalanced_rotor.yaml"),
     ),
 ];
+
+/// What a case compares and its formula: the comment at the head of its configuration.
+pub fn head(case: &str) -> Option<String> {
+    let (_, text) = FILES.iter().find(|(name, _)| *name == case)?;
+    let lines = text.lines().map_while(|line| line.strip_prefix('#'));
+    Some(
+        lines
+            .map(|line| line.strip_prefix(' ').unwrap_or(line))
+            .collect::<Vec<_>>()
+            .join("\n"),
+    )
+}
 
 /// A running case.
 pub struct Bench {
@@ -112,9 +184,11 @@ impl Bench {
                 what: "its configuration",
             })?;
         let config = change(Config::from_text(&format!("config/verify/{case}.yaml"), text)?)?;
-        let settings = config
-            .simulation()
-            .with(|settings| settings.residual_factor = residual_factor);
+        let settings = config.simulation().with(|settings| {
+            settings.residual_factor = residual_factor;
+            // A case that advances does so from the start.
+            settings.rate_of_penetration_slew = 1.0;
+        });
         let simulation =
             Simulation::new(&config.tool(), &settings).map_err(|source| VerifyError::Build { case, source })?;
         Ok(Self {
@@ -123,6 +197,11 @@ impl Bench {
             simulation,
             inputs: settings.initial_inputs,
         })
+    }
+
+    /// Sets the rate of penetration that the next steps go towards (m/s).
+    pub fn set_rate_of_penetration(&mut self, rate: f64) {
+        self.inputs.rate_of_penetration = rate;
     }
 
     /// Advances one step.

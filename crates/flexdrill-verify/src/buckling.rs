@@ -15,7 +15,7 @@ const LEFT: f64 = 2e-3;
 /// `docs/mechanics.md` shows.
 const PART: f64 = 0.25;
 const GROWTH: f64 = 0.1;
-/// Pull in the chains (N), as in their configurations.
+/// Effective tension in the chains (N), as in their configurations.
 const PULL: f64 = 1000.0;
 /// First torque of a search, over pull times length of a link: all chains buckle above 0.5.
 const FIRST: f64 = 0.2;
@@ -122,6 +122,17 @@ pub(super) fn folding() -> Result<Vec<Row>, VerifyError> {
         )?,
         chain(8, 90.0).row("8 links, crosses at 90 deg, 0.5301 N L (N m)", folding_factor(8, 90.0))?,
     ])
+}
+
+/// A chain that is pulled by twice as much, of which pressure on a sealed end takes half.
+pub(super) fn under_pressure() -> Result<Vec<Row>, VerifyError> {
+    let chain = Chain {
+        case: "pressure_folding",
+        links: 4,
+        joints: "universal",
+        phase_step: 90.0,
+    };
+    Ok(vec![chain.row("0.6037 N_eff L (N m)", folding_factor(4, 90.0))?])
 }
 
 /// Iterations for the largest eigenvalue: its error falls by (3.56 / 3.89)^2 in each, with eight links.

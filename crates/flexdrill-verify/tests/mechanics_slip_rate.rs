@@ -31,6 +31,7 @@ fn the_smallest_slip_rate_converges_through_a_bit_that_sticks() {
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit,
+            ..Inputs::default()
         };
         while twin.time() < until {
             twin.advance(&inputs).ok().unwrap();

@@ -14,6 +14,7 @@ use flexdrill_verify::step_error::{Calm, Figure, Motion, Record, Statistics, ref
 const RATED: Inputs = Inputs {
     rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
     weight_on_bit: 10e3,
+    ..Inputs::ZERO
 };
 
 fn configured(eta: f64, step: f64) -> Config {

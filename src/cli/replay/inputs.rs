@@ -8,7 +8,7 @@ use crate::cli::progress::Progress;
 use crate::cli::source::Sample;
 use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
-use flexdrill_core::inputs::{Conditioner, Stamp};
+use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::INPUT_PERIOD;
 
@@ -30,7 +30,7 @@ pub(super) fn replay(
     let span = duration.map_or(span, |duration| duration.min(span));
     let steps = (span / time_step).round() as u64;
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
-    let mut conditioner = Conditioner::new(config.inputs.rules());
+    let mut conditioner = Conditioner::new(config.inputs.rules_of(config.used_inputs()));
     let max_skew = config.inputs.stamp.max_skew;
     let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
         if topic.name.starts_with('/') {
@@ -39,6 +39,15 @@ pub(super) fn replay(
             format!("/{}", topic.name)
         }
     })?;
+    for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
+        if conditioner.is_of_interest(kind) && !samples.iter().any(|sample| sample.kind == kind) {
+            tell!(
+                "{kind} is not in the source; the model assumes {} {} (inputs.{kind})",
+                conditioner.rule(kind).initial,
+                kind.unit()
+            );
+        }
+    }
     let mut progress = Progress::new(span);
     let mut remaining = samples.iter().peekable();
     let mut applied: Option<RunInputs> = None;

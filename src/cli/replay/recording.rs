@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::Context as _;
 
 use super::player::Player;
-use crate::bag::{self, Bag, BagError, BagMessage, Gap, Gaps};
+use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::messages::outputs::{ParameterChange, run_inputs};
@@ -91,7 +91,7 @@ impl Script {
                     session.get_or_insert(message.decode::<SessionInfo>()?);
                 }
                 AppliedInputs::ROS_TYPE => {
-                    let inputs = applied_inputs(&message)?;
+                    let inputs = message.decode::<AppliedInputs>()?;
                     if inputs.reset {
                         status_step = 0;
                         newest_stamp = None;
@@ -322,19 +322,6 @@ fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]
     before + since.round().max(0.0) as u64
 }
 
-/// Decodes the applied inputs. Older twins did not publish who set a parameter, nor the refinement of steps; for their
-/// messages that list is empty, and steps are whole.
-fn applied_inputs(message: &BagMessage) -> Result<AppliedInputs, BagError> {
-    let schema = &message.topic.schema;
-    if schema.is_empty() || schema.contains("refinement") {
-        return message.decode();
-    }
-    let mut whole = message.clone();
-    // The body ends with numbers of eight bytes: the length of another list, 0, follows without a gap, then refinement.
-    whole.data.extend([0; 5]);
-    whole.decode()
-}
-
 fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {
     let values = message.parameter_name.iter().zip(&message.parameter_value);
     let mut asked_by = message.parameter_asked_by.iter().cloned();
@@ -354,17 +341,19 @@ fn short(hash: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bag::Topic;
+    use crate::bag::{BagMessage, Topic};
     use crate::messages::to_cdr;
     use std::sync::Arc;
 
-    fn recorded(message: &AppliedInputs, schema: String, shorter: usize) -> BagMessage {
-        let mut topic = Topic::new("/twin/applied_inputs", &AppliedInputs::INFO, topics::APPLIED_INPUTS.qos);
-        topic.schema = schema;
+    fn recorded(message: &AppliedInputs, shorter: usize) -> BagMessage {
         let mut data = to_cdr(message).unwrap();
         data.truncate(data.len() - shorter);
         BagMessage {
-            topic: Arc::new(topic),
+            topic: Arc::new(Topic::new(
+                "/twin/applied_inputs",
+                &AppliedInputs::INFO,
+                topics::APPLIED_INPUTS.qos,
+            )),
             topic_index: 0,
             log_time: 0,
             publish_time: 0,
@@ -373,24 +362,44 @@ mod tests {
         }
     }
 
+    /// Bytes that older twins do not publish at the end of the message: rate and pressure with their slew limits, from
+    /// the next multiple of eight on; before that, refinement and the list of who asked (empty: its length alone).
+    fn older(message: &AppliedInputs) -> [BagMessage; 2] {
+        let length = to_cdr(message).unwrap().len() - 4;
+        // The refinement ends before the four numbers, padded to a multiple of eight.
+        let unpadded = (0..8).find(|padding| {
+            let data = to_cdr(message).unwrap();
+            let end = 4 + length - 32 - padding;
+            data[end - 1] == message.refinement
+        });
+        let without_rate = 32 + unpadded.unwrap();
+        [recorded(message, without_rate), recorded(message, without_rate + 5)]
+    }
+
     #[test]
-    fn applied_inputs_without_who_asked_are_read() {
-        let schema = AppliedInputs::SCHEMA
-            .replace("parameter_asked_by", "")
-            .replace("refinement", "");
+    fn applied_inputs_of_older_twins_are_read() {
         for (names, values) in [(vec![], vec![]), (vec!["whirl.hysteresis".to_owned()], vec![0.25])] {
             let mut message = AppliedInputs {
                 rotary_speed: 4.0,
                 parameter_name: names,
                 parameter_value: values,
+                refinement: 2,
                 ..AppliedInputs::default()
             };
-            let old = recorded(&message, schema.clone(), 5);
-            assert_eq!(applied_inputs(&old).unwrap(), message);
-            assert!(changes_of(&message).iter().all(|change| change.asked_by.is_empty()));
+            let [before_rate, before_refinement] = older(&message);
+            assert_eq!(before_rate.decode::<AppliedInputs>().unwrap(), message);
+            let read = before_refinement.decode::<AppliedInputs>().unwrap();
+            assert_eq!(
+                read,
+                AppliedInputs {
+                    refinement: 0,
+                    ..message.clone()
+                }
+            );
+            assert!(changes_of(&read).iter().all(|change| change.asked_by.is_empty()));
             message.parameter_asked_by = vec!["somebody".to_owned(); message.parameter_name.len()];
-            let new = recorded(&message, AppliedInputs::SCHEMA.to_owned(), 0);
-            assert_eq!(applied_inputs(&new).unwrap(), message);
+            message.rate_of_penetration = 1e-3;
+            assert_eq!(recorded(&message, 0).decode::<AppliedInputs>().unwrap(), message);
         }
     }
 }

@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::board::{Board, Heartbeat};
 use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning, words};
-use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_core::inputs::InputKind;
+use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 pub(super) fn state(code: u8) -> &'static str {
     match code {
@@ -105,9 +106,16 @@ pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
         .enumerate()
         .map(|(index, name)| {
             let at = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
-            let is_speed = name.contains("speed");
-            let convert = if is_speed { rad_per_s_to_rpm } else { n_to_kn };
-            let (label, unit) = if is_speed { ("RPM", "r/min") } else { ("WOB", "kN") };
+            let kind = InputKind::of_name(name);
+            let convert = |value: f64| kind.map_or(value, |kind| kind.from_si(value));
+            let unit = kind.map_or("", InputKind::unit);
+            let label = match kind {
+                Some(InputKind::RotarySpeed) => "RPM",
+                Some(InputKind::WeightOnBit) => "WOB",
+                Some(InputKind::RateOfPenetration) => "ROP",
+                Some(InputKind::StandpipePressure) => "SPP",
+                None => name,
+            };
             let state = status.input_state.get(index).copied().unwrap_or(u8::MAX);
             let rejected = status.input_rejected.get(index).copied().unwrap_or(0);
             let mut line = format!("{label} {} {unit}", number(convert(at(&status.input_applied))));

@@ -6,7 +6,7 @@ pub const USE_SIM_TIME: &str = "use_sim_time";
 pub const CONFIG_FILE: &str = "config_file";
 
 /// Keys of parameters that may change while running: exact, or a group that ends with a dot.
-const LIVE: [&str; 14] = [
+const LIVE: [&str; 16] = [
     "contact.inner.friction_tangential",
     "contact.inner.friction_axial",
     "contact.outer.friction_tangential",
@@ -14,6 +14,8 @@ const LIVE: [&str; 14] = [
     "tool.bit.friction_factor",
     "inputs.rotary_speed.",
     "inputs.weight_on_bit.",
+    "inputs.rate_of_penetration.",
+    "inputs.standpipe_pressure.",
     "whirl.backward_cycles.",
     "whirl.forward_power.",
     "whirl.lasting_turns.",
@@ -23,10 +25,16 @@ const LIVE: [&str; 14] = [
     "outputs.exaggeration",
 ];
 /// Keys within those groups that act at the start only.
-const START_ONLY: [&str; 3] = [
+const START_ONLY: [&str; 9] = [
     "inputs.rotary_speed.initial_rpm",
     "inputs.rotary_speed.measured",
     "inputs.weight_on_bit.initial_kn",
+    "inputs.rate_of_penetration.assumed_m_per_h",
+    "inputs.rate_of_penetration.safe_m_per_h",
+    "inputs.rate_of_penetration.safe_ramp_m_per_h_per_s",
+    "inputs.standpipe_pressure.assumed_mpa",
+    "inputs.standpipe_pressure.safe_mpa",
+    "inputs.standpipe_pressure.safe_ramp_mpa_per_s",
 ];
 
 /// Whether a parameter may change while running.
@@ -49,7 +57,8 @@ pub(super) fn why_fixed(key: &str) -> String {
         "solver" => "the time step and the solver's limits are fixed when the model is built",
         "contact" | "environment" | "boundary" | "loads" => "the model is built with it",
         "start" | "initial" | "run" | "inputs" => "it acts at the start only",
-        "whirl" | "stick_slip" | "shock" | "chaotic_whirl" | "joint_load" => "the analysis is built with it",
+        "whirl" | "stick_slip" | "shock" | "chaotic_whirl" | "joint_load" | "transfer" | "guide_preload"
+        | "pressure_folding" => "the analysis is built with it",
         USE_SIM_TIME => "the clock is chosen at the start",
         CONFIG_FILE => "the configuration is read at the start",
         _ => "it is fixed at the start",
@@ -74,6 +83,8 @@ mod tests {
             ("inputs.rotary_speed.downhole_slew_rpm_per_s", true),
             ("inputs.rotary_speed.measured", false),
             ("inputs.hard_limits.max_rpm", false),
+            ("inputs.rate_of_penetration.slew_m_per_h_per_s", true),
+            ("inputs.standpipe_pressure.assumed_mpa", false),
             ("inputs.driver.policy", false),
             ("whirl.backward_cycles.warning", true),
             ("outputs.rates.bit_state", true),

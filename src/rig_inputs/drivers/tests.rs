@@ -14,7 +14,7 @@ fn drivers(policy: DriverPolicy, named: &[&str]) -> Drivers {
     Drivers::new(Rule {
         policy,
         named: named.iter().map(ToString::to_string).collect(),
-        silent_after: [5.0; 2],
+        silent_after: [5.0; InputKind::COUNT],
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod document;
 mod memory;
+mod physics;
 mod quality;
 mod scaling;
 mod step_error;
@@ -31,7 +32,7 @@ struct Measurements {
     /// Writes the tables into this document, between its markers.
     #[arg(long, value_name = "DOCUMENT")]
     write: Option<PathBuf>,
-    /// Model time after the static start (s) [default: 60 real-time, 10 scaling, 3600 memory, 30 step-error and quality,
+    /// Model time after the static start (s) [default: 60 real-time, 10 scaling and physics, 3600 memory, 30 step-error and quality,
     /// 40 truth].
     #[arg(long)]
     duration: Option<f64>,
@@ -60,6 +61,8 @@ enum Cases {
     RealTime,
     /// 8 to 132 links.
     Scaling,
+    /// What each piece of the rig's physics costs; of config/rig.yaml unless another is named.
+    Physics,
     /// Resident memory over an hour of model time.
     Memory,
     /// The step against an eighth of it, for the same tools: minutes each.
@@ -82,6 +85,7 @@ impl Cases {
                 Self::Truth,
                 Self::Quality,
                 Self::Scaling,
+                Self::Physics,
                 Self::Memory,
             ],
             one => std::slice::from_ref(one),
@@ -93,6 +97,7 @@ impl Cases {
         match self {
             Self::RealTime => "real-time",
             Self::Scaling => "scaling",
+            Self::Physics => "physics",
             Self::Memory => "memory",
             Self::StepError => "step-error",
             Self::Truth => "truth",
@@ -107,7 +112,7 @@ impl Cases {
             Self::RealTime => 60.0,
             Self::StepError | Self::Quality => 30.0,
             Self::Truth => 40.0,
-            Self::Scaling => 10.0,
+            Self::Scaling | Self::Physics => 10.0,
             Self::Memory | Self::All => 3600.0,
         }
     }
@@ -158,6 +163,11 @@ fn configurations(args: &Measurements) -> anyhow::Result<Vec<(String, Config)>> 
 /// Runs one set, and gives its section.
 fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> anyhow::Result<String> {
     let (name, config) = &configs[0];
+    let name = if case == Cases::Physics && args.configs.is_empty() {
+        "config/rig.yaml"
+    } else {
+        name
+    };
     let duration = args.duration.unwrap_or_else(|| case.usual_duration());
     let constant = Load {
         rpm: args.rpm,
@@ -172,6 +182,15 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
         Cases::StepError => step_error::tables(configs, args.rpm, duration)?,
         Cases::Truth => truth::tables(config, args.rpm, duration, args.runs)?,
         Cases::Quality => quality::tables(config, args.rpm, duration)?,
+        Cases::Physics => {
+            let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
+            let tool = if args.configs.is_empty() {
+                &load("config/rig.yaml")?
+            } else {
+                config
+            };
+            physics::tables(tool, &load("config/default.yaml")?, constant, duration)?
+        }
         Cases::Scaling => scaling::tables(config, constant, duration)?,
         Cases::Memory | Cases::All => memory::tables(config, constant, duration)?,
     };

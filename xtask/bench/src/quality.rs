@@ -1,6 +1,6 @@
 //! `--cases quality`: what the model says of its own motion, beside how far that motion is off.
 
-use flexdrill_bench::cases::{CASES, Case};
+use flexdrill_bench::cases::{Case, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::inputs::Inputs;
@@ -50,11 +50,12 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
         "numerical share",
         "model quality, of the time",
     ]);
-    for (index, case) in CASES.iter().chain(MORE).enumerate() {
+    for (index, case) in hard(config).iter().chain(MORE).enumerate() {
         let tool = (case.changes)(config)?;
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit: kn_to_n(case.wob),
+            ..Inputs::default()
         };
         let motion = Motion::of(&tool, inputs, duration);
         let run = |config: &Config| {

@@ -1,6 +1,6 @@
 //! `--cases step-error`: the configured step against an eighth of it, beside its speed.
 
-use flexdrill_bench::cases::{CASES, Case};
+use flexdrill_bench::cases::{Case, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
@@ -18,7 +18,7 @@ const CALM_SHORTER: f64 = 6.0;
 pub(crate) fn tables(configs: &[(String, Config)], rpm: f64, duration: f64) -> anyhow::Result<String> {
     let mut tables = Tables::new();
     for (index, (path, config)) in configs.iter().enumerate() {
-        let cases = if index == 0 { CASES } else { &CASES[..1] };
+        let cases = if index == 0 { hard(config) } else { &hard(config)[..1] };
         for case in cases {
             let name = if index == 0 {
                 case.name.to_owned()
@@ -99,6 +99,7 @@ impl Tables {
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit: kn_to_n(case.wob),
+            ..Inputs::default()
         };
         let calm = Motion::of(config, inputs, duration / CALM_SHORTER);
         if let Some(row) = self.kept(name, calm_row(name, config, &calm))? {

@@ -1,6 +1,6 @@
 //! `--cases truth`: statistics of chaotic motion by step, each over several runs, with their scatter.
 
-use flexdrill_bench::cases::CASES;
+use flexdrill_bench::cases::hard;
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
@@ -63,11 +63,12 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, runs: u32) -> any
         "whirl ratio",
         "energy error share",
     ]);
-    for case in CASES {
+    for case in hard(config) {
         let tool = (case.changes)(config)?;
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit: kn_to_n(case.wob),
+            ..Inputs::default()
         };
         let whole = Motion::of(&tool, inputs, duration);
         let mut fine: Option<Figures> = None;

@@ -1,10 +1,13 @@
-//! The reference pages of the manual (Markdown), made from the table of topics and from the schema of the configuration.
+//! The reference pages of the manual (Markdown), made from the table of topics, from the schema of the configuration, and
+//! from the cases of verification and validation.
 
 mod configuration;
 mod topics;
+mod validation;
 
 pub use configuration::page as configuration;
 pub use topics::page as topics;
+pub use validation::{names as validation_names, page as validation};
 
 /// Text in a cell of a table.
 fn cell(text: &str) -> String {

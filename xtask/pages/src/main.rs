@@ -18,12 +18,15 @@ enum Page {
     Topics,
     /// Keys with type, default, bounds and meaning.
     Configuration,
+    /// Figures from outside and closed forms, with what the twin computes.
+    Validation,
 }
 
 fn main() -> std::io::Result<()> {
     let page = match Arguments::parse().page {
         Page::Topics => flexdrill_pages::topics(),
         Page::Configuration => flexdrill_pages::configuration(),
+        Page::Validation => flexdrill_pages::validation().map_err(std::io::Error::other)?,
     };
     std::io::stdout().write_all(page.as_bytes())
 }

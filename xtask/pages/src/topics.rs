@@ -28,7 +28,8 @@ pub fn page() -> String {
     let mut out = String::from(
         "# Topics and messages\n\n\
          Written by `cargo xtask reference topics`. Names are relative to the node's namespace unless they begin with `/`; all\n\
-         can be remapped. Messages are SI; the two plain inputs carry the driller's unit in their names. Every message of the\n\
+         can be remapped. Messages are SI; rig/rotary_speed_rpm is in r/min, rig/weight_on_bit_kn in kN,\n\
+         rig/rate_of_penetration in m/h (optional) and rig/standpipe_pressure in MPa (optional). Every message of the\n\
          twin begins with a header: stamp = model time on the rig's clock, frame = the tool ([frames](frames.md)).\n\n\
          ## All topics\n\
          | topic | type | sent | quality of service |\n|---|---|---|---|\n",

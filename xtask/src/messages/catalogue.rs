@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::definition::{Array, Base, Definition, Field, FieldType, Source, TypeName};
+use super::definition::{Array, Base, Definition, Field, FieldType, Primitive, Source, TypeName};
 use super::{GenerateError, parser};
 
 /// Folder of our own messages and services, from the repository's root.
@@ -19,6 +19,7 @@ const PACKAGE: &str = "flexdrill";
 pub struct Catalogue {
     definitions: BTreeMap<TypeName, Definition>,
     services: BTreeMap<TypeName, Service>,
+    actions: BTreeMap<TypeName, Definition>,
 }
 
 /// A service as ROS 2 describes it: a type whose fields are what a request, a reply and an event of it carry.
@@ -63,6 +64,7 @@ impl Catalogue {
             let (kind, added) = match extension.as_str() {
                 "msg" => ("msg", self.add_message(package, &stem, &text, Source::File(file))),
                 "srv" => ("srv", self.add_service(package, &stem, &text, Source::File(file))),
+                "action" => ("action", self.add_action(package, &stem, &text, Source::File(file))),
                 _ => continue,
             };
             added.map_err(|source| GenerateError::Parse { path, kind, source })?;
@@ -114,14 +116,108 @@ impl Catalogue {
             let definition = parser::parse(type_name, &text, Source::Text, first_line)?;
             self.definitions.insert(definition.name.clone(), definition);
         }
-        let service = Service::new(package, name, text, source);
+        let service = Service::new(package, "srv", name, text, source);
         self.services.insert(service.whole.name.clone(), service);
+        Ok(())
+    }
+
+    /// Adds an action from its text: goal, result and feedback, the services and the message that carry them, and the
+    /// action as a whole.
+    ///
+    /// # Errors
+    /// When it cannot be parsed.
+    pub fn add_action(
+        &mut self,
+        package: &str,
+        name: &str,
+        text: &str,
+        source: Source,
+    ) -> Result<(), parser::ParseError> {
+        let lines: Vec<&str> = text.lines().collect();
+        let cuts: Vec<usize> = (0..lines.len()).filter(|&line| lines[line].trim() == "---").collect();
+        let [first, second] = cuts[..] else {
+            return Err(parser::ParseError {
+                line: lines.len(),
+                problem: "an action needs two lines `---`: between goal and result, and before the feedback".to_owned(),
+            });
+        };
+        let part = |part: &str| TypeName {
+            package: package.to_owned(),
+            kind: "action",
+            name: format!("{name}_{part}"),
+        };
+        let parts = [
+            ("Goal", &lines[..first], 1),
+            ("Result", &lines[first + 1..second], first + 2),
+            ("Feedback", &lines[second + 1..], second + 2),
+        ];
+        for (kind, lines, first_line) in parts {
+            let text: String = lines.iter().flat_map(|line| [*line, "\n"]).collect();
+            let definition = parser::parse(part(kind), &text, Source::Text, first_line)?;
+            self.definitions.insert(definition.name.clone(), definition);
+        }
+        // What ROS 2 makes of every action.
+        let id = TypeName::message("unique_identifier_msgs", "UUID");
+        let single = |kind: Primitive| FieldType {
+            base: Base::Primitive(kind),
+            array: Array::Single,
+        };
+        let time = TypeName::message("builtin_interfaces", "Time");
+        let carriers = [
+            (
+                "SendGoal_Request",
+                vec![nested("goal_id", id.clone()), nested("goal", part("Goal"))],
+            ),
+            (
+                "SendGoal_Response",
+                vec![plain("accepted", single(Primitive::Bool)), nested("stamp", time)],
+            ),
+            ("GetResult_Request", vec![nested("goal_id", id.clone())]),
+            (
+                "GetResult_Response",
+                vec![
+                    plain("status", single(Primitive::Int8)),
+                    nested("result", part("Result")),
+                ],
+            ),
+            (
+                "FeedbackMessage",
+                vec![nested("goal_id", id), nested("feedback", part("Feedback"))],
+            ),
+        ];
+        for (kind, fields) in carriers {
+            let text: String = fields.iter().map(written).collect();
+            let definition = made_of(part(kind), fields, &text, Source::Text);
+            self.definitions.insert(definition.name.clone(), definition);
+        }
+        for service in ["SendGoal", "GetResult"] {
+            let service = Service::new(package, "action", &format!("{name}_{service}"), "", Source::Text);
+            self.services.insert(service.whole.name.clone(), service);
+        }
+        let whole = TypeName {
+            name: name.to_owned(),
+            ..part("")
+        };
+        let fields = vec![
+            nested("goal", part("Goal")),
+            nested("result", part("Result")),
+            nested("feedback", part("Feedback")),
+            nested("send_goal_service", part("SendGoal")),
+            nested("get_result_service", part("GetResult")),
+            nested("feedback_message", part("FeedbackMessage")),
+        ];
+        self.actions.insert(whole.clone(), made_of(whole, fields, text, source));
         Ok(())
     }
 
     /// All services, sorted by name.
     pub fn services(&self) -> impl Iterator<Item = &Service> {
         self.services.values()
+    }
+
+    /// All actions, sorted by name.
+    pub fn actions(&self) -> impl Iterator<Item = &Definition> {
+        self.actions.values()
     }
 
     /// All definitions, sorted by name.
@@ -156,16 +252,16 @@ impl Catalogue {
             if path.contains(name) {
                 return Err(GenerateError::Recursive(name.to_string()));
             }
-            let event = || {
+            let of_service = || {
                 self.services
                     .values()
-                    .map(|service| &service.event)
-                    .find(|event| event.name == *name)
+                    .flat_map(|service| [&service.whole, &service.event])
+                    .find(|part| part.name == *name)
             };
             let nested = self
                 .definitions
                 .get(name)
-                .or_else(event)
+                .or_else(of_service)
                 .ok_or_else(|| GenerateError::UnknownType {
                     name: name.to_string(),
                     used_in: definition.name.to_string(),
@@ -182,49 +278,77 @@ impl Catalogue {
 }
 
 impl Service {
-    fn new(package: &str, name: &str, text: &str, source: Source) -> Self {
+    /// `kind` is that of the interface: `srv`, or `action` for the services of one.
+    fn new(package: &str, kind: &'static str, name: &str, text: &str, source: Source) -> Self {
         let type_name = |name: String| TypeName {
             package: package.to_owned(),
-            kind: "srv",
+            kind,
             name,
         };
         let part = |part: &str| type_name(format!("{name}_{part}"));
-        let field = |name: &str, of: TypeName, array: Array| Field {
-            docs: Vec::new(),
-            name: name.to_owned(),
-            kind: FieldType {
+        let up_to_one = |name: &str, of: TypeName| {
+            let kind = FieldType {
                 base: Base::Nested(of),
-                array,
-            },
-            default: None,
-        };
-        let definition = |name: TypeName, fields: Vec<Field>, text: &str, source: Source| Definition {
-            name,
-            docs: Vec::new(),
-            constants: Vec::new(),
-            fields,
-            text: text.to_owned(),
-            source,
+                array: Array::Bounded(1),
+            };
+            plain(name, kind)
         };
         let of_event = vec![
-            field(
-                "info",
-                TypeName::message("service_msgs", "ServiceEventInfo"),
-                Array::Single,
-            ),
-            field("request", part("Request"), Array::Bounded(1)),
-            field("response", part("Response"), Array::Bounded(1)),
+            nested("info", TypeName::message("service_msgs", "ServiceEventInfo")),
+            up_to_one("request", part("Request")),
+            up_to_one("response", part("Response")),
         ];
         let of_whole = vec![
-            field("request_message", part("Request"), Array::Single),
-            field("response_message", part("Response"), Array::Single),
-            field("event_message", part("Event"), Array::Single),
+            nested("request_message", part("Request")),
+            nested("response_message", part("Response")),
+            nested("event_message", part("Event")),
         ];
         Self {
-            whole: definition(type_name(name.to_owned()), of_whole, text, source),
-            event: definition(part("Event"), of_event, "", Source::Text),
+            whole: made_of(type_name(name.to_owned()), of_whole, text, source),
+            event: made_of(part("Event"), of_event, "", Source::Text),
         }
     }
+}
+
+/// A field without comment and default.
+fn plain(name: &str, kind: FieldType) -> Field {
+    Field {
+        docs: Vec::new(),
+        name: name.to_owned(),
+        kind,
+        default: None,
+    }
+}
+
+/// A field that is another type.
+fn nested(name: &str, of: TypeName) -> Field {
+    let kind = FieldType {
+        base: Base::Nested(of),
+        array: Array::Single,
+    };
+    plain(name, kind)
+}
+
+/// A definition of these fields.
+fn made_of(name: TypeName, fields: Vec<Field>, text: &str, source: Source) -> Definition {
+    Definition {
+        name,
+        docs: Vec::new(),
+        constants: Vec::new(),
+        fields,
+        text: text.to_owned(),
+        source,
+    }
+}
+
+/// The line that declares a single field.
+fn written(field: &Field) -> String {
+    let kind = match &field.kind.base {
+        Base::Nested(name) => name.short(),
+        Base::Primitive(Primitive::Bool) => "bool".to_owned(),
+        Base::Primitive(kind) => format!("{kind:?}").to_lowercase(),
+    };
+    format!("{kind} {}\n", field.name)
 }
 
 /// Entries of a folder, sorted, so that the output does not depend on the file system.

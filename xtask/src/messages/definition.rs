@@ -7,7 +7,7 @@ use std::fmt;
 pub struct TypeName {
     /// ROS package.
     pub package: String,
-    /// `msg` or `srv`.
+    /// `msg`, `srv` or `action`.
     pub kind: &'static str,
     /// Name within the package; halves of a service end in `_Request` and `_Response`.
     pub name: String,

@@ -21,7 +21,7 @@ const KEYWORDS: &[&str] = &[
 pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
     let mut out = String::from(concat!(
         "//! Generated from `msg/` and `crates/flexdrill-messages/external/` by `cargo xtask messages`. Do not edit.\n\n",
-        "use super::{ServiceInfo, TypeInfo};\n",
+        "use super::{ActionInfo, ServiceInfo, TypeInfo};\n",
     ));
     let mut table = String::new();
     let mut package = "";
@@ -49,6 +49,7 @@ pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
         "}}\n\n/// Every generated type, sorted by name.\npub const TYPES: &[TypeInfo] = &[\n{table}];\n"
     );
     services(&mut out, catalogue)?;
+    actions(&mut out, catalogue)?;
     Ok(out)
 }
 
@@ -74,6 +75,29 @@ fn services(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError
             raw(&hash::alone(whole)),
             service.event.name.to_string(),
             raw(&hash::alone(&service.event)),
+        );
+    }
+    out.push_str("];\n");
+    Ok(())
+}
+
+/// The table of all actions.
+fn actions(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError> {
+    out.push_str("\n/// Every action, sorted by name.\npub const ACTIONS: &[ActionInfo] = &[\n");
+    for action in catalogue.actions() {
+        let _ = write!(
+            out,
+            concat!(
+                "    ActionInfo {{\n",
+                "        ros_type: {:?},\n",
+                "        rihs01: {:?},\n",
+                "        source: {},\n",
+                "        description: {},\n    }},\n",
+            ),
+            action.name.to_string(),
+            hash::rihs01(action, catalogue)?,
+            own_text(action),
+            raw(&hash::alone(action)),
         );
     }
     out.push_str("];\n");

@@ -24,7 +24,7 @@ pub(super) struct Window {
 }
 
 /// The active part of the tool.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Active {
     /// Whether it is the whole tool.
     pub whole: bool,

@@ -3,14 +3,17 @@
 
 use nalgebra::Vector2;
 
-use super::Chain;
 use super::columns::{EndColumn, EndForces, Ends, at_ends, load, plus_column, product, store};
+use super::slaving::LinkMatrices;
+use super::{Chain, NODE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
+use crate::elements::mud_wall::Motion;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
+use crate::simd::number::Eight;
 use crate::simd::vector::Vector;
 
 impl Chain {
@@ -54,7 +57,17 @@ impl Chain {
         }
         above.plus(below)
     }
+
+    /// How far a pipe (0) or guide (1) has moved locally at station `i` of span `l` since the displacements `start`.
+    #[inline(always)]
+    fn travel<V: Vector>(&self, state: &State, start: &[f64], l: usize, i: usize, body: usize) -> V {
+        let now = self.local::<V>(&state.q, l, i, body);
+        now.minus(self.local::<V>(start, l, i, body))
+    }
 }
+
+/// One in the lane along the axis.
+static ALONG: [f64; 8] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
 struct ContactSearch<'a> {
     chain: &'a mut Chain,
@@ -71,6 +84,15 @@ struct ContactSearch<'a> {
 fn position<V: Vector>(lateral: &[EndColumn; 12], ends: &Ends, deflection: &EndColumn) -> [V; 2] {
     let (slaved, deflection): ([V; 2], [V; 2]) = (product(lateral, ends), load(deflection));
     [slaved[0].plus(deflection[0]), slaved[1].plus(deflection[1])]
+}
+
+/// How the stations of span `l`, one per lane, move by end unknowns `x`, along y and z: the pipe in the guide, and the guide.
+#[inline(always)]
+fn relative<V: Vector>(kind: &LinkMatrices, x: &[f64], l: usize) -> [[V; 2]; 2] {
+    let (nodes, _) = x.as_chunks::<NODE>();
+    let pipe: [V; 2] = product(&kind.lateral[0], &at_ends(nodes, l, 0));
+    let guide: [V; 2] = product(&kind.lateral[1], &at_ends(nodes, l, 1));
+    [[pipe[0].minus(guide[0]), pipe[1].minus(guide[1])], guide]
 }
 
 /// A local force's lanes with those of the rotations times a radius.
@@ -110,17 +132,34 @@ impl ContactSearch<'_> {
             arms,
         } = self;
         let station = chain.model.nodes.first(l) + i;
+        let advance = conditions.rate_of_penetration;
         let guide = chain.local::<V>(&state.v, l, i, 1);
         chain.has_contacts[l] = true;
         if is_closed[0] {
             let pipe = chain.local::<V>(&state.v, l, i, 0);
             let velocity = pipe.minus_product(guide, V::load(&arms[0]));
             let clearance = model.stations[station].inner_clearance;
+            if conditions.inner.has_bristles() {
+                let pipe = chain.travel::<V>(state, &interactions.start, l, i, 0);
+                let guide = chain.travel::<V>(state, &interactions.start, l, i, 1);
+                interactions
+                    .inner
+                    .set_travel(pipe.minus_product(guide, V::load(&arms[0])));
+            }
             let layer = &mut interactions.inner;
             layer.push::<V>(&conditions.inner, station, lateral[0], clearance, velocity);
         }
         if is_closed[1] {
-            let velocity = guide.times(V::load(&arms[1]));
+            let mut velocity = guide.times(V::load(&arms[1]));
+            if advance != 0.0 {
+                velocity = velocity.plus_product(V::load(&ALONG), V::splat(advance));
+            }
+            if conditions.outer.has_bristles() {
+                let guide = chain.travel::<V>(state, &interactions.start, l, i, 1);
+                let advance = V::splat(advance * interactions.step);
+                let travel = guide.times(V::load(&arms[1])).plus_product(V::load(&ALONG), advance);
+                interactions.outer.set_travel(travel);
+            }
             let layer = &mut interactions.outer;
             layer.push::<V>(&conditions.outer, station, lateral[1], model.outer_clearance, velocity);
         }
@@ -169,6 +208,7 @@ impl ContactSearch<'_> {
             sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
         sum.take_from(&mut chain.contact_forces, 0);
+        chain.add_mud_forces::<V>();
     }
 }
 
@@ -276,6 +316,20 @@ impl ContactSearch<'_> {
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
             let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
             let mut closed = inner | outer;
+            if link.mud.is_some() {
+                let (v, a) = (relative::<V>(kind, &state.v, l), relative::<V>(kind, &state.a, l));
+                let place = [[y, z], guide];
+                for (layer, to) in self.chain.mud[l].iter_mut().enumerate() {
+                    let (d, v, a) = (place[layer], v[layer], a[layer]);
+                    let motion = Motion {
+                        d: [Eight(d[0]), Eight(d[1])],
+                        v: [Eight(v[0]), Eight(v[1])],
+                        a: [Eight(a[0]), Eight(a[1])],
+                    };
+                    motion.store(to);
+                }
+                self.chain.has_contacts[l] = true;
+            }
             if closed == 0 {
                 continue;
             }

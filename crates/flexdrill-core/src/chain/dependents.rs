@@ -4,18 +4,21 @@
 //! Eq. 13 say how they follow: linearised, Phi + G_s x_s + G_f x_f = 0 gives x_s = -G_s^-1 (Phi + G_f x_f). The spin below
 //! is always one of them; a revolute joint, which has two rows, makes one tilt below another. The multipliers of the rows
 //! follow from the balance of the moments on the dependent rotations, R_s + G_s^T lambda = 0, so that they are no unknowns
-//! either: their moments on the other rotations are the same coefficients times R_s.
+//! either: their moments on the other rotations are the same coefficients times R_s. A joint with play has no constraint
+//! row: no rotation of its node follows from others.
 
 use super::nodes::Node;
 use super::precision::{Lanes, Precision};
 use super::{Chain, GUIDE, NODE, U};
-use crate::dynamics::interactions::{Joints, rotations};
+use crate::dynamics::energy::JointForces;
+use crate::dynamics::interactions::{Joints, pin_lanes, rotations};
 use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
+use crate::tool::PinFriction;
 
 /// Place in a node of the residual of a joint's first row: the place of the spin below, whose moment is always in balance.
 pub(super) const FIRST_ROW: usize = 6;
@@ -67,12 +70,16 @@ impl Dependents {
         Self { list, count: 3 }
     }
 
-    /// Those of a node; of a joint they are linearised with each residual.
-    pub(super) fn of(node: &Node) -> Self {
+    /// Those of a node whose joint has so many `rows`; of a joint they are linearised with each residual.
+    pub(super) fn of(node: &Node, rows: usize) -> Self {
         if node.joint.is_none() {
             return Self::welded();
         }
         let mut dependents = Self::welded();
+        if rows == 0 {
+            dependents.count = 0;
+            return dependents;
+        }
         dependents.list[0].by = [0.0; NODE];
         dependents.list[0].by[FIRST_ROW] = -1.0;
         dependents.count = 1;
@@ -234,7 +241,7 @@ impl Chain {
     /// Hands the spins of the joints that are solved for from the lanes to their nodes. A residual is evaluated more often
     /// than a tangent, so that it leaves them in the lanes. The rows stand in the equations times `scale`.
     pub(super) fn set_spins(&mut self, scale: f64) {
-        if !self.model.one_row {
+        if self.model.joint_rows != 1 {
             return;
         }
         for (joint, &k) in self.model.nodes.of_joints.iter().enumerate() {
@@ -242,6 +249,18 @@ impl Chain {
                 let (spins, lane) = (&self.spins[joint / 8], joint % 8);
                 self.dependents[k].set_spin(spins.by.map(|by| by[lane]), spins.by_row[lane] / scale);
             }
+        }
+    }
+
+    /// Sets the moments with which slipping pins of the joints resist (N m) to those under the `forces` in them.
+    pub(crate) fn set_pin_moments(&self, pins: &PinFriction, forces: &JointForces, moments: &mut [f64]) {
+        if pins.coefficient == 0.0 {
+            return;
+        }
+        let joints = self.model.nodes.of_joints.iter().zip(&forces.multipliers);
+        for (moment, (&k, [torque, _])) in moments.iter_mut().zip(joints) {
+            let [x, y, z] = forces.on_top[k];
+            *moment = pins.moment(*torque, (x * x + y * y + z * z).sqrt());
         }
     }
 
@@ -292,13 +311,37 @@ impl Kernel for BalanceJoints<'_> {
             .chunks(8)
             .zip(chain.model.nodes.of_joints.chunks(8));
         let of_groups = chain.spins.iter_mut().zip(chain.multipliers.chunks_mut(8));
-        for ((group, (places, nodes)), (spins, multipliers)) in groups.iter_mut().zip(places).zip(of_groups) {
+        for (g, ((group, (places, nodes)), (spins, multipliers))) in
+            groups.iter_mut().zip(places).zip(of_groups).enumerate()
+        {
             if !nodes.iter().any(|&k| chain.active.affected[k]) {
                 continue;
             }
             let (q, rate) = rotations(places, state);
-            group.linearise::<V>(&q, &rate);
+            group.linearise::<V>(&q, &rate, &pin_lanes(&state.pin_moments, 8 * g));
+            // What has no multiplier acts on the rotations as it is, on the spin below too.
+            for (lane, &k) in nodes.iter().enumerate() {
+                if let Some(moments) = group.further_moments(lane).filter(|_| chain.active.affected[k]) {
+                    for (place, moment) in ROTATIONS.into_iter().zip(moments) {
+                        residual[k][place] += moment;
+                    }
+                }
+            }
             let stop = group.shut_stop();
+            if group.has_play() {
+                for (lane, (&k, multipliers)) in nodes.iter().zip(multipliers).enumerate() {
+                    if !chain.active.affected[k] {
+                        continue;
+                    }
+                    if let Some(stop) = stop {
+                        for (place, gradient) in ROTATIONS.into_iter().zip(&stop.gradient) {
+                            residual[k][place] += gradient[lane] * stop.moment[lane];
+                        }
+                    }
+                    *multipliers = [group.play().multiplier[lane], 0.0];
+                }
+                continue;
+            }
             let [row] = group.rows() else {
                 for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
                     if chain.active.affected[k] {

@@ -8,6 +8,7 @@ use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, SpanForces, SpanWorks};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
+use crate::elements::mud::MudLump;
 use crate::model::{HeldNode, Model};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -23,7 +24,9 @@ impl Chain {
         interactions: &Interactions,
     ) {
         let instructions = self.model.instructions;
+        point.mud.fill(0.0);
         let mut stored = instructions.run(SpanEnergies {
+            at_top: model.pressure_at_top(conditions),
             chain: self,
             point,
             state,
@@ -33,6 +36,10 @@ impl Chain {
             point.damping.fill(0.0);
             point.inertia.fill(0.0);
             point.add_masses(&self.model.numbered(model), state, conditions);
+        }
+        self.add_mud_energy(point);
+        for (couple, q) in self.model.preload.iter().zip(&state.q) {
+            stored -= couple * q;
         }
         stored += point.kinetic;
         point.friction.fill(0.0);
@@ -47,14 +54,21 @@ impl Chain {
         point.joints.multipliers.copy_from_slice(&self.multipliers);
         let numbered = self.model.numbered(model);
         point.finish(stored, &numbered, conditions, interactions, &self.residual);
-        self.reactions_inside_a_fixed_guide(point, model, interactions);
+        self.reactions_inside_a_fixed_guide(point, model, state, conditions, interactions);
     }
 }
 
 impl Chain {
-    /// Reactions of the supports at stations between the nodes, of a guide that is fixed as a whole: they balance weight and
-    /// contacts, since nothing else acts there.
-    fn reactions_inside_a_fixed_guide(&self, point: &mut EnergyPoint, model: &Model, interactions: &Interactions) {
+    /// Reactions of the supports at stations between the nodes, of a guide that is fixed as a whole: they balance weight,
+    /// contacts, and what the pipe does through the mud, since nothing else acts there.
+    fn reactions_inside_a_fixed_guide(
+        &self,
+        point: &mut EnergyPoint,
+        model: &Model,
+        state: &State,
+        conditions: &Conditions,
+        interactions: &Interactions,
+    ) {
         if !model.description.guide_fixed {
             return;
         }
@@ -62,6 +76,25 @@ impl Chain {
         for at in model.held_nodes.iter().filter(inside) {
             for index in at.held.clone() {
                 point.reactions[index] = -model.weight[model.held[index]];
+            }
+            if let Some(mud) = &model.mud {
+                let station = &model.stations[at.station];
+                let moving = |values: &[f64]| station.pipe_to_station * self.pipe_translation(values, at.station);
+                let (v, a) = (moving(&state.v), moving(&state.a));
+                let MudLump { mass, drag } = mud.stations[at.station];
+                for index in at.held.clone() {
+                    let k = model.held[index] - at.node;
+                    if matches!(k, 1 | 2) {
+                        let inert = mass.coupling * (a[k] + conditions.rayleigh.alpha * v[k]);
+                        point.reactions[index] += inert + drag.coupling * v[k];
+                        if let (Some(near), (l, i)) =
+                            (mud.near_wall.get(at.station), self.model.nodes.stations[at.station])
+                        {
+                            let taken = near[0].take(&self.mud[l][0].lane(i - 1));
+                            point.reactions[index] -= taken.film[k - 1] + taken.inertia[k - 1];
+                        }
+                    }
+                }
             }
         }
         let layers = [(&interactions.inner, 1.0), (&interactions.outer, -1.0)];
@@ -84,7 +117,7 @@ impl Chain {
 
 /// Adds forces on a span's ends.
 #[inline(always)]
-fn add(values: &mut [f64], [top, bottom]: [usize; 2], force: &EndColumn) {
+pub(super) fn add(values: &mut [f64], [top, bottom]: [usize; 2], force: &EndColumn) {
     for (first, half) in [(top, 0), (bottom, 8)] {
         for (to, x) in values[first..first + 6].iter_mut().zip(&force[half..half + 6]) {
             *to += x;
@@ -107,6 +140,8 @@ struct SpanEnergies<'a> {
     point: &'a mut EnergyPoint,
     state: &'a State,
     conditions: &'a Conditions,
+    /// Pressure in the pipe at the tool's top (Pa).
+    at_top: f64,
 }
 
 impl Kernel for SpanEnergies<'_> {
@@ -119,18 +154,39 @@ impl Kernel for SpanEnergies<'_> {
             point,
             state,
             conditions,
+            at_top,
         } = self;
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let zero = [V::splat(0.0); 2];
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
+        let (mut shortened, mut lifted) = (0.0, 0.0);
         let ((rates, _), (rates2, _)) = (state.v.as_chunks(), state.a.as_chunks());
         for (l, link) in chain.model.links.iter().enumerate() {
             let kind = &chain.model.kinds[link.kind];
             for body in 0..2 {
                 let at_v = at_ends(rates, l, body);
                 let stiff = product::<V>(&kind.stiffness[body], &at_v);
-                let moving = product::<V>(&kind.mass[body], &at_v);
-                let inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
+                let mut moving = product::<V>(&kind.mass[body], &at_v);
+                let mut inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
+                let mut dragged = zero;
+                if let Some(mud) = &kind.mud {
+                    let there = at_ends(rates, l, 1 - body);
+                    let across = &mud.mass_across[body];
+                    let of_mud = [
+                        product::<V>(across, &there),
+                        product::<V>(across, &at_ends(rates2, l, 1 - body)),
+                        product::<V>(&mud.drag[body], &at_v),
+                        product::<V>(&mud.drag_across[body], &there),
+                    ];
+                    for half in 0..2 {
+                        moving[half] = moving[half].plus(of_mud[0][half]);
+                        inert[half] = inert[half].plus(of_mud[1][half]);
+                        dragged[half] = of_mud[2][half].plus(of_mud[3][half]);
+                    }
+                    let mut on = [0.0; 16];
+                    store(dragged, &mut on);
+                    add(&mut point.mud, ends(l, body), &on);
+                }
                 let mut geometric_forces: [V; 2] = load(&chain.geometric_forces[l][body]);
                 geometric_forces[0] = geometric_forces[0].times(V::load(&FORCES));
                 let in_use = if body == 0 {
@@ -138,8 +194,18 @@ impl Kernel for SpanEnergies<'_> {
                 } else {
                     state.guide_axial[l]
                 };
-                let beyond = V::splat(in_use - chain.geometric_forces[l][body][TENSION]);
-                let tension_in_use = V::splat(in_use);
+                // With shortening the axial force is that of the energy: nothing is foreseen, and N G q is no update.
+                let stretch = if body == 0 { chain.stretches.get(l) } else { None };
+                let (beyond, tension_in_use) = match stretch {
+                    None => {
+                        let by_pressure = if body == 0 { at_top * link.unstrained } else { 0.0 };
+                        (
+                            V::splat(in_use - (chain.geometric_forces[l][body][TENSION] + by_pressure)),
+                            V::splat(in_use),
+                        )
+                    }
+                    Some(_) => (V::splat(0.0), V::splat(0.0)),
+                };
                 // Two lanes of each hold other unknowns; forces are zero there.
                 let (mut q, v) = (
                     around::<V>(&state.q, ends(l, body)),
@@ -158,12 +224,26 @@ impl Kernel for SpanEnergies<'_> {
                 let mut damped = zero;
                 for half in 0..2 {
                     foreseen[half] = foreseen[half].minus_product(v[half], geometric_forces[half].times(beyond));
-                    geometric_forces[half] = geometric_forces[half].times(tension_in_use);
+                    let slopes = geometric_forces[half];
+                    geometric_forces[half] = slopes.times(tension_in_use);
                     damped[half] = moving[half].times(alpha).plus_product(stiff[half], beta);
-                    let bent = linear[half].minus(damped[half].plus(inert[half]));
+                    let mut bent = linear[half].minus(damped[half].plus(inert[half]));
+                    if kind.mud.is_some() {
+                        bent = bent.minus(dragged[half]);
+                    }
                     elastic[half] = elastic[half].plus_product(q[half], bent);
                     geometric[half] = geometric[half].plus_product(q[half], geometric_forces[half]);
                     kinetic[half] = kinetic[half].plus_product(v[half], moving[half]);
+                    if let Some(stretch) = stretch {
+                        let (halves, _) = kind.tension[0].as_chunks::<8>();
+                        damped[half] = damped[half]
+                            .plus_product(slopes, V::splat(stretch.damped))
+                            .plus_product(V::load(&halves[half]), V::splat(stretch.damped_shortening));
+                    }
+                }
+                if let Some(stretch) = stretch {
+                    shortened += stretch.energy;
+                    lifted += stretch.shortening * link.on_strain;
                 }
                 if body == 0 {
                     let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
@@ -173,7 +253,14 @@ impl Kernel for SpanEnergies<'_> {
                         } else {
                             0.0
                         };
-                        *top = linear[i] + in_use * geometric_forces[i] + contact_forces - link.weight_on_top[i];
+                        let (across, along) = stretch.map_or((in_use, 0.0), |stretch| {
+                            (stretch.across(), stretch.along() * kind.tension[0][i])
+                        });
+                        *top = linear[i] + across * geometric_forces[i] + contact_forces
+                            - (link.weight_on_top[i] + at_top * link.pressure_on_top[i]);
+                        if stretch.is_some() {
+                            *top += along;
+                        }
                     }
                 }
                 let forces = &mut point.spans[l];
@@ -185,7 +272,13 @@ impl Kernel for SpanEnergies<'_> {
         point.kinetic = 0.5 * sum(kinetic);
         point.geometric_energy = 0.5 * sum(geometric);
         point.foresight = sum(foreseen);
-        0.5 * sum(elastic) + point.geometric_energy
+        point.lifted_by_pressure = lifted;
+        let linear = 0.5 * sum(elastic) + point.geometric_energy;
+        if chain.stretches.is_empty() {
+            linear
+        } else {
+            linear + shortened
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::active::WHOLE_CORRECTIONS;
 use super::residual::Evaluation;
+use super::shortening::StretchTangents;
 use super::{Chain, NODE, SINGLE_CORRECTIONS};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
@@ -53,7 +54,7 @@ impl ChainEquations<'_> {
             stopwatch,
         } = self;
         stopwatch.lap(Phase::Other);
-        chain.span_forces(evaluation, to, conditions);
+        chain.span_forces(evaluation, model, to, conditions);
         stopwatch.lap(Phase::Assembly);
         chain.contact_forces(interactions, model, to, conditions);
         chain.gather(to);
@@ -79,7 +80,29 @@ impl ChainEquations<'_> {
         };
         chain.active.set_whole();
         let contacts_and_masses = &mut chain.additions;
-        contacts_and_masses.linearise(&chain.model, &chain.active, interactions, model, state, at);
+        let crossing = chain.operators[operator].crossing.as_ref();
+        contacts_and_masses.linearise(
+            &chain.model,
+            &chain.active,
+            interactions,
+            model,
+            state,
+            at,
+            crossing,
+            &chain.mud,
+        );
+        if !chain.stretches.is_empty() {
+            chain.model.instructions.run(StretchTangents {
+                to: &mut chain.additions,
+                chain: &chain.model,
+                active: &chain.active,
+                stretches: &chain.stretches,
+                slopes: &chain.geometric_forces,
+                state,
+                beta: at.conditions.rayleigh.beta,
+                factors: at.factors,
+            });
+        }
         chain.set_spins(model.moment_scale);
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
@@ -112,7 +135,29 @@ impl ChainEquations<'_> {
             return false;
         };
         let contacts_and_masses = &mut chain.single_additions;
-        contacts_and_masses.linearise(&chain.model, &chain.active, interactions, model, state, at);
+        let crossing = chain.operators[operator].crossing_single.as_ref();
+        contacts_and_masses.linearise(
+            &chain.model,
+            &chain.active,
+            interactions,
+            model,
+            state,
+            at,
+            crossing,
+            &chain.mud,
+        );
+        if !chain.stretches.is_empty() {
+            chain.model.instructions.run(StretchTangents {
+                to: &mut chain.single_additions,
+                chain: &chain.model,
+                active: &chain.active,
+                stretches: &chain.stretches,
+                slopes: &chain.geometric_forces,
+                state,
+                beta: at.conditions.rayleigh.beta,
+                factors: at.factors,
+            });
+        }
         chain.set_spins(model.moment_scale);
         let (sweep, of_joints) = (&mut chain.single_sweep, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
@@ -129,7 +174,7 @@ impl ChainEquations<'_> {
 
 impl Equations for ChainEquations<'_> {
     fn begin(&mut self, stride: &Stride, from: &State) {
-        self.interactions.begin();
+        self.interactions.begin(from, stride.h);
         self.chain.accuracy = stride.accuracy;
         self.chain.foresee(from, stride.foresight, stride.foreseen_part);
         self.chain.limits.for_step(stride.h);

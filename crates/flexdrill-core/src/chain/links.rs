@@ -6,8 +6,10 @@ use super::columns::ends;
 use super::nodes::Nodes;
 use super::slaving::{LinkMatrices, local_lateral};
 use crate::dynamics::state::Deflection;
+use crate::elements::mud_wall::NearWall;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
+use crate::simd::number::Lane;
 
 /// A span.
 #[derive(Debug, Clone)]
@@ -20,7 +22,17 @@ pub(super) struct Link {
     pub clearance_squared: Aligned<[f64; 8]>,
     /// Force of the pipe's weight on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
-    /// Lateral deflection of the inner stations under the weight of pipe and guide (m), as [`LinkMatrices::lateral`].
+    /// Effective tension of the pipe without strain (N/Pa), mean of its elements, and force of the pressure on its top end
+    /// (N/Pa) along the axes of the link above, per pressure at the tool's top.
+    pub unstrained: f64,
+    pub pressure_on_top: [f64; 3],
+    /// Effective tension without strain per pressure at the tool's top (N/Pa) as the span's ends have it: the mean of the
+    /// elements by their compliance.
+    pub on_strain: f64,
+    /// Mud near the walls of both annuli at those stations; none where it does not count.
+    pub mud: Option<Box<[NearWall<Lane>; 2]>>,
+    /// Lateral deflection of the inner stations under the weight of pipe and guide and the guide's preload (m), as
+    /// [`LinkMatrices::lateral`].
     pub by_weight: Aligned<Deflection>,
 }
 
@@ -41,8 +53,20 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
             offset: Aligned([[0.0; 8]; 2]),
             clearance_squared: Aligned([f64::MAX; 8]),
             weight_on_top: [0.0; 3],
+            unstrained: 0.0,
+            pressure_on_top: [0.0; 3],
+            on_strain: 0.0,
+            mud: None,
             by_weight: Aligned([[0.0; 16]; 2]),
         };
+        if let Some(mud) = model.mud.as_ref().filter(|mud| !mud.near_wall.is_empty()) {
+            let lanes = link.mud.get_or_insert_with(Box::default);
+            for i in 0..per {
+                for (lanes, at) in lanes.iter_mut().zip(&mud.near_wall[first + i + 1]) {
+                    lanes.set_lane(i, at);
+                }
+            }
+        }
         for i in 0..per {
             let station = &model.stations[first + i + 1];
             (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
@@ -53,19 +77,31 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
     (kinds, links)
 }
 
-/// Consistent forces of gravity in the chain's numbering.
-pub(super) fn weights(
+/// Constant forces on the unknowns of the chain.
+pub(super) struct ConstantForces {
+    /// Consistent forces of gravity (N, N m).
+    pub weight: Vec<f64>,
+    /// Couples of the guide's preload (N m); empty without one.
+    pub preload: Vec<f64>,
+}
+
+/// Consistent forces of gravity, and the guide's preload, in the chain's numbering.
+pub(super) fn constant_forces(
     model: &Model,
     nodes: &Nodes,
     kinds: &[LinkMatrices],
     links: &mut [Link],
     unknowns: usize,
-) -> Vec<f64> {
-    let mut out = vec![0.0; unknowns];
+) -> ConstantForces {
+    let mut out = ConstantForces {
+        weight: vec![0.0; unknowns],
+        preload: vec![0.0; if model.preload.is_empty() { 0 } else { unknowns }],
+    };
     for (l, link) in links.iter_mut().enumerate() {
         let (first, per) = (nodes.first(l), nodes.elements(l));
         for body in 0..2 {
             let mut weight = DVector::<f64>::zeros(6 * (per + 1));
+            let mut preload = None;
             for e in 0..per {
                 let element = if body == 0 {
                     &model.pipe[first + e].weight
@@ -74,9 +110,23 @@ pub(super) fn weights(
                 };
                 let mut part = weight.rows_mut(6 * e, 12);
                 part += element;
+                if let Some(of_element) = model.guide[first + e].preload.as_ref().filter(|_| body == 1) {
+                    let preload = preload.get_or_insert_with(|| DVector::<f64>::zeros(6 * (per + 1)));
+                    let mut part = preload.rows_mut(6 * e, 12);
+                    part += of_element.force;
+                }
             }
             let kind = &kinds[link.kind];
             let on_ends = kind.slaved[body].tr_mul(&weight);
+            let [top, bottom] = ends(l, body);
+            if let Some(preload) = preload {
+                let on_ends = kind.slaved[body].tr_mul(&preload);
+                for i in 0..6 {
+                    out.preload[top + i] += on_ends[i];
+                    out.preload[bottom + i] += on_ends[6 + i];
+                }
+                weight += preload;
+            }
             let by_weight = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
             for i in 1..per {
                 let at = local_lateral(model, first + i, body) * by_weight.rows(6 * (i - 1), 6);
@@ -85,12 +135,48 @@ pub(super) fn weights(
             if body == 0 {
                 link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
             }
-            let [top, bottom] = ends(l, body);
             for i in 0..6 {
-                out[top + i] += on_ends[i];
-                out[bottom + i] += on_ends[6 + i];
+                out.weight[top + i] += on_ends[i];
+                out.weight[bottom + i] += on_ends[6 + i];
             }
         }
     }
+    out
+}
+
+/// Forces of the pressure in the pipe per pressure at the tool's top (N/Pa), in the chain's numbering, where the pipe's end
+/// moves along `pipe_end`; empty without it.
+pub(super) fn pressure_forces(
+    model: &Model,
+    nodes: &Nodes,
+    kinds: &[LinkMatrices],
+    links: &mut [Link],
+    unknowns: usize,
+    pipe_end: usize,
+) -> Vec<f64> {
+    let Some(pressure) = &model.pressure else {
+        return Vec::new();
+    };
+    let mut out = vec![0.0; unknowns];
+    for (l, link) in links.iter_mut().enumerate() {
+        let (first, per) = (nodes.first(l), nodes.elements(l));
+        let of_elements = &pressure.unstrained[first..first + per];
+        let mut along = DVector::<f64>::zeros(6 * (per + 1));
+        for (e, tension) in of_elements.iter().enumerate() {
+            along[6 * e] += tension;
+            along[6 * (e + 1)] -= tension;
+        }
+        let on_ends = kinds[link.kind].slaved[0].tr_mul(&along);
+        link.unstrained = of_elements.iter().sum::<f64>() / per as f64;
+        // The lower end has its rotations first, and its axes are the span's own.
+        link.on_strain = -on_ends[9];
+        link.pressure_on_top = [on_ends[0], on_ends[1], on_ends[2]];
+        let [top, bottom] = ends(l, 0);
+        for i in 0..6 {
+            out[top + i] += on_ends[i];
+            out[bottom + i] += on_ends[6 + i];
+        }
+    }
+    out[pipe_end] += pressure.on_end;
     out
 }

@@ -26,11 +26,13 @@ mod double;
 mod energy;
 mod equations;
 mod links;
+mod mud;
 mod nodes;
 mod numbering;
 mod operator;
 mod precision;
 mod residual;
+mod shortening;
 mod single;
 mod slaving;
 mod solve;
@@ -39,11 +41,15 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::numbered::Numbered;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::joint::Joint;
+use crate::elements::mud_wall::Motion;
+use crate::elements::shortening::Stretch;
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
@@ -51,7 +57,8 @@ use crate::simd::aligned::Aligned;
 use active::Active;
 use columns::EndForces;
 use dependents::{Dependents, FIRST_ROW, SECOND_ROW, Spins};
-use links::Link;
+use links::{ConstantForces, Link};
+use mud::MudMotions;
 use nodes::Nodes;
 use operator::Operator;
 use single::SingleSweep;
@@ -100,14 +107,20 @@ pub(crate) struct ChainModel {
     kinds: Vec<LinkMatrices>,
     /// The spans, top to bottom.
     links: Vec<Link>,
-    /// Whether joints have one rotational row.
-    one_row: bool,
+    /// Rotational rows per joint that are constraints; with play none.
+    joint_rows: usize,
     numbering: Numbering,
     pub(crate) places: Places,
     /// What the drive prescribes: the spin of the first node, above and below.
     driven: Vec<usize>,
     /// Consistent forces of gravity (N, N m).
     weight: Vec<f64>,
+    /// Couples of the guide's preload (N m); empty without one.
+    preload: Vec<f64>,
+    /// Sum of both.
+    constant: Vec<f64>,
+    /// Forces of the pressure in the pipe, per pressure at the top (N/Pa); empty without it.
+    pressure: Vec<f64>,
     /// Rows of each node whose unknowns are free, 1, or held, 0; `None` where all are free.
     rows: Vec<Option<[f64; NODE]>>,
     /// Per unknown 1, or 0 for the tie's multiplier, which has no velocity.
@@ -121,15 +134,17 @@ impl ChainModel {
             model,
             places: &self.places,
             weight: &self.weight,
+            pressure: &self.pressure,
         }
     }
 }
 
 /// The chain of nodes: its model, what a residual evaluates, and the room that a step needs.
+#[derive(Clone)]
 pub(crate) struct Chain {
-    pub(crate) model: ChainModel,
+    pub(crate) model: Arc<ChainModel>,
     /// Step-constant tangents, one per step size.
-    operators: Vec<Operator>,
+    operators: Vec<Arc<Operator>>,
     limits: Limits,
     /// How closely the step is solved.
     accuracy: Accuracy,
@@ -141,9 +156,13 @@ pub(crate) struct Chain {
     linear: Vec<Aligned<EndForces>>,
     /// Those of geometric stiffness per axial force; one lane holds the axial force of the displacements.
     geometric_forces: Vec<Aligned<EndForces>>,
+    /// How each span of the pipe is stretched; none where spans do not shorten.
+    stretches: Vec<Stretch>,
     /// Those of contacts, and whether there are any.
     contact_forces: Vec<Aligned<EndForces>>,
     has_contacts: Vec<bool>,
+    /// How the stations of each span move in both annuli of mud; empty where mud near walls does not count.
+    mud: Vec<MudMotions>,
     /// The rotations of each node that follow from its others.
     dependents: Vec<Dependents>,
     /// The same of joints with one row, eight at a time.
@@ -183,7 +202,7 @@ impl Chain {
         let (force, moment) = (tolerances.force, tolerances.moment);
         let moving_force = tolerances.moving_force(model);
         let moving_moment = moving_force * tolerances.moving_moment;
-        let joint_rows = Joint::rotational_rows(model.description.joint.kind);
+        let joint_rows = Joint::constraints(&model.description.joint);
         let limits = |force: f64, moment: f64| {
             let mut limits = vec![moment; unknowns];
             for (node, at) in limits.chunks_exact_mut(NODE).zip(&points.list) {
@@ -191,7 +210,9 @@ impl Chain {
                 node[GUIDE..GUIDE + 3].fill(force);
                 let rows = tolerances.constraint * model.moment_scale;
                 match at.joint {
-                    Some(_) => node[FIRST_ROW] = rows,
+                    Some(_) if joint_rows > 0 => node[FIRST_ROW] = rows,
+                    // With play the spin below has an equation of its own.
+                    Some(_) => {}
                     None => node[6..9].fill(f64::INFINITY),
                 }
                 node[SECOND_ROW] = if at.joint.is_some() && joint_rows > 1 {
@@ -206,7 +227,13 @@ impl Chain {
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
-        let weight = links::weights(model, &points, &kinds, &mut links, unknowns);
+        let pressure = links::pressure_forces(model, &points, &kinds, &mut links, unknowns, places.pipe_end);
+        let ConstantForces { weight, preload } = links::constant_forces(model, &points, &kinds, &mut links, unknowns);
+        let mut constant = weight.clone();
+        constant
+            .iter_mut()
+            .zip(&preload)
+            .for_each(|(sum, couple)| *sum += couple);
         Self {
             operators: Vec::new(),
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
@@ -216,9 +243,22 @@ impl Chain {
             foreseen_part: 0.0,
             linear: vec![Aligned([[0.0; 16]; 2]); spans],
             geometric_forces: vec![Aligned([[0.0; 16]; 2]); spans],
+            stretches: vec![Stretch::default(); if model.shortens() { spans } else { 0 }],
             contact_forces: vec![Aligned([[0.0; 16]; 2]); spans],
             has_contacts: vec![false; spans],
-            dependents: points.list.iter().map(Dependents::of).collect(),
+            mud: vec![
+                [Motion::default(); 2];
+                if links.iter().any(|link| link.mud.is_some()) {
+                    spans
+                } else {
+                    0
+                }
+            ],
+            dependents: points
+                .list
+                .iter()
+                .map(|node| Dependents::of(node, joint_rows))
+                .collect(),
             spins: vec![Spins::default(); model.joints.len().div_ceil(8)],
             multipliers: vec![[0.0; 2]; model.joints.len()],
             residual: vec![0.0; unknowns],
@@ -227,22 +267,25 @@ impl Chain {
             sweep: Sweep::new(nodes),
             single_sweep: SingleSweep::new(nodes),
             correction: vec![0.0; unknowns],
-            model: ChainModel {
+            model: Arc::new(ChainModel {
                 instructions,
                 slowest,
                 nodes: points,
                 kinds,
                 links,
-                one_row: joint_rows == 1,
+                joint_rows,
                 numbering,
                 places,
                 driven,
                 weight,
+                preload,
+                constant,
+                pressure,
                 rows,
                 moving: (0..unknowns)
                     .map(|unknown| if unknown % NODE == TIE { 0.0 } else { 1.0 })
                     .collect(),
-            },
+            }),
         }
     }
 
@@ -274,7 +317,7 @@ impl Chain {
     pub(crate) fn prepare(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
         if self.operator(factors, conditions).is_none() {
             let operator = Operator::of(self, model, factors, conditions);
-            self.operators.push(operator);
+            self.operators.push(Arc::new(operator));
         }
     }
 

@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 
 use super::columns::{EndForces, ends};
 use super::nodes::Nodes;
-use super::{Chain, GUIDE, NODE, TIE, U};
+use super::{Chain, ChainModel, GUIDE, NODE, TIE, U};
 use crate::dynamics::energy::JointForces;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{State, bristles};
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -68,6 +68,7 @@ impl Numbering {
                 to.copy_within(first..first + 3, first + 6);
             }
         }
+        chain.pin_moments.copy_from_slice(&full.pin_moments);
         (chain.scheme_step, chain.time, chain.drive_angle) = (full.scheme_step, full.time, full.drive_angle);
     }
 }
@@ -94,15 +95,23 @@ pub(super) fn place(model: &Model, nodes: &Nodes, unknown: usize) -> usize {
     }
 }
 
+impl ChainModel {
+    /// Place of an unknown of the tool's model that is one of the chain too.
+    pub(crate) fn place(&self, unknown: usize) -> Option<usize> {
+        self.numbering.place(unknown)
+    }
+}
+
 impl Chain {
     /// Takes a state in the numbering of the model.
     pub(crate) fn take(&self, model: &Model, from: &State, to: &mut State) {
         self.model.numbering.gather(from, to);
         self.take_deflections(model, from, to);
+        to.bristles.copy_from_slice(&from.bristles);
     }
 
     /// A state of the right sizes.
-    pub(crate) fn state(&self) -> State {
+    pub(crate) fn state(&self, model: &Model) -> State {
         let (n, spans) = (self.unknowns(), self.spans());
         State {
             q: vec![0.0; n],
@@ -113,6 +122,8 @@ impl Chain {
             pipe_axial: vec![0.0; spans],
             guide_axial: vec![0.0; spans],
             deflection: vec![[[0.0; 16]; 2]; spans],
+            pin_moments: vec![0.0; self.multipliers.len()],
+            bristles: bristles(model),
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -236,7 +247,9 @@ impl Kernel for Show<'_> {
             forces,
             full,
         } = self;
+        full.pin_moments.copy_from_slice(&chain.pin_moments);
         (full.scheme_step, full.time, full.drive_angle) = (chain.scheme_step, chain.time, chain.drive_angle);
+        full.bristles.copy_from_slice(&chain.bristles);
         for (from, to) in [
             (&chain.q, &mut full.q),
             (&chain.v, &mut full.v),

@@ -20,7 +20,9 @@
 //! [`dependents`]: super::dependents
 
 use super::columns::EndColumn;
+use super::precision::Precision;
 use super::slaving::row;
+use super::tangent::AddedCoupling;
 use super::{BOTTOM, Chain, NODE, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -29,6 +31,9 @@ use crate::simd::aligned::Aligned;
 
 /// A node's block by columns.
 pub(super) type Block = [[f64; NODE]; NODE];
+
+/// Forces on the ends of pipe and guide by the motion of the other's, of a kind of span; none without mud.
+type Across = Option<Box<Aligned<[[EndColumn; 12]; 2]>>>;
 
 /// Coupling of a span's two ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +55,68 @@ pub(super) struct Operator {
     pub block_of: Vec<usize>,
     /// Couplings, by kind of span.
     pub couplings: Vec<Coupling>,
+    /// What the motion of one pipe does to the other through mud, in place of `spans`; none without mud.
+    pub across: Vec<Across>,
+    /// The same on the nodes, to begin the additions of an iteration with.
+    pub crossing: Option<Crossing<f64>>,
+    pub crossing_single: Option<Crossing<f32>>,
     /// The same rounded.
     pub single: SingleOperator,
+}
+
+/// How mud couples pipe and guide everywhere: added to every node and span in each iteration, as a contact would be.
+pub(super) struct Crossing<S> {
+    /// By node.
+    pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
+    /// By kind of span.
+    pub couplings: Vec<AddedCoupling<S>>,
+}
+
+impl<S: Precision> Crossing<S> {
+    /// On the nodes of `chain`, of what acts `across` in its kinds of span.
+    fn of(chain: &Chain, across: &[Across]) -> Option<Self> {
+        if across.iter().all(Option::is_none) {
+            return None;
+        }
+        let mut blocks = vec![[[0.0; NODE]; NODE]; chain.model.nodes.list.len()];
+        let none = AddedCoupling {
+            upper: [[S::ZERO; NODE]; 12],
+            lower: [[S::ZERO; NODE]; 12],
+        };
+        let mut couplings = vec![none; across.len()];
+        for (coupling, across) in couplings.iter_mut().zip(across) {
+            let Some(across) = across else { continue };
+            for (body, columns) in across.iter().enumerate() {
+                // Forces on this body by the motion of the other.
+                let (on, by) = (6 * body, 6 * (1 - body));
+                for j in 0..6 {
+                    for i in 0..6 {
+                        coupling.upper[by + j][TOP[on + i]] = S::of(columns[6 + j][row(i)]);
+                        coupling.lower[by + j][BOTTOM[on + i]] = S::of(columns[j][row(6 + i)]);
+                    }
+                }
+            }
+        }
+        for (l, link) in chain.model.links.iter().enumerate() {
+            let Some(across) = &across[link.kind] else { continue };
+            for (body, columns) in across.iter().enumerate() {
+                let (on, by) = (6 * body, 6 * (1 - body));
+                for j in 0..6 {
+                    for i in 0..6 {
+                        blocks[l][TOP[by + j]][TOP[on + i]] += columns[j][row(i)];
+                        blocks[l + 1][BOTTOM[by + j]][BOTTOM[on + i]] += columns[6 + j][row(6 + i)];
+                    }
+                }
+            }
+        }
+        let blocks = blocks
+            .iter()
+            .map(|block| Aligned(block.map(|column| column.map(S::of))));
+        Some(Self {
+            blocks: blocks.collect(),
+            couplings,
+        })
+    }
 }
 
 impl Operator {
@@ -67,7 +132,15 @@ impl Operator {
                 Aligned(std::array::from_fn(|body| {
                     std::array::from_fn(|j| {
                         let (k, m) = (&kind.stiffness[body][j], &kind.mass[body][j]);
-                        std::array::from_fn(|i| elastic * k[i] + inertial * m[i])
+                        let mut column: EndColumn = std::array::from_fn(|i| elastic * k[i] + inertial * m[i]);
+                        if let Some(mud) = &kind.mud {
+                            let drag = column.iter_mut().zip(&mud.drag[body][j]);
+                            drag.for_each(|(x, drag)| *x += factors.damping * drag);
+                        }
+                        match kind.preload.as_ref().filter(|_| body == 1) {
+                            Some(preload) => std::array::from_fn(|i| column[i] + factors.stiffness * preload[j][i]),
+                            None => column,
+                        }
                     })
                 }))
             })
@@ -131,7 +204,21 @@ impl Operator {
                 })
             })
             .collect();
+        let across: Vec<_> = (chain.model.kinds.iter())
+            .map(|kind| {
+                let mud = kind.mud.as_ref()?;
+                Some(Box::new(Aligned(std::array::from_fn(|body| {
+                    std::array::from_fn(|j| {
+                        let (m, c) = (&mud.mass_across[body][j], &mud.drag_across[body][j]);
+                        std::array::from_fn(|i| inertial * m[i] + factors.damping * c[i])
+                    })
+                }))))
+            })
+            .collect();
         let mut operator = Self {
+            crossing: Crossing::of(chain, &across),
+            crossing_single: Crossing::of(chain, &across),
+            across,
             factors,
             damping: [alpha, beta],
             spans,

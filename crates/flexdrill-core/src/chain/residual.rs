@@ -5,10 +5,11 @@
 //! contacts, stops and joint rows are evaluated again.
 
 use super::columns::{EndColumn, Ends, TENSION, around, at_ends, ends, load, plus_column, product, store};
+use super::operator::Operator;
 use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
-use crate::elements::bit::BitTorque;
+use crate::elements::rock::BitLoad;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
@@ -22,16 +23,32 @@ impl Chain {
     }
 
     /// Evaluates the linear and geometric forces of the spans at `to`.
-    pub(super) fn span_forces(&mut self, evaluation: Evaluation, to: &mut State, conditions: &Conditions) {
+    pub(super) fn span_forces(
+        &mut self,
+        evaluation: Evaluation,
+        model: &Model,
+        to: &mut State,
+        conditions: &Conditions,
+    ) {
         if !matches!(evaluation, Evaluation::Correction { .. }) {
             self.active.set_whole();
         }
-        self.model.instructions.run(Spans {
+        let instructions = self.model.instructions;
+        let at_top = model.pressure_at_top(conditions);
+        instructions.run(Spans {
             chain: self,
             to,
             conditions,
             evaluation,
+            at_top,
         });
+        if !self.stretches.is_empty() {
+            self.stretch_spans(
+                to,
+                [conditions.rayleigh.beta, at_top],
+                matches!(evaluation, Evaluation::WholeWithAxial),
+            );
+        }
     }
 
     /// Sums up the forces of spans, contacts and weight on each node.
@@ -39,14 +56,8 @@ impl Chain {
         self.model.instructions.run(Gather { chain: self, state });
     }
 
-    /// Adds what is attached to the nodes: masses, tie, weight on bit, the rock's torque, loads.
-    pub(super) fn attached_forces(
-        &mut self,
-        bit: &mut BitTorque,
-        model: &Model,
-        state: &State,
-        conditions: &Conditions,
-    ) {
+    /// Adds what is attached to the nodes: masses, tie, string, rock, loads.
+    pub(super) fn attached_forces(&mut self, bit: &mut BitLoad, model: &Model, state: &State, conditions: &Conditions) {
         let numbered = self.model.numbered(model);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
         numbered.add_mass_forces(&mut self.residual, state, conditions, affected);
@@ -95,7 +106,7 @@ impl Kernel for Foresee<'_> {
     }
 }
 
-/// The residual of gravity, spans and contacts.
+/// The residual of constant forces, spans and contacts.
 struct Gather<'a> {
     chain: &'a mut Chain,
     state: &'a State,
@@ -108,7 +119,7 @@ impl Kernel for Gather<'_> {
     fn run<V: Vector>(self) {
         let Self { chain, state } = self;
         let (residual, _) = chain.residual.as_chunks_mut::<NODE>();
-        let (weights, _) = chain.model.weight.as_chunks::<NODE>();
+        let (constant, _) = chain.model.constant.as_chunks::<NODE>();
         let (nodes, affected) = (residual.len(), &chain.active.affected);
         // The forces of the spans below and above on the nodes of a group, and on the first node of the next group.
         let mut from_below = [NodeForces::default(); GROUP];
@@ -128,7 +139,14 @@ impl Kernel for Gather<'_> {
                 let (linear, geometric) = (&chain.linear[l], &chain.geometric_forces[l]);
                 let contacts = chain.has_contacts[l].then_some(&chain.contact_forces[l]);
                 let [on_pipe, on_guide] = [0, 1].map(|body| contacts.map(|contacts| &contacts[body]));
-                let pipe: [V; 2] = force_of_span(&linear[0], &geometric[0], state.pipe_axial[l], on_pipe);
+                let pipe: [V; 2] = match chain.stretches.get(l) {
+                    None => force_of_span(&linear[0], &geometric[0], state.pipe_axial[l], on_pipe),
+                    Some(stretch) => {
+                        let tension = &chain.model.kinds[chain.model.links[l].kind].tension[0];
+                        let force = force_of_span(&linear[0], &geometric[0], stretch.across(), on_pipe);
+                        plus_column(force, tension, V::splat(stretch.along()))
+                    }
+                };
                 let guide: [V; 2] = force_of_span(&linear[1], &geometric[1], state.guide_axial[l], on_guide);
                 from_below[l - start].set(pipe[0], U, guide[0]);
                 from_above[l - start + 1].set(pipe[1], 0, guide[1]);
@@ -138,12 +156,12 @@ impl Kernel for Gather<'_> {
             let forces = from_below.iter().zip(&from_above);
             for (l, (below, above)) in (start..nodes).zip(forces) {
                 if affected[l] {
-                    let (weight, below, above): ([V; 2], [V; 2], [V; 2]) =
-                        (load(&weights[l]), load(below.node()), load(above.node()));
+                    let (constant, below, above): ([V; 2], [V; 2], [V; 2]) =
+                        (load(&constant[l]), load(below.node()), load(above.node()));
                     store(
                         [
-                            below[0].plus(above[0]).minus(weight[0]),
-                            below[1].plus(above[1]).minus(weight[1]),
+                            below[0].plus(above[0]).minus(constant[0]),
+                            below[1].plus(above[1]).minus(constant[1]),
                         ],
                         &mut residual[l],
                     );
@@ -206,6 +224,8 @@ struct Spans<'a> {
     to: &'a mut State,
     conditions: &'a Conditions,
     evaluation: Evaluation,
+    /// Pressure in the pipe at the tool's top (Pa).
+    at_top: f64,
 }
 
 impl Kernel for Spans<'_> {
@@ -226,6 +246,11 @@ impl Kernel for Spans<'_> {
                 let now = [geometric_forces[0][TENSION], geometric_forces[1][TENSION]];
                 *pipe = now[0] + part * (foreseen[0] - now[0]);
                 *guide = now[1] + part * (foreseen[1] - now[1]);
+            }
+            if self.at_top != 0.0 {
+                for (pipe, link) in self.to.pipe_axial.iter_mut().zip(&self.chain.model.links) {
+                    *pipe += self.at_top * link.unstrained;
+                }
             }
         }
     }
@@ -252,9 +277,29 @@ impl Spans<'_> {
                         pushed[end][j] += rayleigh[0] * rate[end][j];
                     }
                 }
-                let stiff = product::<V>(&kind.stiffness[body], &strained);
+                let mut stiff = product::<V>(&kind.stiffness[body], &strained);
+                if let Some(preload) = kind.preload.as_ref().filter(|_| body == 1) {
+                    // A preload turns with the guide: it stores energy but does not damp.
+                    let turned = product::<V>(preload, &at);
+                    stiff = [stiff[0].plus(turned[0]), stiff[1].plus(turned[1])];
+                }
                 let inert = product::<V>(&kind.mass[body], &pushed);
-                store([stiff[0].plus(inert[0]), stiff[1].plus(inert[1])], &mut linear[body]);
+                let mut force = [stiff[0].plus(inert[0]), stiff[1].plus(inert[1])];
+                if let Some(mud) = &kind.mud {
+                    // What the other pipe's motion pushes through the mud, and its viscosity.
+                    let (mut pushed, rate_there) = (at_ends(a, l, 1 - body), at_ends(v, l, 1 - body));
+                    for (pushed, rate) in pushed.as_flattened_mut().iter_mut().zip(rate_there.as_flattened()) {
+                        *pushed += rayleigh[0] * rate;
+                    }
+                    for of_mud in [
+                        product::<V>(&mud.mass_across[body], &pushed),
+                        product::<V>(&mud.drag[body], &rate),
+                        product::<V>(&mud.drag_across[body], &rate_there),
+                    ] {
+                        force = [force[0].plus(of_mud[0]), force[1].plus(of_mud[1])];
+                    }
+                }
+                store(force, &mut linear[body]);
                 store(product::<V>(&kind.geometric[body], &at), &mut geometric_forces[body]);
             }
         }
@@ -264,7 +309,11 @@ impl Spans<'_> {
     #[inline(always)]
     fn increment<V: Vector>(&mut self, operator: usize) {
         let chain = &mut *self.chain;
-        let operator = &chain.operators[operator].spans;
+        let Operator {
+            spans: operator,
+            across,
+            ..
+        } = &*chain.operators[operator];
         let (corrections, _) = chain.correction.as_chunks();
         let forces = chain.linear.iter_mut().zip(&mut chain.geometric_forces);
         let nodes = corrections.windows(2).zip(&chain.active.spans);
@@ -276,7 +325,11 @@ impl Spans<'_> {
             for body in 0..2 {
                 let sums = [load(&linear[body]), load(&geometric_forces[body])];
                 let dq = at_ends(nodes, 0, body);
-                let (sum, other) = products::<V>([&columns[body], &geometric[body]], &dq, sums);
+                let (mut sum, other) = products::<V>([&columns[body], &geometric[body]], &dq, sums);
+                if let Some(across) = &across[link.kind] {
+                    let of_mud = product::<V>(&across[body], &at_ends(nodes, 0, 1 - body));
+                    sum = [sum[0].plus(of_mud[0]), sum[1].plus(of_mud[1])];
+                }
                 store(sum, &mut linear[body]);
                 store(other, &mut geometric_forces[body]);
             }

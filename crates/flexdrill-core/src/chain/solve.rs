@@ -17,6 +17,7 @@ use crate::simd::vector::Vector;
 const COLUMNS: usize = 13;
 
 /// Room for an elimination.
+#[derive(Clone)]
 pub(super) struct Sweep {
     /// S^-1 (U, r) per node.
     columns: Vec<[[f64; NODE]; COLUMNS]>,
@@ -40,6 +41,8 @@ struct Elimination<'a> {
     additions: &'a Additions<f64>,
     nodes: &'a [Node],
     dependents: &'a [Dependents],
+    /// Rows per joint that are constraints.
+    joint_rows: usize,
     links: &'a [Link],
     rows: &'a [Option<[f64; NODE]>],
     /// The right-hand side, which becomes the solution.
@@ -132,7 +135,7 @@ impl Kernel for Elimination<'_> {
             let mut right = [0.0; NODE];
             right.copy_from_slice(&self.values[NODE * k..NODE * (k + 1)]);
             let rows = [right[FIRST_ROW], right[SECOND_ROW]];
-            if self.nodes[k].joint.is_some() {
+            if self.nodes[k].joint.is_some() && self.joint_rows > 0 {
                 // The values of the joint's rows are no moments.
                 keep(&mut right, &MOMENTS);
             }
@@ -226,6 +229,7 @@ impl Chain {
             additions: &self.single_additions,
             nodes: &self.model.nodes.list,
             dependents: &self.dependents,
+            joint_rows: self.model.joint_rows,
             links: &self.model.links,
             rows: &self.model.rows,
             windows: &mut self.active.windows,
@@ -253,6 +257,7 @@ impl Chain {
                 additions: &self.additions,
                 nodes: &self.model.nodes.list,
                 dependents: &self.dependents,
+                joint_rows: self.model.joint_rows,
                 links: &self.model.links,
                 rows: &self.model.rows,
                 values: &mut self.correction,

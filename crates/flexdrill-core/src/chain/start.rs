@@ -33,7 +33,7 @@ impl ChainEquations<'_> {
         };
         self.chain.prepare(self.model, conditions, factors);
         let at = Iteration::first(conditions, factors);
-        self.interactions.begin();
+        self.interactions.begin(state, 0.0);
         self.evaluate(state, conditions, false);
         let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
         for _ in 0..MOST_STATIC_CORRECTIONS {
@@ -72,11 +72,15 @@ impl ChainEquations<'_> {
             mass: 1.0,
         };
         self.chain.prepare(self.model, conditions, factors);
-        self.interactions.begin();
+        self.interactions.begin(state, 0.0);
         self.evaluate(state, conditions, false);
         // The rows hold already; what is asked for is how their second derivatives can be zero.
+        let has_rows = self.chain.model.joint_rows > 0;
         for residual in self.chain.residual.chunks_exact_mut(NODE) {
-            (residual[FIRST_ROW], residual[SECOND_ROW]) = (0.0, 0.0);
+            residual[SECOND_ROW] = 0.0;
+            if has_rows {
+                residual[FIRST_ROW] = 0.0;
+            }
         }
         self.solve_in_double(state, &Iteration::first(conditions, factors))?;
         for (i, &x) in self.chain.correction.iter().enumerate() {

@@ -5,6 +5,8 @@
 //! is the same sum with the forces and motions that the slaving makes of them.
 
 use super::active::Active;
+use super::mud::MudMotions;
+use super::operator::Crossing;
 use super::precision::{Lanes, Precision};
 use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
 use crate::dynamics::factors::TangentFactors;
@@ -27,7 +29,7 @@ pub(super) struct AddedCoupling<S> {
 }
 
 /// Additions of one iteration.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Additions<S> {
     /// Per node, with the columns that count: the guide's, or all.
     pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
@@ -53,7 +55,7 @@ impl<S: Precision> Additions<S> {
 
     /// A node's block, whose columns of what is `touching` are made zero before their first use in an iteration.
     #[inline(always)]
-    fn block(&mut self, node: usize, touching: Touching) -> &mut [[S; NODE]; NODE] {
+    pub(super) fn block(&mut self, node: usize, touching: Touching) -> &mut [[S; NODE]; NODE] {
         let (block, before) = (&mut self.blocks[node], self.nodes[node]);
         if touching > before {
             if before == Touching::Nothing {
@@ -70,7 +72,7 @@ impl<S: Precision> Additions<S> {
 
     /// A span's coupling, in the same way.
     #[inline(always)]
-    fn coupling(&mut self, span: usize, touching: Touching) -> &mut AddedCoupling<S> {
+    pub(super) fn coupling(&mut self, span: usize, touching: Touching) -> &mut AddedCoupling<S> {
         let (coupling, before) = (&mut self.couplings[span], self.spans[span]);
         if touching > before {
             for columns in [&mut coupling.upper, &mut coupling.lower] {
@@ -86,8 +88,21 @@ impl<S: Precision> Additions<S> {
         coupling
     }
 
+    /// Begins with the mud, which couples pipe and guide everywhere.
+    fn begin_with(&mut self, crossing: &Crossing<S>, chain: &ChainModel, active: &Active) {
+        for (node, _) in active.nodes.iter().enumerate().filter(|(_, active)| **active) {
+            self.blocks[node].clone_from(&crossing.blocks[node]);
+            self.nodes[node] = Touching::Both;
+        }
+        for (span, _) in active.spans.iter().enumerate().filter(|(_, active)| **active) {
+            self.couplings[span].clone_from(&crossing.couplings[chain.links[span].kind]);
+            self.spans[span] = Touching::Both;
+        }
+    }
+
     /// Fills the additions, joints left out, from what was linearised by the last residual at `state`, where it is
-    /// `active`.
+    /// `active`, and from what mud couples by the step-constant `crossing`.
+    #[expect(clippy::too_many_arguments, reason = "the parts of one linearisation")]
     pub(super) fn linearise(
         &mut self,
         chain: &ChainModel,
@@ -96,22 +111,31 @@ impl<S: Precision> Additions<S> {
         model: &Model,
         state: &State,
         at: &Iteration<'_>,
+        crossing: Option<&Crossing<S>>,
+        mud: &[MudMotions],
     ) {
         let Iteration {
             conditions, factors, ..
         } = *at;
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
+        if let Some(crossing) = crossing {
+            self.begin_with(crossing, chain, active);
+        }
         chain.instructions.run(ContactTangents {
+            mud,
             to: self,
             chain,
             active,
             interactions,
             factors,
         });
-        let spin = chain.places.bit_spin;
-        self.block(spin / NODE, Touching::Both)[spin % NODE][spin % NODE] +=
-            S::of(factors.damping * interactions.bit.slope);
+        chain
+            .numbered(model)
+            .end_tangents(&interactions.bit, conditions, factors, |row, column, value| {
+                // Each of these acts within a node.
+                self.block(column / NODE, Touching::Both)[column % NODE][row % NODE] += S::of(value);
+            });
         for (point, places) in model.masses.iter().zip(&chain.places.masses) {
             if !point.body.is_coupled() {
                 continue;
@@ -133,6 +157,7 @@ impl<S: Precision> Additions<S> {
 }
 
 struct ContactTangents<'a, S> {
+    mud: &'a [MudMotions],
     to: &'a mut Additions<S>,
     chain: &'a ChainModel,
     active: &'a Active,
@@ -173,6 +198,31 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
             }
         }
         guide_sum.add_to_nodes::<V>(self.to);
+        for (l, motions) in self.mud.iter().enumerate() {
+            let link = &self.chain.links[l];
+            let Some(near) = link.mud.as_ref().filter(|_| self.active.spans[l]) else {
+                continue;
+            };
+            let elements = self.chain.nodes.elements(l);
+            let on_nodes = &S::on_nodes(&self.chain.kinds[link.kind].on_nodes);
+            for i in 1..=elements {
+                for (layer, (near, motion)) in near.iter().zip(motions).enumerate() {
+                    let Some(tangent) = near.lane(i - 1).tangent(&motion.lane(i - 1), &self.factors) else {
+                        continue;
+                    };
+                    let at = InSpan {
+                        l,
+                        at: [false, i == elements],
+                        rows: if layer == 0 {
+                            &on_nodes[i].inner
+                        } else {
+                            &on_nodes[i].outer
+                        },
+                    };
+                    at.add_lateral::<V>(self.to, &tangent);
+                }
+            }
+        }
     }
 }
 
@@ -290,8 +340,8 @@ fn factors<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &GapTangent)
             (normal.times(of(by[0])).plus_product(tangential, of(by[1])))
                 .plus_product(tilt, of(by[4]))
                 .plus(around.times(of(by[2])).plus_product(along, of(by[3]))),
-            around.times(of(tangent.by_around)),
-            along.times(of(tangent.by_along)),
+            (around.times(of(tangent.by_around))).plus_product(along, of(tangent.by_other)),
+            (along.times(of(tangent.by_along))).plus_product(around, of(tangent.by_other)),
         ],
         by: out,
     }
@@ -340,6 +390,57 @@ impl<S: Precision> InSpan<'_, S> {
             add_product::<V, S>(&mut coupling.lower[c], &below.on, &above.by, TOP[c]);
         }
     }
+}
+
+impl<S: Precision> InSpan<'_, S> {
+    /// Adds the derivative of a force along y and z by the motion there, by columns, which both pipes may take part in.
+    #[inline(always)]
+    fn add_lateral<V: Vector>(&self, to: &mut Additions<S>, tangent: &[[f64; 2]; 2]) {
+        let [above, below] = self.rows;
+        let (on_above, on_below) = (lateral::<V, S>(above, tangent), lateral::<V, S>(below, tangent));
+        if self.at[1] {
+            let block = to.block(self.l + 1, Touching::Both);
+            for &j in &BOTTOM {
+                add_lateral::<V, S>(&mut block[j], &on_below, below, j);
+            }
+            return;
+        }
+        let block = to.block(self.l, Touching::Both);
+        for &j in &TOP {
+            add_lateral::<V, S>(&mut block[j], &on_above, above, j);
+        }
+        let block = to.block(self.l + 1, Touching::Both);
+        for &j in &BOTTOM {
+            add_lateral::<V, S>(&mut block[j], &on_below, below, j);
+        }
+        let coupling = to.coupling(self.l, Touching::Both);
+        for c in 0..12 {
+            add_lateral::<V, S>(&mut coupling.upper[c], &on_above, below, BOTTOM[c]);
+            add_lateral::<V, S>(&mut coupling.lower[c], &on_below, above, TOP[c]);
+        }
+    }
+}
+
+/// The forces on a node by the motions along y and z of a station, `rows` being those by forces there.
+#[inline(always)]
+fn lateral<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &[[f64; 2]; 2]) -> [S::Lanes<V>; 2] {
+    let (y, z) = (S::Lanes::<V>::load(&rows[1]), S::Lanes::<V>::load(&rows[2]));
+    let [[yy, zy], [yz, zz]] = *tangent;
+    [
+        y.times(S::Lanes::<V>::splat(S::of(yy)))
+            .plus_product(z, S::Lanes::<V>::splat(S::of(zy))),
+        y.times(S::Lanes::<V>::splat(S::of(yz)))
+            .plus_product(z, S::Lanes::<V>::splat(S::of(zz))),
+    ]
+}
+
+/// column += on by^T of such forces, for column `j` of the product.
+#[inline(always)]
+fn add_lateral<V: Vector, S: Precision>(column: &mut [S; NODE], on: &[S::Lanes<V>; 2], by: &[[S; NODE]; 6], j: usize) {
+    S::Lanes::<V>::load(column)
+        .plus_product(on[0], S::Lanes::<V>::splat(by[1][j]))
+        .plus_product(on[1], S::Lanes::<V>::splat(by[2][j]))
+        .store(column);
 }
 
 /// column += on by^T, for column `j` of the product.

@@ -1,6 +1,7 @@
 //! Inputs and parameters that act on the tool at one instant.
 
 use crate::elements::gap::GapLaw;
+use crate::inputs::Inputs;
 use crate::tool::description::{LiveParameters, LoadHistory, Rayleigh, ToolDescription};
 
 /// Inputs and parameters of one residual evaluation.
@@ -12,8 +13,19 @@ pub struct Conditions {
     pub drive_angle: f64,
     /// Weight on bit (N), compressing.
     pub weight_on_bit: f64,
+    /// Rate of penetration (m/s): advance of the tool along the hole, negative when it is pulled back. The
+    /// wall moves up past the guide at this speed.
+    pub rate_of_penetration: f64,
+    /// Standpipe pressure (Pa): inside minus outside at the tool's top.
+    pub standpipe_pressure: f64,
     /// eta D WOB / 3 of Eq. 1 (N m), >= 0.
     pub bit_torque: f64,
+    /// Distance (m) that the frame of the tool's displacements has advanced down the hole.
+    pub depth: f64,
+    /// Lower end of the string above, in torsion and along the hole; `None` where the first node is held or driven.
+    pub top: [Option<TopEnd>; 2],
+    /// Torque of the top drive (N m), if the string has one.
+    pub drive_torque: Option<f64>,
     /// Regularisation of the bit torque (rad/s).
     pub bit_slip_rate: f64,
     /// Contact law of pipe and guide.
@@ -24,24 +36,67 @@ pub struct Conditions {
     pub rayleigh: Rayleigh,
 }
 
+/// The string's lower end at the tool: the force z (2 f - v) - k q on an unknown q of the first node, with its speed v.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TopEnd {
+    /// Impedance z (N m s or N s/m).
+    pub impedance: f64,
+    /// Wave f that arrives from above (rad/s or m/s).
+    pub arriving: f64,
+    /// Stiffness k (N m/rad or N/m) that holds the end while the tool comes to rest; 0 in motion.
+    pub stiffness: f64,
+}
+
+impl TopEnd {
+    /// The end of a line of this impedance, at which the wave arrives.
+    pub fn of([impedance, arriving]: [f64; 2]) -> Self {
+        Self {
+            impedance,
+            arriving,
+            stiffness: 0.0,
+        }
+    }
+
+    /// An end that is held.
+    pub fn held(stiffness: f64) -> Self {
+        Self {
+            impedance: 0.0,
+            arriving: 0.0,
+            stiffness,
+        }
+    }
+}
+
 impl Conditions {
-    /// The description's laws with the live parameters in force, bit torque by Eq. 1, the drive at angle 0.
+    /// The description's laws with the live parameters in force under `inputs`, bit torque by Eq. 1, the drive at angle
+    /// 0. The rotary speed of `inputs` does not enter: it acts by the angle of the drive.
+    pub fn under(description: &ToolDescription, live: &LiveParameters, time: f64, inputs: &Inputs) -> Self {
+        Self {
+            rate_of_penetration: inputs.rate_of_penetration,
+            standpipe_pressure: inputs.standpipe_pressure,
+            ..Self::new(description, live, time, inputs.weight_on_bit)
+        }
+    }
+
+    /// The same without advance and pressure.
     pub fn new(description: &ToolDescription, live: &LiveParameters, time: f64, weight_on_bit: f64) -> Self {
-        let mut inner = GapLaw {
-            surface: description.inner,
-            slip_speed: description.slip_speed,
-        };
-        let mut outer = GapLaw {
-            surface: description.outer,
-            slip_speed: description.slip_speed,
-        };
+        let [mut inner, mut outer] = [description.inner, description.outer].map(|surface| GapLaw {
+            surface,
+            slip_speed: surface.slip_speed.unwrap_or(description.slip_speed),
+            bristle_stiffness: GapLaw::bristle_stiffness(surface.stiffness, description.material.poisson_ratio),
+        });
         [inner.surface.friction_tangential, inner.surface.friction_axial] = live.inner_friction;
         [outer.surface.friction_tangential, outer.surface.friction_axial] = live.outer_friction;
         Self {
             time,
             drive_angle: 0.0,
             weight_on_bit,
+            rate_of_penetration: 0.0,
+            standpipe_pressure: 0.0,
             bit_torque: live.bit_friction_factor * description.bit.diameter * weight_on_bit.max(0.0) / 3.0,
+            depth: 0.0,
+            top: [None; 2],
+            drive_torque: None,
             bit_slip_rate: description.bit.slip_rate,
             inner,
             outer,

@@ -1,9 +1,10 @@
-//! What is attached to the tool, in either numbering of its unknowns: point masses, the axial tie, weight on bit, the
-//! rock's torque, point loads.
+//! What is attached to the tool, in either numbering of its unknowns: point masses, the axial tie, the string above,
+//! pressure in the pipe, the rock's torque and weight, point loads.
 
 use crate::dynamics::conditions::Conditions;
+use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, motion};
-use crate::elements::bit::BitTorque;
+use crate::elements::rock::{BitAt, BitLoad};
 use crate::model::{Model, Places};
 
 /// The tool in one numbering of its unknowns: that of the model, or that of the chain.
@@ -14,6 +15,8 @@ pub(crate) struct Numbered<'a> {
     pub places: &'a Places,
     /// Consistent forces of gravity (N, N m).
     pub weight: &'a [f64],
+    /// Forces of the pressure in the pipe, per pressure at the top (N/Pa); empty without it.
+    pub pressure: &'a [f64],
 }
 
 impl<'a> Numbered<'a> {
@@ -23,14 +26,16 @@ impl<'a> Numbered<'a> {
             model,
             places: &model.places,
             weight: &model.weight,
+            pressure: &model.pressure_forces,
         }
     }
 
-    /// Adds axial tie, weight on bit, the rock's torque and the loads to the residual, on unknowns that are `wanted`.
+    /// Adds axial tie, the string's torque and force, pressure in the pipe, the rock's torque and weight and the loads to the
+    /// residual, on unknowns that are `wanted`.
     pub(crate) fn add_end_forces(
         &self,
         residual: &mut [f64],
-        bit: &mut BitTorque,
+        bit: &mut BitLoad,
         state: &State,
         conditions: &Conditions,
         wanted: impl Fn(usize) -> bool,
@@ -42,18 +47,73 @@ impl<'a> Numbered<'a> {
             residual[places.guide_end] -= scale * state.q[tie];
             residual[tie] = scale * (state.q[places.pipe_end] - state.q[places.guide_end]);
         }
-        if wanted(places.guide_end) {
-            residual[places.guide_end] += conditions.weight_on_bit;
+        for (unknown, [impedance, arriving, stiffness]) in self.top_ends(conditions) {
+            if wanted(unknown) {
+                let force = impedance * (2.0 * arriving - state.v[unknown]) - stiffness * state.q[unknown];
+                residual[unknown] -= force;
+            }
+        }
+        if !self.pressure.is_empty() {
+            let at_top = model.pressure_at_top(conditions);
+            for (unknown, force) in self.pressure.iter().enumerate() {
+                if wanted(unknown) {
+                    residual[unknown] -= at_top * force;
+                }
+            }
         }
         let spin = places.bit_spin;
         if wanted(spin) {
-            bit.evaluate(conditions.bit_torque, state.v[spin], conditions.bit_slip_rate);
+            // Both are in the last node.
+            let at = BitAt {
+                radius: 0.5 * model.description.bit.diameter,
+                slip_rate: conditions.bit_slip_rate,
+                given: [conditions.bit_torque, conditions.weight_on_bit],
+                angle: state.q[spin],
+                speed: state.v[spin],
+                depth: conditions.depth + state.q[places.guide_end],
+            };
+            bit.evaluate(&model.description.rock, &at);
+            residual[places.guide_end] += bit.weight;
             residual[spin] += bit.torque;
         }
         for (load, &unknown) in model.loads.iter().zip(&places.loads) {
             if wanted(unknown) {
                 residual[unknown] -= load.load.history.at(conditions.time);
             }
+        }
+    }
+
+    /// What the string's end does at the first nodes: unknown, impedance, arriving wave and stiffness, see
+    /// [`TopEnd`](crate::dynamics::conditions::TopEnd).
+    fn top_ends(&self, conditions: &Conditions) -> impl Iterator<Item = (usize, [f64; 3])> + use<> {
+        let unknowns = [self.places.top_spin, self.places.guide_top];
+        let ends = unknowns.into_iter().zip(conditions.top);
+        ends.filter_map(|(unknown, end)| end.map(|end| (unknown, [end.impedance, end.arriving, end.stiffness])))
+    }
+
+    /// Hands the parts of string and rock in the tangent to `add`: unknown of the force, unknown of the motion, value.
+    pub(crate) fn end_tangents(
+        &self,
+        bit: &BitLoad,
+        conditions: &Conditions,
+        factors: TangentFactors,
+        mut add: impl FnMut(usize, usize, f64),
+    ) {
+        let (spin, depth) = (self.places.bit_spin, self.places.guide_end);
+        add(spin, spin, factors.damping * bit.slope);
+        if bit.holds() {
+            let stiffness = factors.stiffness;
+            add(spin, spin, stiffness * bit.torque_by[1]);
+            add(spin, depth, stiffness * bit.torque_by[0]);
+            add(depth, depth, stiffness * bit.weight_by[0]);
+            add(depth, spin, stiffness * bit.weight_by[1]);
+        }
+        for (unknown, [impedance, _, stiffness]) in self.top_ends(conditions) {
+            add(
+                unknown,
+                unknown,
+                factors.damping * impedance + factors.stiffness * stiffness,
+            );
         }
     }
 

@@ -81,6 +81,8 @@ impl FailureCause {
             Self::OutOfRange => "out_of_range",
             Self::InputOutOfBounds(InputKind::RotarySpeed) => "rotary_speed_out_of_bounds",
             Self::InputOutOfBounds(InputKind::WeightOnBit) => "weight_on_bit_out_of_bounds",
+            Self::InputOutOfBounds(InputKind::RateOfPenetration) => "rate_of_penetration_out_of_bounds",
+            Self::InputOutOfBounds(InputKind::StandpipePressure) => "standpipe_pressure_out_of_bounds",
         }
     }
 }
@@ -94,6 +96,12 @@ impl fmt::Display for FailureCause {
             Self::OutOfRange => "a displacement or tilt left the model's range",
             Self::InputOutOfBounds(InputKind::RotarySpeed) => "the rotary speed asked for is out of its bounds",
             Self::InputOutOfBounds(InputKind::WeightOnBit) => "the weight on bit asked for is out of its bounds",
+            Self::InputOutOfBounds(InputKind::RateOfPenetration) => {
+                "the rate of penetration asked for is out of its bounds"
+            }
+            Self::InputOutOfBounds(InputKind::StandpipePressure) => {
+                "the standpipe pressure asked for is out of its bounds"
+            }
         })
     }
 }
@@ -119,8 +127,9 @@ impl fmt::Display for StepFailure {
 
 impl std::error::Error for StepFailure {}
 
-/// Energy since the start (J). Signs: `drive`, `weight_on_bit`, `gravity` and `loads` are work done on the tool; `bit`,
-/// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping` are taken from it.
+/// Energy since the start (J). Signs: `drive`, `hoist`, `weight_on_bit`, `gravity`, `loads`, `feed` and `pressure` are work
+/// done on the tool and the string above it; `bit`, `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping`,
+/// `string`, `mud` are taken from them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct EnergyAudit {
@@ -132,11 +141,15 @@ pub struct EnergyAudit {
     pub gravity: f64,
     /// Work of the configured point loads.
     pub loads: f64,
+    /// Work of the advance against the axial friction of the wall, on the guide and on the string above.
+    pub feed: f64,
     /// Energy taken by the rock.
     pub bit: f64,
-    /// Energy taken by friction in both layers.
+    /// Energy taken by friction in both layers and in the joints' pins.
     pub friction: f64,
-    /// Energy taken by the damping of contacts and joint stops.
+    /// Part of it that the joints' pins took, by the mean of their power over each step.
+    pub joint_friction: f64,
+    /// Energy taken by the damping of contacts, joint stops and joints with play.
     pub contact_damping: f64,
     /// Energy taken by Rayleigh damping.
     pub rayleigh_damping: f64,
@@ -153,4 +166,12 @@ pub struct EnergyAudit {
     pub stored: f64,
     /// Work in, less energy out, less stored: zero for an exact integration.
     pub error: f64,
+    /// Work of the hoist on the string above.
+    pub hoist: f64,
+    /// Energy that the string above has lost, to friction on the wall and inside.
+    pub string: f64,
+    /// Work of the pressure in the pipe: on its lower end, and by stretching its wall.
+    pub pressure: f64,
+    /// Energy taken by the viscosity of the mud around the pipes.
+    pub mud: f64,
 }

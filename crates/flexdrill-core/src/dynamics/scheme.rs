@@ -207,6 +207,8 @@ mod tests {
                 pipe_axial: vec![],
                 guide_axial: vec![],
                 deflection: vec![],
+                pin_moments: vec![],
+                bristles: vec![],
                 time: 0.0,
                 drive_angle: 0.0,
             };

@@ -3,15 +3,21 @@
 use nalgebra::{SVector, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::dynamics::conditions::Conditions;
+use crate::elements::beam::ElementVector;
 use crate::elements::joint::Rotations;
 use crate::elements::point_body::NodeMotion;
 use crate::model::{Model, Station};
+use crate::tool::FrictionLaw;
 
 /// A node's six values.
 pub type NodeVector = SVector<f64, 6>;
 
 /// How far a span deflects, see [`State::deflection`].
 pub type Deflection = [[f64; 16]; 2];
+
+/// Friction of a station's bristles, see [`State::bristles`].
+pub type BristleForces = [[f64; 2]; 2];
 
 /// State at one instant, in the model's numbering: q_rd of Eq. 19 station by station, with the multipliers. Multiplier
 /// slots of `q` hold scaled multipliers; their velocity and acceleration are zero.
@@ -27,7 +33,8 @@ pub struct State {
     pub lagged: Vec<f64>,
     /// Step size (s) that `lagged` is for; 0 before the first step.
     pub scheme_step: f64,
-    /// Axial force of each pipe element (N) that its geometric stiffness has, partly foreseen: see
+    /// Axial force of each pipe element (N) that its geometric stiffness has, under pressure the effective tension, partly
+    /// foreseen: see
     /// [`Scheme`](crate::dynamics::scheme::Scheme).
     pub pipe_axial: Vec<f64>,
     /// The same for the guide.
@@ -35,6 +42,12 @@ pub struct State {
     /// How far each span of a chain deflects between its ends under what acts inside it: lateral deflection
     /// (m) of each station but the first in its station's frame, y in 0..8 and z in 8..16, of pipe and guide.
     pub deflection: Vec<Deflection>,
+    /// Moment with which slipping pins of each joint resist about either axis of its cross (N m), by the forces at the
+    /// start of the last step.
+    pub pin_moments: Vec<f64>,
+    /// Friction that the bristles of each station hold, of pipe and guide and of guide and wall, around and along (N); zero
+    /// where the gap is open. Empty where no layer has bristles.
+    pub bristles: Vec<BristleForces>,
     /// Model time (s).
     pub time: f64,
     /// Angle of the drive (rad) as prescribed at this time.
@@ -54,6 +67,8 @@ impl State {
             pipe_axial: vec![0.0; model.pipe.len()],
             guide_axial: vec![0.0; model.guide.len()],
             deflection: Vec::new(),
+            pin_moments: vec![0.0; model.joints.len()],
+            bristles: bristles(model),
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -69,6 +84,8 @@ impl State {
         self.pipe_axial.copy_from_slice(&other.pipe_axial);
         self.guide_axial.copy_from_slice(&other.guide_axial);
         self.deflection.copy_from_slice(&other.deflection);
+        self.pin_moments.copy_from_slice(&other.pin_moments);
+        self.bristles.copy_from_slice(&other.bristles);
         self.time = other.time;
         self.drive_angle = other.drive_angle;
     }
@@ -82,16 +99,35 @@ impl State {
 
     /// Sets the axial forces to those of the displacements but for a part of the difference to those that are `foreseen`
     /// for pipe and guide.
-    pub(crate) fn blend_axial(&mut self, model: &Model, part: f64, foreseen: &[Vec<f64>; 2]) {
-        self.update_axial(model);
-        let forces = self.pipe_axial.iter_mut().chain(&mut self.guide_axial);
-        for (force, foreseen) in forces.zip(foreseen[0].iter().chain(&foreseen[1])) {
+    pub(crate) fn blend_axial(&mut self, model: &Model, part: f64, foreseen: &[Vec<f64>; 2], conditions: &Conditions) {
+        self.axial_of_strain(model);
+        // With shortening the pipe's force is in the tangent, and is not foreseen.
+        let pipe = if model.shortens() { 0 } else { self.pipe_axial.len() };
+        let forces = self.pipe_axial[..pipe].iter_mut().chain(&mut self.guide_axial);
+        for (force, foreseen) in forces.zip(foreseen[0][..pipe].iter().chain(&foreseen[1])) {
             *force += part * (foreseen - *force);
+        }
+        self.add_pressure(model, conditions);
+    }
+
+    /// Sets the axial forces to those of the displacements, with the pressure in the pipe.
+    pub(crate) fn update_axial(&mut self, model: &Model, conditions: &Conditions) {
+        self.axial_of_strain(model);
+        self.add_pressure(model, conditions);
+    }
+
+    /// Makes the axial forces of the pipe effective tensions.
+    fn add_pressure(&mut self, model: &Model, conditions: &Conditions) {
+        if let Some(pressure) = &model.pressure {
+            let at_top = pressure.at_top(conditions);
+            for (force, unstrained) in self.pipe_axial.iter_mut().zip(&pressure.unstrained) {
+                *force += at_top * unstrained;
+            }
         }
     }
 
-    /// Sets the axial forces to those of the displacements.
-    pub(crate) fn update_axial(&mut self, model: &Model) {
+    /// Sets the axial forces to those of the strains.
+    fn axial_of_strain(&mut self, model: &Model) {
         let Self {
             q,
             pipe_axial,
@@ -100,6 +136,13 @@ impl State {
         } = self;
         set_axial(model, [pipe_axial, guide_axial], |unknown| q[unknown]);
     }
+}
+
+/// Bristles without force, one per station if a layer has any.
+pub(crate) fn bristles(model: &Model) -> Vec<BristleForces> {
+    let layers = [&model.description.inner, &model.description.outer];
+    let any = layers.iter().any(|layer| layer.friction_law == FrictionLaw::Bristle);
+    vec![[[0.0; 2]; 2]; if any { model.stations.len() } else { 0 }]
 }
 
 /// Eq. 20: lateral position (y, z) of the pipe relative to the guide, offset included (m).
@@ -113,7 +156,22 @@ pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
 fn set_axial(model: &Model, [pipe, guide]: [&mut [f64]; 2], q: impl Fn(usize) -> f64) {
     let ends = model.stations.windows(2);
     for ((tension, element), ends) in pipe.iter_mut().zip(&model.pipe).zip(ends.clone()) {
-        *tension = element.beam.tension(q(ends[1].pipe_above) - q(ends[0].pipe_below));
+        let shorter = if model.shortens() {
+            let at = |k: usize| {
+                if k < 6 {
+                    q(ends[0].pipe_below + k)
+                } else {
+                    q(ends[1].pipe_above + k - 6)
+                }
+            };
+            let ends = ElementVector::from_fn(|k, _| at(k));
+            0.5 * ends.dot(&(element.geometric * ends))
+        } else {
+            0.0
+        };
+        *tension = element
+            .beam
+            .tension(q(ends[1].pipe_above) - q(ends[0].pipe_below) + shorter);
     }
     for ((tension, element), ends) in guide.iter_mut().zip(&model.guide).zip(ends) {
         // Displacement along the chord, from those along and across in the node's frame.
@@ -129,6 +187,11 @@ fn set_axial(model: &Model, [pipe, guide]: [&mut [f64]; 2], q: impl Fn(usize) ->
 #[inline]
 pub fn node(values: &[f64], first: usize) -> NodeVector {
     NodeVector::from_column_slice(&values[first..first + 6])
+}
+
+/// The values of an element's two nodes, which begin at `nodes`.
+pub fn element_values(values: &[f64], nodes: [usize; 2]) -> ElementVector {
+    ElementVector::from_fn(|k, _| values[nodes[k / 6] + k % 6])
 }
 
 /// Displacement of a node.

@@ -7,6 +7,7 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::Stepper;
 use crate::dynamics::tolerances::Accuracy;
+use crate::inputs::Inputs;
 use crate::linear::Singular;
 
 /// Why the tool could not be started.
@@ -55,15 +56,16 @@ impl Stepper {
     ///
     /// # Errors
     /// [`StartError::Singular`].
-    pub fn start_as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<State, StartError> {
-        let state = self.as_given(weight_on_bit, h)?;
-        self.start_from(&state, weight_on_bit);
+    pub fn start_as_given(&mut self, inputs: &Inputs, h: f64) -> Result<State, StartError> {
+        let state = self.as_given(inputs, h)?;
+        self.start_from(&state, inputs);
         Ok(state)
     }
 
     /// The state as given over all stations, its accelerations as far as steps of size `h` (s) can follow them.
-    fn as_given(&mut self, weight_on_bit: f64, h: f64) -> Result<State, StartError> {
-        let conditions = self.conditions(0.0, weight_on_bit);
+    fn as_given(&mut self, inputs: &Inputs, h: f64) -> Result<State, StartError> {
+        let conditions = self.held(self.conditions(0.0, inputs));
+        self.lift_off_bottom();
         let mut equations = self.over_stations();
         let model = equations.model;
         let mut state = State::at_rest(model);
@@ -84,7 +86,7 @@ impl Stepper {
             state.q[unknown] = 0.0;
             state.v[unknown] = 0.0;
         }
-        state.update_axial(model);
+        state.update_axial(model, &conditions);
         // Where the stiffness has no numbers, the mass may; the first step then says what is wrong.
         equations
             .balance_accelerations(&mut state, &conditions, h)
@@ -93,14 +95,19 @@ impl Stepper {
         Ok(state)
     }
 
-    /// Brings the tool to rest under gravity and `weight_on_bit` by damped steps of growing size. Friction and bit
-    /// torque of the regularised laws vanish at rest, so it is left out on the way.
+    /// Brings the tool to rest under gravity and `inputs` by damped steps of growing size. Friction and bit torque of the
+    /// regularised laws vanish at rest, so it is left out on the way. The tool does not advance at rest: the rate of
+    /// penetration does not enter.
     ///
     /// # Errors
     /// When steps fail at the smallest size or the tool keeps moving.
-    pub fn settle(&mut self, weight_on_bit: f64) -> Result<State, StartError> {
-        let mut state = self.as_given(weight_on_bit, 0.0)?;
-        let conditions = settling(self.conditions(0.0, weight_on_bit));
+    pub fn settle(&mut self, inputs: &Inputs) -> Result<State, StartError> {
+        let inputs = &Inputs {
+            rate_of_penetration: 0.0,
+            ..*inputs
+        };
+        let mut state = self.as_given(inputs, 0.0)?;
+        let conditions = settling(self.held(self.conditions(0.0, inputs)));
         let most_iterations = self.tolerances().max_iterations;
         let mut equations = self.over_stations();
         let mut trial = state.clone();
@@ -152,14 +159,14 @@ impl Stepper {
         rest.v.fill(0.0);
         rest.a.fill(0.0);
         rest.time = 0.0;
-        let conditions = self.conditions(0.0, weight_on_bit);
+        let conditions = self.held(self.conditions(0.0, inputs));
         let mut equations = self.over_stations();
         equations.polish_rest(&mut rest, &mut trial, &conditions);
         // The remaining unbalanced force becomes an acceleration, so that the first step begins in balance.
         equations
             .balance_accelerations(&mut rest, &conditions, 0.0)
             .map_err(StartError::Singular)?;
-        self.start_from(&rest, weight_on_bit);
+        self.start_from(&rest, inputs);
         Ok(rest)
     }
 }

@@ -70,6 +70,7 @@ pub(crate) enum Accuracy {
 }
 
 /// One over the limit on each residual, zero where there is no equation.
+#[derive(Clone)]
 pub(crate) struct Limits {
     rest: Vec<f64>,
     /// In motion, for [`WHOLE_STEP`].

@@ -5,6 +5,7 @@ use crate::dynamics::state::State;
 use crate::model::Model;
 
 /// Where the motion is, in the numbering in which steps are taken, with the room that a step needs.
+#[derive(Clone)]
 pub(crate) struct Track {
     pub state: State,
     pub trial: State,

@@ -9,7 +9,7 @@ use crate::inputs::Inputs;
 #[derive(Debug, Clone)]
 pub struct Conditioner {
     rules: InputRules,
-    channels: [Channel; 2],
+    channels: [Channel; InputKind::COUNT],
 }
 
 /// Accepted and refused samples of one input.
@@ -41,7 +41,7 @@ struct Channel {
     carried: Option<Sample>,
 }
 
-/// A value (r/min or kN) at a time (s).
+/// A value, in the unit of the input's samples, at a time (s).
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     value: f64,
@@ -53,7 +53,7 @@ impl Conditioner {
     pub fn new(rules: InputRules) -> Self {
         Self {
             rules,
-            channels: [Channel::default(); 2],
+            channels: [Channel::default(); InputKind::COUNT],
         }
     }
 
@@ -72,7 +72,7 @@ impl Conditioner {
         &self.rules[kind.index()]
     }
 
-    /// Accepts or refuses a sample (r/min or kN) received at `time` (s).
+    /// Accepts or refuses a sample ([`InputKind::unit`]) received at `time` (s).
     ///
     /// # Errors
     /// The reason for which the sample was refused; the last good one stays.
@@ -164,6 +164,7 @@ impl Conditioner {
             return InputState::Rejected;
         }
         match self.age(kind, now) {
+            None if kind.is_optional() => InputState::Assumed,
             None => InputState::NotReceived,
             Some(age) if age >= rule.slow_age => InputState::Slow,
             Some(_) => InputState::Ok,
@@ -190,10 +191,20 @@ impl Conditioner {
         (over > 0.0).then_some(over)
     }
 
-    /// The worse of both inputs' states.
+    /// The worst state of the inputs that the tool uses. An optional input that was never sent does not count.
     pub fn quality(&self, now: f64) -> InputState {
-        self.state(InputKind::RotarySpeed, now)
-            .worse(self.state(InputKind::WeightOnBit, now))
+        // A rate of penetration that was sent acts on the friction at the wall under every law.
+        let acts = |kind: &InputKind| self.rule(*kind).used || *kind == InputKind::RateOfPenetration;
+        let used = InputKind::ALL.into_iter().filter(acts);
+        used.map(|kind| self.state(kind, now))
+            .fold(InputState::Ok, InputState::worse)
+    }
+
+    /// Whether an input concerns the run: it is required, the tool uses it, a value other than zero is assumed, or a
+    /// sample came.
+    pub fn is_of_interest(&self, kind: InputKind) -> bool {
+        let (rule, counts) = (self.rule(kind), self.counts(kind));
+        !kind.is_optional() || rule.used || rule.initial != 0.0 || counts.accepted + counts.rejected_total() > 0
     }
 
     /// Age (s) of the last good sample; `None` before the first.
@@ -201,7 +212,7 @@ impl Conditioner {
         self.channels[kind.index()].good.map(|sample| age(now, sample.time))
     }
 
-    /// The last good sample (r/min or kN); `None` before the first.
+    /// The last good sample ([`InputKind::unit`]); `None` before the first.
     pub fn last_good(&self, kind: InputKind) -> Option<f64> {
         self.channels[kind.index()].good.map(|sample| sample.value)
     }
@@ -249,6 +260,8 @@ impl Conditioner {
         Inputs {
             rotary_speed: si(InputKind::RotarySpeed),
             weight_on_bit: si(InputKind::WeightOnBit),
+            rate_of_penetration: si(InputKind::RateOfPenetration),
+            standpipe_pressure: si(InputKind::StandpipePressure),
         }
     }
 

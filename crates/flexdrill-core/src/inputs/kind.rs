@@ -1,12 +1,14 @@
-//! The two inputs: names, topics and units.
+//! The inputs: names, topics and units.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::{kn_to_n, rpm_to_rad_per_s};
+use crate::units::{
+    kn_to_n, m_per_h_to_m_per_s, m_per_s_to_m_per_h, mpa_to_pa, n_to_kn, pa_to_mpa, rad_per_s_to_rpm, rpm_to_rad_per_s,
+};
 
-/// The two inputs of the twin.
+/// The inputs of the twin. A rig sends the first two; the others are optional.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum InputKind {
@@ -14,25 +16,48 @@ pub enum InputKind {
     RotarySpeed,
     /// Weight on bit, kN.
     WeightOnBit,
+    /// Advance of the tool along the hole, m/h; negative when it is pulled back. Optional.
+    RateOfPenetration,
+    /// Pressure inside minus outside at the tool's top, MPa. Optional.
+    StandpipePressure,
 }
 
 impl InputKind {
-    /// Both, in the order of every per-input array.
-    pub const ALL: [Self; 2] = [Self::RotarySpeed, Self::WeightOnBit];
+    /// Number of inputs.
+    pub const COUNT: usize = 4;
+    /// All, in the order of every per-input array.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::RotarySpeed,
+        Self::WeightOnBit,
+        Self::RateOfPenetration,
+        Self::StandpipePressure,
+    ];
 
-    /// 0 or 1: index into per-input arrays.
+    /// Index into per-input arrays.
     pub const fn index(self) -> usize {
         match self {
             Self::RotarySpeed => 0,
             Self::WeightOnBit => 1,
+            Self::RateOfPenetration => 2,
+            Self::StandpipePressure => 3,
         }
     }
 
-    /// `rotary_speed` or `weight_on_bit`, as in configuration and messages.
+    /// Whether many rigs do not send it: a configured constant then holds ([`super::InputState::Assumed`]).
+    pub const fn is_optional(self) -> bool {
+        match self {
+            Self::RotarySpeed | Self::WeightOnBit => false,
+            Self::RateOfPenetration | Self::StandpipePressure => true,
+        }
+    }
+
+    /// The name in configuration and messages: `rotary_speed`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::RotarySpeed => "rotary_speed",
             Self::WeightOnBit => "weight_on_bit",
+            Self::RateOfPenetration => "rate_of_penetration",
+            Self::StandpipePressure => "standpipe_pressure",
         }
     }
 
@@ -41,6 +66,8 @@ impl InputKind {
         match self {
             Self::RotarySpeed => "rig/rotary_speed_rpm",
             Self::WeightOnBit => "rig/weight_on_bit_kn",
+            Self::RateOfPenetration => "rig/rate_of_penetration",
+            Self::StandpipePressure => "rig/standpipe_pressure",
         }
     }
 
@@ -49,6 +76,8 @@ impl InputKind {
         match self {
             Self::RotarySpeed => "r/min",
             Self::WeightOnBit => "kN",
+            Self::RateOfPenetration => "m/h",
+            Self::StandpipePressure => "MPa",
         }
     }
 
@@ -57,15 +86,34 @@ impl InputKind {
         match self {
             Self::RotarySpeed => "rad/s",
             Self::WeightOnBit => "N",
+            Self::RateOfPenetration => "m/s",
+            Self::StandpipePressure => "Pa",
         }
     }
 
-    /// A sample in SI: rad/s or N.
+    /// A sample in SI.
     pub fn to_si(self, value: f64) -> f64 {
         match self {
             Self::RotarySpeed => rpm_to_rad_per_s(value),
             Self::WeightOnBit => kn_to_n(value),
+            Self::RateOfPenetration => m_per_h_to_m_per_s(value),
+            Self::StandpipePressure => mpa_to_pa(value),
         }
+    }
+
+    /// An SI value in the unit of the samples.
+    pub fn from_si(self, value: f64) -> f64 {
+        match self {
+            Self::RotarySpeed => rad_per_s_to_rpm(value),
+            Self::WeightOnBit => n_to_kn(value),
+            Self::RateOfPenetration => m_per_s_to_m_per_h(value),
+            Self::StandpipePressure => pa_to_mpa(value),
+        }
+    }
+
+    /// The input of that name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 

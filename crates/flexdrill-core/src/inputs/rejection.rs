@@ -11,7 +11,7 @@ pub struct Rejection {
     pub kind: InputKind,
     /// On which topic.
     pub route: InputRoute,
-    /// The value received (r/min or kN).
+    /// The value received ([`InputKind::unit`]).
     pub value: f64,
     /// When it was received (s, the caller's clock).
     pub time: f64,

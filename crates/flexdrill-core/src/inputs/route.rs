@@ -8,7 +8,7 @@ pub enum InputRoute {
     /// A number alone, on the input's own topic.
     #[default]
     Plain,
-    /// Both inputs with stamp, quality and source.
+    /// All inputs with stamp, quality and source.
     Stamped,
 }
 

@@ -1,6 +1,6 @@
 //! Limits and ages of an input, in the unit of its samples.
 
-/// Limits, start value and ages of one input. Values in the unit of the samples (r/min or kN), times in s.
+/// Limits, start value and ages of one input. Values in the unit of the samples ([`super::InputKind::unit`]), times in s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputRule {
     /// Smallest accepted value.
@@ -9,7 +9,7 @@ pub struct InputRule {
     pub max: f64,
     /// A value this little below zero counts as zero.
     pub tare_error: f64,
-    /// Value that acts until the first sample.
+    /// Value that acts until the first sample; the assumed value of an optional input.
     pub initial: f64,
     /// Value that the target ramps to when the input stays stale.
     pub safe: f64,
@@ -21,7 +21,10 @@ pub struct InputRule {
     pub max_age: f64,
     /// Time for which a stale value is held before the ramp begins.
     pub hold_before_safe: f64,
+    /// Whether the tool's mechanics ask for the input. One that is not used does not count for the quality of the
+    /// inputs; one that is optional is then shown only when it was sent or a value is assumed.
+    pub used: bool,
 }
 
-/// The rules of both inputs, in the order of [`super::InputKind::ALL`].
-pub type InputRules = [InputRule; 2];
+/// The rules of all inputs, in the order of [`super::InputKind::ALL`].
+pub type InputRules = [InputRule; super::InputKind::COUNT];

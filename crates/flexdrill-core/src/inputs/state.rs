@@ -20,6 +20,8 @@ pub enum InputState {
     Stale = 3,
     /// The newest sample was refused; the last good one is held and ages.
     Rejected = 4,
+    /// An optional input of which no sample came: the configured constant acts.
+    Assumed = 5,
 }
 
 impl InputState {
@@ -31,13 +33,14 @@ impl InputState {
             Self::Slow => "SLOW",
             Self::Stale => "STALE",
             Self::Rejected => "REJECTED",
+            Self::Assumed => "ASSUMED",
         }
     }
 
-    /// Rank for choosing the worse of two: OK, SLOW, REJECTED, NOT_RECEIVED, STALE.
+    /// Rank for choosing the worse of two: OK and ASSUMED, SLOW, REJECTED, NOT_RECEIVED, STALE.
     pub const fn badness(self) -> u8 {
         match self {
-            Self::Ok => 0,
+            Self::Ok | Self::Assumed => 0,
             Self::Slow => 1,
             Self::Rejected => 2,
             Self::NotReceived => 3,

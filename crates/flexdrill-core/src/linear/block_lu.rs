@@ -21,6 +21,7 @@ const RIGHT: usize = 12;
 type Solved<const N: usize> = [[f64; N]; COLUMNS];
 
 /// Cost linear in the number of stations, nothing allocated after construction.
+#[derive(Clone)]
 pub struct BlockLu {
     instructions: Instructions,
     /// Of plain stations, by slot.
@@ -48,6 +49,10 @@ impl LinearSolver for BlockLu {
             system,
             rhs,
         })
+    }
+
+    fn boxed_clone(&self) -> Box<dyn LinearSolver> {
+        Box::new(self.clone())
     }
 }
 

@@ -37,6 +37,15 @@ pub trait LinearSolver: Send + Sync {
     /// # Errors
     /// When a block cannot be factorised.
     fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular>;
+
+    /// Another with the same room.
+    fn boxed_clone(&self) -> Box<dyn LinearSolver>;
+}
+
+impl Clone for Box<dyn LinearSolver> {
+    fn clone(&self) -> Self {
+        self.boxed_clone()
+    }
 }
 
 #[cfg(test)]

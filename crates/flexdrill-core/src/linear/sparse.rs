@@ -9,12 +9,16 @@ use super::system::BlockSystem;
 use super::{LinearSolver, Singular};
 
 /// The reference solver: general, slower, allocates.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct SparseReference {
     symbolic: Option<SymbolicLu<usize>>,
 }
 
 impl LinearSolver for SparseReference {
+    fn boxed_clone(&self) -> Box<dyn LinearSolver> {
+        Box::new(self.clone())
+    }
+
     fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         let n = system.layout().unknowns();
         let mut triplets = Vec::new();

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::station::{Bore, Station};
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
+use crate::elements::preload::Preload;
 use crate::tool::{SectionProperties, ToolDescription, frame_along};
 
 /// A pipe element, in its link's frame.
@@ -32,6 +33,8 @@ pub struct GuideElement {
     pub mass: ElementMatrix,
     /// Gamma^T G Gamma.
     pub geometric: ElementMatrix,
+    /// Of a guide that is not without stress in the path.
+    pub preload: Option<Preload>,
 }
 
 impl PipeElement {
@@ -72,6 +75,10 @@ impl GuideElement {
             stiffness: turned(beam.stiffness()),
             mass: turned(beam.mass()),
             geometric: turned(beam.geometric()),
+            preload: d.guide_free_curvature.map(|free| {
+                let turn = below.inclination - above.inclination;
+                Preload::of(free, beam.section.bending, beam.length, turn)
+            }),
             beam,
         }
     }

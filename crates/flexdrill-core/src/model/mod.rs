@@ -11,11 +11,15 @@ mod station;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::dynamics::conditions::Conditions;
 use crate::elements::beam::{Beam, ElementVector};
 use crate::elements::element_form::{ElementForms, Elements};
 use crate::elements::joint::Joint;
+use crate::elements::mud::{Lateral, Mud, MudLump};
+use crate::elements::preload::Preload;
+use crate::elements::pressure::PipePressure;
 use crate::linear::Layout;
-use crate::tool::{Direction, ToolDescription, WobPath};
+use crate::tool::{Direction, Shortening, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
 pub use attached::{HeldNode, ResolvedLoad, ResolvedMass};
@@ -42,6 +46,14 @@ pub struct Model {
     pub elements: Elements,
     /// Consistent forces of gravity on both pipes, per unknown (N, N m).
     pub weight: Vec<f64>,
+    /// Couples of the guide's preload, per unknown (N m); empty without one.
+    pub preload: Vec<f64>,
+    /// Pump pressure in the pipe.
+    pub pressure: Option<PipePressure>,
+    /// Forces of the pressure on pipe and mud, per unknown and per pressure at the top (N/Pa); empty without it.
+    pub pressure_forces: Vec<f64>,
+    /// The mud that moves with the pipes.
+    pub mud: Option<Mud>,
     /// Unknowns held at zero, in rising order.
     pub held: Vec<usize>,
     /// The nodes of the held unknowns, in the same order.
@@ -107,7 +119,7 @@ impl Model {
             .collect::<Vec<_>>();
 
         let mut padding = Vec::new();
-        let rows = 3 + Joint::rotational_rows(d.joint.kind);
+        let rows = 3 + Joint::constraints(&d.joint);
         for &s in &joint_stations {
             padding.extend(layout.offset(s) + 18 + rows..layout.offset(s) + 24);
         }
@@ -132,12 +144,17 @@ impl Model {
             joint_stations,
             elements: Elements::default(),
             weight: vec![0.0; layout.unknowns()],
+            preload: Vec::new(),
+            pressure: d.pressure.map(|pressure| PipePressure::of(pressure, d, bore.spacing)),
+            pressure_forces: Vec::new(),
+            mud: d.mud.map(|mud| Mud::of(&mud, d, guide.iter().map(|e| e.beam.length))),
             pipe,
             guide,
             held: Vec::new(),
             held_nodes: Vec::new(),
             total_weight: Vector3::zeros(),
-            driven: d.drive_top.then(|| stations[0].pipe_above + Direction::Psi as usize),
+            // Below a string the first node turns as the string lets it.
+            driven: (d.drive_top && d.string.is_none()).then(|| stations[0].pipe_above + Direction::Psi as usize),
             padding,
             loads: Vec::new(),
             masses: Vec::new(),
@@ -177,6 +194,62 @@ impl Model {
             let nodes = [ends[0].guide, ends[1].guide];
             add(&element.beam, Some(&element.rotation), &element.weight, nodes);
         }
+        let mut preload = Vec::new();
+        for (of_element, nodes) in self.preloads() {
+            preload.resize(self.weight.len(), 0.0);
+            for (k, couple) in of_element.force.iter().enumerate() {
+                preload[nodes[k / 6] + k % 6] += couple;
+            }
+        }
+        self.preload = preload;
+        if let Some(pressure) = &self.pressure {
+            let mut forces = vec![0.0; self.weight.len()];
+            for (ends, tension) in self.stations.windows(2).zip(&pressure.unstrained) {
+                forces[ends[0].pipe_below] += tension;
+                forces[ends[1].pipe_above] -= tension;
+            }
+            forces[self.stations[self.stations.len() - 1].pipe_above] += pressure.on_end;
+            self.pressure_forces = forces;
+        }
+    }
+
+    /// The guide's elements with a preload, and the first unknowns of their nodes.
+    pub fn preloads(&self) -> impl Iterator<Item = (&Preload, [usize; 2])> {
+        let ends = self.stations.windows(2).zip(&self.guide);
+        ends.filter_map(|(ends, element)| Some((element.preload.as_ref()?, [ends[0].guide, ends[1].guide])))
+    }
+
+    /// Adds to `forces` (by unknown) those that matrices over the lateral motion of each station, `matrix` of its mud, make
+    /// of the motion `x`, by unknown.
+    pub fn add_mud_forces(&self, forces: &mut [f64], matrix: impl Fn(&MudLump) -> Lateral, x: impl Fn(usize) -> f64) {
+        let Some(mud) = &self.mud else {
+            return;
+        };
+        for (station, mud) in self.stations.iter().zip(&mud.stations) {
+            let (pipe, guide) = (station.pipe_above, station.guide);
+            let moving = station.pipe_to_station * Vector3::new(x(pipe), x(pipe + 1), x(pipe + 2));
+            let matrix = matrix(mud);
+            let mut on_pipe = Vector3::zeros();
+            for k in 1..3 {
+                let [of_pipe, of_guide] = matrix.product(moving[k], x(guide + k));
+                on_pipe[k] = of_pipe;
+                forces[guide + k] += of_guide;
+            }
+            let on_pipe = station.pipe_to_station.tr_mul(&on_pipe);
+            (0..3).for_each(|k| forces[pipe + k] += on_pipe[k]);
+        }
+    }
+
+    /// Pressure in the pipe at the tool's top, inside less outside (Pa); 0 without it.
+    pub fn pressure_at_top(&self, conditions: &Conditions) -> f64 {
+        self.pressure
+            .as_ref()
+            .map_or(0.0, |pressure| pressure.at_top(conditions))
+    }
+
+    /// Whether the pipe's spans shorten to second order.
+    pub fn shortens(&self) -> bool {
+        self.description.shortening == Shortening::SecondOrder
     }
 
     /// Number of unknowns, padding included.

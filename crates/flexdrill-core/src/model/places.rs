@@ -17,6 +17,10 @@ pub struct JointPlaces {
 pub struct Places {
     /// The driven spin.
     pub driven: Option<usize>,
+    /// Spin of the pipe's first node.
+    pub top_spin: usize,
+    /// u of the guide's first node.
+    pub guide_top: usize,
     /// Spin of the bit.
     pub bit_spin: usize,
     /// u of the pipe's last node.
@@ -42,6 +46,8 @@ impl Places {
         let bottom = &model.stations[model.last()];
         Self {
             driven: model.driven,
+            top_spin: model.stations[0].pipe_above + Direction::Psi as usize,
+            guide_top: model.stations[0].guide,
             bit_spin: bottom.pipe_above + Direction::Psi as usize,
             pipe_end: bottom.pipe_above,
             guide_end: bottom.guide,
@@ -69,6 +75,8 @@ impl Places {
     pub fn renumbered(&self, place: impl Fn(usize) -> usize, held: impl Fn(usize) -> Option<usize>) -> Self {
         Self {
             driven: self.driven.map(&place),
+            top_spin: place(self.top_spin),
+            guide_top: place(self.guide_top),
             bit_spin: place(self.bit_spin),
             pipe_end: place(self.pipe_end),
             guide_end: place(self.guide_end),

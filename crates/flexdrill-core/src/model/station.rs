@@ -38,7 +38,7 @@ pub struct Station {
 pub(super) struct Bore {
     path: WellPath,
     /// Distance between stations along the bore (m).
-    spacing: f64,
+    pub(super) spacing: f64,
     per_link: usize,
     /// Ends of the links, on the bore's axis (m, world).
     link_ends: Vec<Vector3<f64>>,

@@ -23,17 +23,29 @@ pub enum HazardKind {
     JointLoad = 4,
     /// The pipe is thrown about without direction, and its collisions take many times the power of steady drilling.
     ChaoticWhirl = 5,
+    /// Most of the weight slacked off at the surface does not arrive at the bit.
+    WeightTransfer = 6,
+    /// Most of the torque at the surface does not arrive at the bit.
+    TorqueTransfer = 7,
+    /// The guide is bent beyond its rating.
+    GuidePreload = 8,
+    /// Pressure in the pipe compresses the chain of links beyond its rating.
+    PressureFolding = 9,
 }
 
 impl HazardKind {
     /// All hazards, in the order of their codes.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 10] = [
         Self::BackwardWhirl,
         Self::ForwardWhirl,
         Self::Shock,
         Self::StickSlip,
         Self::JointLoad,
         Self::ChaoticWhirl,
+        Self::WeightTransfer,
+        Self::TorqueTransfer,
+        Self::GuidePreload,
+        Self::PressureFolding,
     ];
 
     /// The name in sentences: `backward whirl`.
@@ -45,6 +57,10 @@ impl HazardKind {
             Self::StickSlip => "stick-slip",
             Self::JointLoad => "joint load",
             Self::ChaoticWhirl => "chaotic whirl",
+            Self::WeightTransfer => "weight transfer",
+            Self::TorqueTransfer => "torque transfer",
+            Self::GuidePreload => "guide preload",
+            Self::PressureFolding => "folding under pressure",
         }
     }
 }
@@ -60,7 +76,8 @@ pub struct Hazard {
     /// Worst location; none for the bit, and for whirl while there is no whirl.
     pub place: Option<ToolLocation>,
     /// The judged figure: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
-    /// index, stop moment over its rating, collision power of the chaotic part (W/m).
+    /// index, stop moment over its rating, collision power of the chaotic part (W/m), lost share of weight or torque,
+    /// moment of the guide over its rating, effective compression of the pipe over its rating.
     pub value: f64,
     /// Threshold of the level, of WATCH while the level is OK, in the same unit.
     pub threshold: f64,

@@ -7,8 +7,9 @@
 //!   - `classify` derives the kind of motion from these, `severity` the level from kind, bending cycles and friction, and
 //!     `tool_level` the leading station and the one warning from the stations' levels.
 //! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact, [`JointLoadWatch`] the stops of the
-//!   joints, [`ChaoticWhirlWatch`] the power that collisions dissipate. `hysteresis` defines how levels rise and fall;
+//!   joints, [`ChaoticWhirlWatch`] the power that collisions dissipate, [`LoadWatch`] a load against its rating. `hysteresis` defines how levels rise and fall;
 //!   `drive` detects run-ups, in which no level rises.
+//! - [`TransferWatch`] averages torque, weight and power from the surface to the bit.
 //! - [`Hazards`] lists the results of all watches; alarms are made from it.
 //! - [`AgeingWatch`] finds what ages fastest, from cycles counted in `rainflow` and from the work of the friction.
 //! - [`EpisodeLog`] tabulates the levels over a run.
@@ -25,6 +26,7 @@ mod full_spectrum;
 mod hazards;
 mod hysteresis;
 mod joint_load;
+mod load_watch;
 mod orbit;
 mod orbit_window;
 mod rainflow;
@@ -34,6 +36,7 @@ mod severity;
 mod shock;
 mod stick_slip;
 mod tool_level;
+mod transfer;
 mod watched_station;
 mod whirl;
 
@@ -46,9 +49,13 @@ pub(crate) use hazards::ended;
 pub use hazards::{ENDED_AFTER, Hazard, HazardKind, Hazards};
 pub use hysteresis::{Alarm, AlarmThresholds};
 pub use joint_load::{JointLoadLevel, JointLoadSettings, JointLoadWatch};
+pub use load_watch::{LoadLevel, LoadSettings, LoadWatch};
 pub use report::{Severity, ShockLevel, WhirlKind, WhirlReport, WhirlWarningLevel};
 pub use settings::{InputTrust, WhirlSettings};
 pub use shock::{MOST_REPEATS, ShockSettings, ShockWatch, Shocks};
 pub use stick_slip::{StickSlip, StickSlipSettings};
+pub use transfer::{
+    Along, BIT, KICK_OFF, Powers, SURFACE, Transfer, TransferLevel, TransferSample, TransferSettings, TransferWatch,
+};
 pub use watched_station::{StationSample, WatchedStation};
 pub use whirl::WhirlAnalysis;

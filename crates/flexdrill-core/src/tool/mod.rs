@@ -6,10 +6,15 @@ pub(crate) mod section;
 mod validation;
 pub(crate) mod well;
 
+pub use crate::elements::rock::{DepthOfCut, RockLaw, Weakening};
+pub use crate::elements::string::{
+    Feed, Hoist, Piece, SpeedController, StringDescription, TopDrive, WallFriction, Wave,
+};
 pub use description::{
-    BitDescription, Body, Direction, GapDescription, HingeAngle, JointDescription, JointKind, LiveParameters,
-    LoadHistory, Location, Material, PointLoad, PointMass, Rayleigh, Support, ToolDescription, Tube, WellDescription,
-    WellSection, WobPath,
+    AddedMass, BitDescription, Body, Direction, FreeCurvature, FrictionLaw, GapDescription, HingeAngle,
+    JointDescription, JointKind, JointPlay, LiveParameters, LoadHistory, Location, Material, MudDamping,
+    MudDescription, MudFilm, PinFriction, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource,
+    Rayleigh, Shortening, Support, ToolDescription, Tube, WeightPlace, WellDescription, WellSection, WobPath,
 };
 pub use section::SectionProperties;
 pub use well::{WellPath, frame_along, tangent};

@@ -7,7 +7,7 @@
 
 use super::{
     BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, Location, Material, Rayleigh,
-    Support, ToolDescription, Tube, WellDescription, WellSection, WobPath,
+    RockLaw, Shortening, Support, ToolDescription, Tube, WeightPlace, WellDescription, WellSection, WobPath,
 };
 use crate::units::deg_to_rad;
 
@@ -49,18 +49,25 @@ impl ToolDescription {
                 inner_diameter: 0.080,
             },
             guide_bending_factor: 1.0,
+            guide_free_curvature: None,
             guide_fixed: false,
             hole_diameter: 0.118,
             joint: JointDescription::new(JointKind::Universal, deg_to_rad(6.0)),
+            shortening: Shortening::None,
             rayleigh: Rayleigh { alpha: 2.0, beta: 1e-4 },
             inner: GapDescription::new(1e7, 0.2),
             outer: GapDescription::new(2e7, 0.3),
             slip_speed: 0.01,
             bit: BitDescription::new(0.118, 0.235),
+            rock: RockLaw::Paper,
+            string: None,
             gravity: GRAVITY_IN_MUD,
+            pressure: None,
+            mud: None,
             supports: table_1(),
             drive_top: true,
             wob_path: WobPath::Guide,
+            weight_place: WeightPlace::Bit,
             loads: Vec::new(),
             masses: Vec::new(),
             initial_pipe_velocity: [0.0; 3],

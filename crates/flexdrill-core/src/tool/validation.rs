@@ -2,8 +2,10 @@
 
 use super::description::{
     BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, LiveParameters, LoadHistory,
-    Location, Material, ToolDescription, Tube, WellDescription, WellSection,
+    Location, Material, PressureEnd, PressureSource, ToolDescription, Tube, WeightPlace, WellDescription, WellSection,
+    WobPath,
 };
+use super::well::WellPath;
 use crate::validation::{Bound, ValidationError, count, length, require};
 
 /// Most stations: a hundred times the paper's case; more is a slip of the pen, and its memory could not be had.
@@ -30,9 +32,60 @@ impl ToolDescription {
         Bound::Positive.check("slip_speed", self.slip_speed, "m/s")?;
         self.bit.validate()?;
         Bound::NotNegative.check("gravity", self.gravity, "m/s2")?;
+        self.validate_pressure()?;
+        self.validate_mud()?;
         self.validate_supports()?;
+        self.validate_weight_place()?;
         self.validate_loads()?;
         self.validate_start()
+    }
+
+    fn validate_pressure(&self) -> Checked {
+        let Some(pressure) = self.pressure else {
+            return Ok(());
+        };
+        if let PressureSource::Constant(at_top) = pressure.at_top {
+            Bound::Finite.check("pressure.at_top", at_top, "Pa")?;
+        }
+        // Friction cannot take more than there is.
+        let most = 1.0 / WellPath::new(&self.well).length();
+        Bound::Within(0.0, most).check("pressure.drop_per_metre", pressure.drop_per_metre, "1/m")?;
+        Bound::NotNegative.check("pressure.joint_seal_diameter", pressure.joint_seal_diameter, "m")?;
+        if let PressureEnd::Sealed { diameter } = pressure.end {
+            Bound::NotNegative.check("pressure.end.diameter", diameter, "m")?;
+        }
+        let held = self.wob_path == WobPath::Shared || self.holds_pipe_end();
+        require(
+            held == (pressure.end == PressureEnd::Held),
+            "pressure.end",
+            "held goes with wob_path shared or a support that holds u of the pipe's lower end; closed and sealed ends are \
+             free along the axis",
+        )
+    }
+
+    fn validate_mud(&self) -> Checked {
+        let Some(mud) = self.mud else {
+            return Ok(());
+        };
+        Bound::Positive.check("mud.density", mud.density, "kg/m3")?;
+        Bound::NotNegative.check("mud.viscosity", mud.viscosity, "Pa s")?;
+        Bound::Positive.check("mud.frequency", mud.frequency, "Hz")?;
+        // The mud is between pipe and guide along the whole link, not only where they can touch.
+        let widest = self
+            .pipe_sections
+            .iter()
+            .map(|tube| tube.outer_diameter)
+            .fold(0.0, f64::max);
+        Bound::Over(widest).check("guide_section.inner_diameter", self.guide_section.inner_diameter, "m")
+    }
+
+    /// Whether a support holds the pipe's lower end along the axis.
+    fn holds_pipe_end(&self) -> bool {
+        let last = Location::Station(self.links * self.elements_per_link);
+        self.supports.iter().any(|support| {
+            let at_end = matches!(support.location, Location::Bottom | Location::All) || support.location == last;
+            at_end && support.body == Body::Pipe && support.directions.contains(&Direction::U)
+        })
     }
 
     fn validate_mesh(&self) -> Checked {
@@ -69,7 +122,17 @@ impl ToolDescription {
         let widest = self.pipe_contact_diameters.iter().copied().fold(0.0, f64::max);
         Bound::Over(widest).check("guide_section.inner_diameter", self.guide_section.inner_diameter, "m")?;
         Bound::Over(self.guide_section.outer_diameter).check("hole_diameter", self.hole_diameter, "m")?;
-        Bound::Positive.check("guide_bending_factor", self.guide_bending_factor, "")
+        Bound::Positive.check("guide_bending_factor", self.guide_bending_factor, "")?;
+        let Some(free) = self.guide_free_curvature else {
+            return Ok(());
+        };
+        Bound::NotNegative.check("guide_free_curvature.curvature", free.curvature, "1/m")?;
+        Bound::Finite.check("guide_free_curvature.phase", free.phase, "rad")?;
+        require(
+            !self.guide_fixed,
+            "guide_free_curvature",
+            "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
+        )
     }
 
     fn validate_location(&self, field: String, location: Location) -> Checked {
@@ -111,6 +174,44 @@ impl ToolDescription {
             )?;
         }
         Ok(())
+    }
+
+    /// The guide's reaction at the kick-off follows the weight at the bit only where nothing else carries it.
+    fn validate_weight_place(&self) -> Checked {
+        if self.weight_place == WeightPlace::Bit {
+            return Ok(());
+        }
+        let last_station = self.links * self.elements_per_link;
+        let holds = |station: usize| {
+            let at = |location: Location| match location {
+                Location::Top => station == 0,
+                Location::Bottom => station == last_station,
+                Location::Station(held) => held == station,
+                Location::Joint(joint) => (joint + 1) * self.elements_per_link == station,
+                Location::All => true,
+            };
+            self.supports.iter().any(|support| {
+                support.body == Body::Guide && at(support.location) && support.directions.contains(&Direction::U)
+            })
+        };
+        require(
+            self.wob_path == WobPath::Guide,
+            "weight_place",
+            "the weight at the kick-off with wob_path shared, where the pipe carries a part of it; set wob_path to guide, or \
+             weight_place to bit",
+        )?;
+        require(
+            holds(0),
+            "weight_place",
+            "the weight at the kick-off of a guide whose top is not held along the axis; hold u of the guide at the top, or \
+             set weight_place to bit",
+        )?;
+        require(
+            !self.guide_fixed && !(1..=last_station).any(holds),
+            "weight_place",
+            "the weight at the kick-off of a guide that is held along the axis below it too; remove that support, or set \
+             weight_place to bit",
+        )
     }
 
     fn validate_loads(&self) -> Checked {
@@ -211,7 +312,35 @@ impl JointDescription {
             ("cross_phase", self.cross_phase),
             ("cross_phase_step", self.cross_phase_step),
         ];
-        Bound::Finite.check_all("joint", &phases, "rad")
+        Bound::Finite.check_all("joint", &phases, "rad")?;
+        self.validate_pins()
+    }
+
+    fn validate_pins(&self) -> Checked {
+        let (friction, play) = (&self.friction, &self.play);
+        Bound::NotNegative.check("joint.friction.coefficient", friction.coefficient, "")?;
+        Bound::Positive.check("joint.friction.pin_radius", friction.pin_radius, "m")?;
+        let least = if friction.coefficient > 0.0 {
+            friction.pin_radius
+        } else {
+            0.0
+        };
+        Bound::Over(least).check("joint.friction.circle_diameter", friction.circle_diameter, "m")?;
+        Bound::Positive.check("joint.friction.slip_rate", friction.slip_rate, "rad/s")?;
+        require(
+            friction.coefficient == 0.0 || self.kind == JointKind::Universal,
+            "joint.friction.coefficient",
+            "friction in the pins of a cross needs joint.kind universal; set joint.friction.coefficient to 0",
+        )?;
+        // Beyond a right angle the row would count the turn backwards.
+        Bound::Within(0.0, 0.5).check("joint.play.half_angle", play.half_angle, "rad")?;
+        Bound::Positive.check("joint.play.stiffness", play.stiffness, "N m/rad")?;
+        Bound::NotNegative.check("joint.play.damping", play.damping, "s/rad")?;
+        require(
+            play.half_angle == 0.0 || self.kind != JointKind::Revolute,
+            "joint.play.half_angle",
+            "a hinge (joint.kind revolute) has no play in the model; set joint.play.half_angle to 0",
+        )
     }
 }
 
@@ -223,7 +352,10 @@ impl GapDescription {
             ("friction_tangential", self.friction_tangential),
             ("friction_axial", self.friction_axial),
         ];
-        Bound::NotNegative.check_all(under, &frictions, "")
+        Bound::NotNegative.check_all(under, &frictions, "")?;
+        self.slip_speed.map_or(Ok(()), |speed| {
+            Bound::Positive.check(&format!("{under}.slip_speed"), speed, "m/s")
+        })
     }
 }
 

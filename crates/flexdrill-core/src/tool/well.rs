@@ -76,6 +76,17 @@ impl WellPath {
     }
 }
 
+impl WellDescription {
+    /// Sum of the angles by which the hole turns (rad): what friction is multiplied by along it.
+    pub fn turn(&self) -> f64 {
+        let turn = |section: &WellSection| match *section {
+            WellSection::Straight { .. } => 0.0,
+            WellSection::Arc { angle, .. } => angle,
+        };
+        self.sections.iter().map(turn).sum()
+    }
+}
+
 impl Piece {
     fn position(&self, along: f64) -> Vector3<f64> {
         let turned = self.curvature * along;

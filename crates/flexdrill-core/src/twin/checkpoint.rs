@@ -23,7 +23,7 @@ use crate::tool::ToolDescription;
 const MAGIC: [u8; 8] = *b"flexdrCP";
 
 /// Changes with every change of what a state consists of.
-pub(super) const FORMAT: u32 = 9;
+pub(super) const FORMAT: u32 = 15;
 
 const HASH: usize = 32;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + HASH;
@@ -66,6 +66,12 @@ pub enum CheckpointError {
         /// First digits of this simulation's.
         expected: String,
     },
+    /// The room for it is too small.
+    #[error("checkpoint: longer than the {room} bytes that it may have; give it more room")]
+    NoRoom {
+        /// Bytes that there are.
+        room: usize,
+    },
     /// The state cannot be encoded, or is not one although the checksum fits.
     #[error("checkpoint: {0}; please report it as a bug")]
     Encoding(#[from] postcard::Error),
@@ -78,8 +84,9 @@ struct Saved<S, O> {
     observer: O,
     applied: Applied,
     step: u64,
-    /// Slew limits of rotary speed (rad/s2) and weight on bit (N/s).
-    slew: [f64; 2],
+    /// Slew limits of rotary speed (rad/s2), weight on bit (N/s), rate of penetration (m/s2) and standpipe pressure
+    /// (Pa/s).
+    slew: [f64; 4],
 }
 
 impl Simulation {
@@ -88,14 +95,27 @@ impl Simulation {
     /// # Errors
     /// When the state cannot be encoded.
     pub fn checkpoint(&self) -> Result<Vec<u8>, CheckpointError> {
-        let saved = Saved {
+        write(&self.identity, &self.saved())
+    }
+
+    /// Writes the bytes of [`Simulation::checkpoint`] to the front of `room`, and returns how many they are. Nothing is
+    /// allocated, so that the thread that advances a live simulation can hand its state to another. The number changes by
+    /// some dozen bytes as counters grow; twice the length of a first checkpoint is room enough.
+    ///
+    /// # Errors
+    /// When `room` is too small; what it held is then lost.
+    pub fn checkpoint_into(&self, room: &mut [u8]) -> Result<usize, CheckpointError> {
+        write_into(&self.identity, &self.saved(), room)
+    }
+
+    fn saved(&self) -> Saved<StepperCheckpoint<'_>, &Observer> {
+        Saved {
             stepper: self.stepper.checkpoint(),
             observer: &self.observer,
             applied: self.applied,
             step: self.step,
-            slew: [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew],
-        };
-        write(&self.identity, &saved)
+            slew: self.settings.slew(),
+        }
     }
 
     /// Continues from a checkpoint of the same tool and settings: state, live parameters, slew limits and whirl
@@ -104,13 +124,14 @@ impl Simulation {
     /// # Errors
     /// When the bytes are no checkpoint, of another format, damaged, or of another tool or other settings.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        let saved: Saved<StepperCheckpoint, Observer> = read(&self.identity, bytes)?;
+        let saved: Saved<StepperCheckpoint<'static>, Observer> = read(&self.identity, bytes)?;
         // The checksum holds here, so only bytes that were forged can still have the wrong sizes.
         if !saved.observer.fits(&self.observer) || !self.stepper.restore(&saved.stepper) {
             return Err(CheckpointError::Damaged { length: bytes.len() });
         }
         let before = std::mem::replace(&mut self.observer, saved.observer);
         self.observer.continue_sequence_of(&before);
+        self.observer.refresh();
         self.applied = saved.applied;
         self.step = saved.step;
         self.replace_slew(saved.slew);
@@ -140,14 +161,41 @@ impl Identity {
 
 /// The bytes of `state`.
 pub(super) fn write(identity: &Identity, state: &impl Serialize) -> Result<Vec<u8>, CheckpointError> {
-    let mut bytes = Vec::new();
-    bytes.extend(MAGIC);
-    bytes.extend(FORMAT.to_le_bytes());
-    bytes.extend(identity.0);
-    let mut bytes = postcard::to_extend(state, bytes)?;
+    let mut bytes = postcard::to_extend(state, header(identity).to_vec())?;
     let checksum = Sha256::digest(&bytes);
     bytes.extend(checksum);
     Ok(bytes)
+}
+
+/// The same bytes at the front of `room`; how many they are.
+fn write_into(identity: &Identity, state: &impl Serialize, room: &mut [u8]) -> Result<usize, CheckpointError> {
+    let full = CheckpointError::NoRoom { room: room.len() };
+    let Some((front, rest)) = room.split_first_chunk_mut() else {
+        return Err(full);
+    };
+    *front = header(identity);
+    let length = match postcard::to_slice(state, rest) {
+        Ok(state) => HEADER + state.len(),
+        Err(postcard::Error::SerializeBufferFull) => return Err(full),
+        Err(error) => return Err(error.into()),
+    };
+    let (content, rest) = room.split_at_mut(length);
+    let Some(place) = rest.first_chunk_mut() else {
+        return Err(full);
+    };
+    *place = Sha256::digest(content).into();
+    Ok(length + HASH)
+}
+
+/// What stands before a state.
+fn header(identity: &Identity) -> [u8; HEADER] {
+    let mut header = [0; HEADER];
+    let (magic, rest) = header.split_at_mut(MAGIC.len());
+    let (format, of) = rest.split_at_mut(size_of::<u32>());
+    magic.copy_from_slice(&MAGIC);
+    format.copy_from_slice(&FORMAT.to_le_bytes());
+    of.copy_from_slice(&identity.0);
+    header
 }
 
 /// The state in `bytes`, if they are whole and of `identity`.

@@ -56,7 +56,9 @@ pub(super) fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
 }
 
 /// Bend, motion and forces of all joints.
-pub(super) fn fill_joints(model: &Model, state: &State, forces: &Interactions, out: &mut Joints) {
+///
+/// `pressure` in the pipe at the tool's top (Pa) adds to what the pins carry.
+pub(super) fn fill_joints(model: &Model, state: &State, forces: &Interactions, pressure: f64, out: &mut Joints) {
     for (to, stop) in out.stop_moment.iter_mut().zip(forces.joints.stops()) {
         *to = stop.moment;
     }
@@ -72,7 +74,11 @@ pub(super) fn fill_joints(model: &Model, state: &State, forces: &Interactions, o
         // The translational multipliers are the force of the link above on the link below, in world axes.
         let first = model.multipliers(j);
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
-        out.axial_force[j] = -force.x;
+        let on_pins = model
+            .pressure
+            .as_ref()
+            .map_or(0.0, |per_unit| pressure * per_unit.on_pins[j]);
+        out.axial_force[j] = -force.x + on_pins;
         out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
         let twist = -forces.joints.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.law.kind {

@@ -283,7 +283,7 @@ impl QualityWatch {
 
 /// Energy dissipated by damping so far (J).
 fn dissipated(audit: &EnergyAudit) -> f64 {
-    audit.contact_damping + audit.rayleigh_damping + audit.numerical_damping
+    audit.contact_damping + audit.rayleigh_damping + audit.numerical_damping + audit.mud
 }
 
 #[cfg(test)]

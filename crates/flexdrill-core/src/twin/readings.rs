@@ -5,6 +5,7 @@
 //!
 //! [`Snapshot`]: super::Snapshot
 
+use crate::elements::string::StringLine;
 use nalgebra::Vector3;
 
 use super::quality::ModelQuality;
@@ -108,6 +109,39 @@ impl Simulation {
         Some(self.touch(station, body)?.map_or(0.0, |touch| touch.friction_power))
     }
 
+    /// Axial friction now (N, down the hole): of the guide on the pipe, or of the wall on the guide; 0 without contact.
+    pub fn axial_friction(&self, station: usize, body: Body) -> Option<f64> {
+        Some(self.touch(station, body)?.map_or(0.0, |touch| touch.axial))
+    }
+
+    /// Load on the hook (N): the weight of the string above less what is slacked off; `None` without a string.
+    pub fn hook_load(&self) -> Option<f64> {
+        self.stepper().string().map(StringLine::hook_load)
+    }
+
+    /// Rate at which the hoist lets the tool advance (m/s); `None` without a hoist.
+    pub fn advance_rate(&self) -> Option<f64> {
+        self.stepper().string()?.hoist().map(|hoist| hoist.advance)
+    }
+
+    /// Torque (N m) and axial force (N, against advance) of the wall's friction on the string above; `None` without a
+    /// string.
+    pub fn string_drag(&self) -> Option<[f64; 2]> {
+        self.stepper().string().map(StringLine::drag)
+    }
+
+    /// Speed of the top drive (rad/s), and whether its torque is at its limit; `None` without a string.
+    pub fn top_drive(&self) -> Option<(f64, bool)> {
+        let string = self.stepper().string()?;
+        Some((string.drive().speed, string.is_drive_at_limit()))
+    }
+
+    /// Axial force of the guide's support at the top (N), positive where it pushes down the hole: the weight at the
+    /// kick-off. `None` where the guide is not held there.
+    pub fn weight_at_kickoff(&self) -> Option<f64> {
+        self.stepper().weight_at_kickoff()
+    }
+
     fn touch(&self, station: usize, body: Body) -> Option<Option<Touch>> {
         let forces = self.stepper().interactions();
         let touches = match body {
@@ -171,6 +205,17 @@ impl Simulation {
     /// Work and energy since the start.
     pub fn energy(&self) -> &EnergyAudit {
         self.stepper().audit()
+    }
+
+    /// Power that the pins of each joint take now (W), top to bottom; empty without friction in the joints.
+    pub fn joint_friction(&self) -> &[f64] {
+        self.stepper().joint_friction()
+    }
+
+    /// Torque at the tool's top that the pins of all joints take now (N m): their power over the first link's own speed;
+    /// zero where it stands.
+    pub fn joint_friction_torque(&self) -> f64 {
+        self.stepper().joint_friction_torque()
     }
 
     /// Quality of the computed motion over the last seconds.

@@ -22,8 +22,8 @@ pub struct RunInputs {
     pub reset: bool,
     /// The rig's targets, towards which the model slews.
     pub inputs: Inputs,
-    /// Slew limits: rotary speed (rad/s2), weight on bit (N/s).
-    pub slew: [f64; 2],
+    /// Slew limits: rotary speed (rad/s2), weight on bit (N/s), rate of penetration (m/s2), standpipe pressure (Pa/s).
+    pub slew: [f64; 4],
     /// Friction and bit coefficients in force.
     pub live: LiveParameters,
     /// Thresholds of the whirl analysis.
@@ -68,7 +68,7 @@ impl Run {
             skipped: 0,
             reset: false,
             inputs: settings.initial_inputs,
-            slew: [settings.rotary_speed_slew, settings.weight_on_bit_slew],
+            slew: settings.slew(),
             live: simulation.live(),
             whirl: settings.whirl,
             input_quality: 0,
@@ -81,6 +81,36 @@ impl Run {
             applied,
             before_reset: 0,
         }
+    }
+
+    /// A run that goes on from a simulation's present state under `applied`, such as a restored one.
+    pub fn resumed(simulation: Simulation, applied: &RunInputs) -> Self {
+        let mut run = Self::new(simulation, applied.schedule);
+        run.apply(&RunInputs {
+            reset: false,
+            ..*applied
+        });
+        run
+    }
+
+    /// Another run in the same state, see [`Simulation::fork`].
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        Self {
+            simulation: self.simulation.fork(),
+            applied: self.applied,
+            before_reset: self.before_reset,
+        }
+    }
+
+    /// Disturbs the motion, see [`Simulation::disturb`].
+    pub fn disturb(&mut self, velocity: impl FnMut() -> f64) {
+        self.simulation.disturb(velocity);
+    }
+
+    /// Fills `out` with the present state and ends the interval of its statistics.
+    pub fn look(&mut self, out: &mut Snapshot) {
+        self.simulation.snapshot(out, true);
     }
 
     /// The inputs that act now; `step` is the current step.

@@ -24,13 +24,15 @@ pub enum Output {
     Ageing,
     /// Output `twin/reactions`.
     Reactions,
+    /// Output `twin/transfer`.
+    Transfer,
     /// No message: the alarms of the tool are evaluated, independently of what is published.
     Alarms,
 }
 
 impl Output {
     /// All of them, in order.
-    pub const ALL: [Output; 9] = [
+    pub const ALL: [Output; 10] = [
         Output::JointDeflections,
         Output::JointStates,
         Output::ContactForces,
@@ -39,6 +41,7 @@ impl Output {
         Output::ToolShape,
         Output::Ageing,
         Output::Reactions,
+        Output::Transfer,
         Output::Alarms,
     ];
 }
@@ -145,7 +148,7 @@ mod tests {
             Output::JointDeflections | Output::JointStates | Output::BitState => 50.0,
             Output::ContactForces => 25.0,
             Output::Whirl => 10.0,
-            Output::ToolShape | Output::Ageing | Output::Reactions | Output::Alarms => 0.0,
+            Output::ToolShape | Output::Ageing | Output::Reactions | Output::Transfer | Output::Alarms => 0.0,
         })
     }
 

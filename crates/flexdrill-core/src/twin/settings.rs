@@ -6,10 +6,11 @@ use super::step_choice::StepRule;
 use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
 use crate::motion::{
-    AgeingSettings, ChaoticWhirlSettings, JointLoadSettings, ShockSettings, StickSlipSettings, WhirlSettings,
+    AgeingSettings, ChaoticWhirlSettings, JointLoadSettings, LoadSettings, ShockSettings, StickSlipSettings,
+    TransferSettings, WhirlSettings,
 };
 use crate::tool::Body;
-use crate::units::{kn_to_n, rpm_to_rad_per_s};
+use crate::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 
 /// How a simulation runs: the step, the scheme, the first inputs, and how the motion is judged.
 ///
@@ -41,6 +42,10 @@ pub struct SimulationSettings {
     pub rotary_speed_slew: f64,
     /// Slew limit of the weight on bit (N/s).
     pub weight_on_bit_slew: f64,
+    /// Slew limit of the rate of penetration (m/s2).
+    pub rate_of_penetration_slew: f64,
+    /// Slew limit of the standpipe pressure (Pa/s).
+    pub standpipe_pressure_slew: f64,
     /// How whirl is found and judged.
     pub whirl: WhirlSettings,
     /// How the stick-slip index is formed.
@@ -51,6 +56,12 @@ pub struct SimulationSettings {
     pub joint_load: JointLoadSettings,
     /// How chaotic whirl is judged.
     pub chaotic_whirl: ChaoticWhirlSettings,
+    /// How transfer from the surface to the bit is averaged and judged.
+    pub transfer: TransferSettings,
+    /// How the bending moment of a preloaded guide is judged; `None` without a rating.
+    pub guide_preload: Option<LoadSettings>,
+    /// How the effective compression of a pipe under pressure is judged; `None` without a rating.
+    pub pressure_folding: Option<LoadSettings>,
     /// How load cycles are counted as damage.
     pub ageing: AgeingSettings,
     /// Stations and pipes whose orbits are watched; empty watches both pipes at every joint.
@@ -73,11 +84,16 @@ impl Default for SimulationSettings {
             initial_inputs: Inputs::default(),
             rotary_speed_slew: rpm_to_rad_per_s(20.0),
             weight_on_bit_slew: kn_to_n(10.0),
+            rate_of_penetration_slew: m_per_h_to_m_per_s(10.0),
+            standpipe_pressure_slew: mpa_to_pa(1.0),
             whirl: WhirlSettings::default(),
             stick_slip: StickSlipSettings::default(),
             shock: ShockSettings::default(),
             joint_load: JointLoadSettings::default(),
             chaotic_whirl: ChaoticWhirlSettings::default(),
+            transfer: TransferSettings::default(),
+            guide_preload: None,
+            pressure_folding: None,
             ageing: AgeingSettings::default(),
             watched: Vec::new(),
             whirl_sample_interval: 1.0 / 250.0,
@@ -91,6 +107,16 @@ impl SimulationSettings {
     pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
         change(&mut self);
         self
+    }
+
+    /// Slew limits of rotary speed (rad/s2), weight on bit (N/s), rate of penetration (m/s2) and standpipe pressure (Pa/s).
+    pub fn slew(&self) -> [f64; 4] {
+        [
+            self.rotary_speed_slew,
+            self.weight_on_bit_slew,
+            self.rate_of_penetration_slew,
+            self.standpipe_pressure_slew,
+        ]
     }
 
     /// Steps between two samples of the whirl analysis.

@@ -1,5 +1,7 @@
 //! The simulation of one tool, step by step.
 
+use std::sync::Arc;
+
 use super::Snapshot;
 #[cfg(feature = "checkpoints")]
 use super::checkpoint::{CheckpointError, Identity};
@@ -13,10 +15,10 @@ use crate::dynamics::state::State;
 use crate::dynamics::statics::StartError;
 use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
-use crate::inputs::Inputs;
+use crate::inputs::{InputKind, Inputs};
 use crate::motion::WhirlSettings;
 use crate::simd::Instructions;
-use crate::tool::{LiveParameters, ToolDescription};
+use crate::tool::{LiveParameters, ToolDescription, WeightPlace};
 use crate::validation::ValidationError;
 
 /// Why a simulation could not be built or restored.
@@ -38,11 +40,15 @@ pub enum BuildError {
     Checkpoint(#[from] CheckpointError),
 }
 
+/// Time in which the weight at the kick-off follows the one that is set (s): slower than the axial vibration of the
+/// guide (4 ms), faster than the slew limit of the weight.
+const WEIGHT_TIME: f64 = 0.1;
+
 /// The running twin of one tool.
 pub struct Simulation {
     pub(super) settings: SimulationSettings,
     pub(super) stepper: Stepper,
-    start: State,
+    start: Arc<State>,
     pub(super) observer: Observer,
     pub(super) applied: Applied,
     pub(super) step: u64,
@@ -90,18 +96,17 @@ impl Simulation {
             },
         )
         .map_err(BuildError::Tool)?;
-        let load = settings.initial_inputs.weight_on_bit;
         let start = if tool.static_start {
-            stepper.settle(load)?
+            stepper.settle(&settings.initial_inputs)?
         } else {
-            stepper.start_as_given(load, settings.time_step)?
+            stepper.start_as_given(&settings.initial_inputs, settings.time_step)?
         };
         let observer = Observer::new(&stepper, settings);
         let mut simulation = Self {
             settings: settings.clone(),
             applied: Applied::default(),
             stepper,
-            start,
+            start: Arc::new(start),
             observer,
             step: 0,
             #[cfg(feature = "checkpoints")]
@@ -111,6 +116,32 @@ impl Simulation {
         Ok(simulation)
     }
 
+    /// Another simulation in the same state, which shares nothing that changes with this one: with the same inputs it
+    /// moves to the same bits, and neither knows of the other. The tool as built, the matrices of its spans and those of
+    /// a step are shared; the rest is copied. The fork's phases are not timed.
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        let mut fork = Self {
+            settings: self.settings.clone(),
+            stepper: self.stepper.clone(),
+            start: Arc::clone(&self.start),
+            observer: self.observer.clone(),
+            applied: self.applied,
+            step: self.step,
+            #[cfg(feature = "checkpoints")]
+            identity: self.identity,
+        };
+        fork.stepper.stopwatch().set_clock(None);
+        fork
+    }
+
+    /// Adds to the lateral velocity of the pipe (m/s), node by node from the top and in both directions, what `velocity`
+    /// returns. By a disturbance too small to measure, forks of one state part as the motion of the tool is sensitive to
+    /// it. The energy audit does not count what it adds.
+    pub fn disturb(&mut self, velocity: impl FnMut() -> f64) {
+        self.stepper.disturb(velocity);
+    }
+
     /// Advances by one step of [`SimulationSettings::time_step`] towards `inputs`, as fast as the slew limits allow.
     /// When the step fails, or an input is out of [`Inputs::bounds`], nothing changes but the counters.
     pub fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
@@ -118,26 +149,40 @@ impl Simulation {
             return StepOutcome::Failed(self.stepper.refuse_input(kind, inputs.get(kind)));
         }
         let dt = self.settings.time_step;
-        let speed = self.applied.rotary_speed;
-        let load = self.applied.weight_on_bit;
-        let forcing = Forcing {
-            rotary_speed: [
-                speed,
-                towards(speed, inputs.rotary_speed, self.settings.rotary_speed_slew * dt),
-            ],
-            weight_on_bit: [
-                load,
-                towards(load, inputs.weight_on_bit, self.settings.weight_on_bit_slew * dt),
-            ],
+        let (before, settings) = (self.applied.inputs(), &self.settings);
+        let slew = settings.weight_on_bit_slew * dt;
+        let weight_set = towards(self.applied.weight_set, inputs.weight_on_bit, slew);
+        let after = Inputs {
+            rotary_speed: towards(
+                before.rotary_speed,
+                inputs.rotary_speed,
+                settings.rotary_speed_slew * dt,
+            ),
+            weight_on_bit: self.weight_at_bit(weight_set, dt),
+            rate_of_penetration: towards(
+                before.rate_of_penetration,
+                inputs.rate_of_penetration,
+                settings.rate_of_penetration_slew * dt,
+            ),
+            standpipe_pressure: towards(
+                before.standpipe_pressure,
+                inputs.standpipe_pressure,
+                settings.standpipe_pressure_slew * dt,
+            ),
         };
+        let forcing = Forcing::between(&before, &after);
         self.stepper.stopwatch().start();
         let outcome = self.stepper.advance(dt, &forcing);
         self.stepper.stopwatch().lap(Phase::Other);
         if let StepOutcome::Advanced { iterations, .. } = outcome {
             self.step += 1;
             self.applied = Applied {
-                rotary_speed: forcing.rotary_speed[1],
-                weight_on_bit: forcing.weight_on_bit[1],
+                rotary_speed: after.rotary_speed,
+                weight_on_bit: after.weight_on_bit,
+                rate_of_penetration: after.rate_of_penetration,
+                standpipe_pressure: after.standpipe_pressure,
+                weight_set,
+                weight_at_kickoff: self.stepper.weight_at_kickoff(),
                 drive_angle: self.stepper.drive_angle(),
                 drive_torque: self.stepper.drive_torque(),
             };
@@ -146,6 +191,24 @@ impl Simulation {
         }
         self.stepper.stopwatch().stop(Phase::Analysis);
         outcome
+    }
+
+    /// Weight at the bit (N) after a step of size `dt` (s) with a weight `set` (N). One that is set at the kick-off is
+    /// reached by the guide's reaction there: W_b' = (set - reaction) / (tau e^(mu theta)), by no more than what a rope
+    /// passes on round the arc, so that the reaction follows in tau or slower. The rock does not pull.
+    fn weight_at_bit(&self, set: f64, dt: f64) -> f64 {
+        let description = &self.stepper.model().description;
+        let reaction = match description.weight_place {
+            WeightPlace::Bit => None,
+            WeightPlace::Kickoff => self.applied.weight_at_kickoff,
+        };
+        reaction.map_or(set, |reaction| {
+            let [_, friction] = self.stepper.live().outer_friction;
+            let gain = libm::exp(friction * description.well.turn());
+            let [least, most] = Inputs::bounds(InputKind::WeightOnBit);
+            let change = dt / (WEIGHT_TIME * gain) * (set - reaction);
+            (self.applied.weight_on_bit + change).clamp(least, most)
+        })
     }
 
     /// A snapshot of the right sizes, to be filled by [`Simulation::snapshot`].
@@ -173,7 +236,7 @@ impl Simulation {
         out.applied = self.applied;
         out.energy = *self.stepper.audit();
         out.solver = self.solver_counters();
-        self.observer.fill(&self.stepper, state, &self.applied, out);
+        self.observer.fill(&self.stepper, state, out);
     }
 
     /// Parameters that may change while running.
@@ -195,18 +258,25 @@ impl Simulation {
         self.stepper.set_live(live);
     }
 
-    /// Replaces the slew limits: rotary speed (rad/s2) and weight on bit (N/s).
+    /// Replaces the slew limits of rotary speed (rad/s2) and weight on bit (N/s); those of the other inputs stay.
     ///
     /// # Errors
     /// When one is not finite or negative; then both stay.
     pub fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) -> Result<(), ValidationError> {
-        validate_slew(rotary_speed, weight_on_bit)?;
-        self.replace_slew([rotary_speed, weight_on_bit]);
+        let [.., advance, pressure] = self.settings.slew();
+        let slew = [rotary_speed, weight_on_bit, advance, pressure];
+        validate_slew(slew)?;
+        self.replace_slew(slew);
         Ok(())
     }
 
-    pub(super) fn replace_slew(&mut self, slew: [f64; 2]) {
-        [self.settings.rotary_speed_slew, self.settings.weight_on_bit_slew] = slew;
+    pub(super) fn replace_slew(&mut self, slew: [f64; 4]) {
+        [
+            self.settings.rotary_speed_slew,
+            self.settings.weight_on_bit_slew,
+            self.settings.rate_of_penetration_slew,
+            self.settings.standpipe_pressure_slew,
+        ] = slew;
     }
 
     /// Replaces the thresholds of the whirl analysis. They change the reports, not the motion.
@@ -266,23 +336,25 @@ impl Simulation {
 
     /// Resets the motion to the state after the start; live parameters and slew limits stay.
     pub fn reset(&mut self) {
-        let inputs = self.settings.initial_inputs;
-        // A tool that starts from rest is run up from standstill; one that starts in motion is driven at its speed at
-        // once.
-        let rotary_speed = if self.stepper.model().description.static_start {
-            0.0
-        } else {
-            inputs.rotary_speed
-        };
-        self.stepper.start_from(&self.start, inputs.weight_on_bit);
+        let mut inputs = self.settings.initial_inputs;
+        // A tool that starts from rest is run up from standstill, and advances from standstill; one that starts in
+        // motion is driven at its speed at once.
+        if self.stepper.model().description.static_start {
+            (inputs.rotary_speed, inputs.rate_of_penetration) = (0.0, 0.0);
+        }
+        self.stepper.start_from(&self.start, &inputs);
         self.step = 0;
         self.applied = Applied {
-            rotary_speed,
+            rotary_speed: inputs.rotary_speed,
             drive_angle: 0.0,
             weight_on_bit: inputs.weight_on_bit,
+            rate_of_penetration: inputs.rate_of_penetration,
+            standpipe_pressure: inputs.standpipe_pressure,
+            weight_set: inputs.weight_on_bit,
+            weight_at_kickoff: self.stepper.weight_at_kickoff(),
             drive_torque: self.stepper.drive_torque(),
         };
-        self.observer.reset();
+        self.observer.reset(&self.stepper);
     }
 }
 

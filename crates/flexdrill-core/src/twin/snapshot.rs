@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::quality::ModelQuality;
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
-use crate::motion::{Ageing, Hazards, Severity, ShockLevel, WhirlReport, WhirlWarningLevel};
+use crate::inputs::Inputs;
+use crate::motion::{Ageing, Hazards, Severity, ShockLevel, Transfer, WhirlReport, WhirlWarningLevel};
 use crate::tool::Body;
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
@@ -27,6 +28,8 @@ pub struct Snapshot {
     pub bit: Bit,
     /// Forces of the supports and all others from outside.
     pub reactions: Reactions,
+    /// Torque, weight and power from the surface to the bit.
+    pub transfer: Transfer,
     /// Deflected lines of both pipes in the world frame.
     pub shape: Shape,
     /// Whirl at every watched station.
@@ -55,10 +58,32 @@ pub struct Applied {
     pub rotary_speed: f64,
     /// Angle of the top drive (rad).
     pub drive_angle: f64,
-    /// Weight on bit (N).
+    /// Weight at the bit (N).
     pub weight_on_bit: f64,
     /// Torque of the drive on the pipe (N m), positive in the sense of the rotation.
     pub drive_torque: f64,
+    /// Rate of penetration (m/s), negative when the tool is pulled back.
+    pub rate_of_penetration: f64,
+    /// Standpipe pressure (Pa), inside minus outside.
+    pub standpipe_pressure: f64,
+    /// Weight that is asked for, after the slew limit (N): at the bit, or at the kick-off with
+    /// [`WeightPlace::Kickoff`](crate::tool::WeightPlace::Kickoff).
+    pub weight_set: f64,
+    /// Axial force on the guide at the kick-off (N), positive where it pushes down the hole; `None` where the guide is
+    /// not held there.
+    pub weight_at_kickoff: Option<f64>,
+}
+
+impl Applied {
+    /// The four inputs.
+    pub fn inputs(&self) -> Inputs {
+        Inputs {
+            rotary_speed: self.rotary_speed,
+            weight_on_bit: self.weight_on_bit,
+            rate_of_penetration: self.rate_of_penetration,
+            standpipe_pressure: self.standpipe_pressure,
+        }
+    }
 }
 
 /// Per joint, all arrays of the same length. Forces are those of the link above on the link below, in the upper

@@ -4,8 +4,8 @@ use super::settings::SimulationSettings;
 use crate::dynamics::Scheme;
 use crate::inputs::{InputKind, Inputs};
 use crate::motion::{
-    AlarmThresholds, ChaoticWhirlSettings, JointLoadSettings, MOST_REPEATS, ShockSettings, StickSlipSettings,
-    WhirlSettings,
+    AlarmThresholds, ChaoticWhirlSettings, JointLoadSettings, LoadSettings, MOST_REPEATS, ShockSettings,
+    StickSlipSettings, TransferSettings, WhirlSettings,
 };
 use crate::validation::{Bound, ValidationError, count, require};
 
@@ -36,12 +36,19 @@ impl SimulationSettings {
             let field = format!("initial_inputs.{kind}");
             Bound::Within(low, high).check(&field, self.initial_inputs.get(kind), kind.si_unit())?;
         }
-        validate_slew(self.rotary_speed_slew, self.weight_on_bit_slew)?;
+        validate_slew(self.slew())?;
         self.whirl.validate()?;
         self.stick_slip.validate()?;
         self.shock.validate()?;
         self.joint_load.validate()?;
         self.chaotic_whirl.validate()?;
+        self.transfer.validate()?;
+        for (field, load) in [
+            ("guide_preload", &self.guide_preload),
+            ("pressure_folding", &self.pressure_folding),
+        ] {
+            load.as_ref().map_or(Ok(()), |load| load.validate(field))?;
+        }
         Bound::Within(1.0, 20.0).check("ageing.slope", self.ageing.slope, "")?;
         Bound::Positive.check("ageing.rated_moment", self.ageing.rated_moment, "N m")?;
         for (index, &(station, _)) in self.watched.iter().enumerate() {
@@ -53,10 +60,12 @@ impl SimulationSettings {
     }
 }
 
-/// Slew limits of rotary speed (rad/s2) and weight on bit (N/s).
-pub(super) fn validate_slew(rotary_speed: f64, weight_on_bit: f64) -> Checked {
-    Bound::NotNegative.check("rotary_speed_slew", rotary_speed, "rad/s2")?;
-    Bound::NotNegative.check("weight_on_bit_slew", weight_on_bit, "N/s")
+/// Slew limits of rotary speed (rad/s2), weight on bit (N/s), rate of penetration (m/s2) and standpipe pressure (Pa/s).
+pub(super) fn validate_slew([speed, weight, advance, pressure]: [f64; 4]) -> Checked {
+    Bound::NotNegative.check("rotary_speed_slew", speed, "rad/s2")?;
+    Bound::NotNegative.check("weight_on_bit_slew", weight, "N/s")?;
+    Bound::NotNegative.check("rate_of_penetration_slew", advance, "m/s2")?;
+    Bound::NotNegative.check("standpipe_pressure_slew", pressure, "Pa/s")
 }
 
 impl Scheme {
@@ -166,6 +175,24 @@ impl JointLoadSettings {
         Bound::Positive.check("joint_load.rated_moment", self.rated_moment, "N m")?;
         Bound::Above(0.0, LONGEST).check("joint_load.interval", self.interval, "s")?;
         self.thresholds.validate("joint_load.thresholds", "")
+    }
+}
+
+impl LoadSettings {
+    fn validate(&self, field: &str) -> Checked {
+        Bound::Positive.check(&format!("{field}.rating"), self.rating, "N or N m")?;
+        Bound::Above(0.0, LONGEST).check(&format!("{field}.interval"), self.interval, "s")?;
+        self.thresholds.validate(&format!("{field}.thresholds"), "")
+    }
+}
+
+impl TransferSettings {
+    fn validate(&self) -> Checked {
+        Bound::Above(0.0, LONGEST).check("transfer.window", self.window, "s")?;
+        Bound::Positive.check("transfer.least_weight", self.least_weight, "N")?;
+        Bound::Above(0.0, 1.0).check("transfer.steadiness", self.steadiness, "")?;
+        self.weight.validate("transfer.weight", "")?;
+        self.torque.validate("transfer.torque", "")
     }
 }
 

@@ -137,6 +137,20 @@ try {
     await shot("location");
   });
 
+  await step("transfer has what the tool has, and no row without a value", async () => {
+    await page.click("#tab-transfer");
+    await until("means", 20, async () => /^Means of the last \d/.test(await page.textContent("#transfer-state")));
+    const rows = () => page.locator("#panel-transfer tr:visible").evaluateAll((all) => all.map((row) => row.innerText));
+    await until("what arrives", 20, async () =>
+      (await rows()).some((row) => /^Arrives at the bit\s+\d+\.\d %/.test(row)),
+    );
+    const words = (await rows()).join("\n");
+    // The paper's tool has no string, so it has neither surface nor hook.
+    assert.match(words, /Kick-off\s+\d+/);
+    assert.doesNotMatch(words, /Surface|Hook load|Depth of cut|–|NaN/);
+    await look("transfer");
+  });
+
   await step("control is refused by a server that does not allow it", async () => {
     await page.click("#tab-steer");
     await until("says that it is off", 10, () => page.isVisible("#steer-locked"));

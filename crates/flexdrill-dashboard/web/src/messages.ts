@@ -219,6 +219,41 @@ export function decodeAlarm(reader: CdrReader): Alarm {
   };
 }
 
+/** How many members of a look-ahead saw an alarm: raised after the first 5 s of the horizon, or standing in its second half. */
+export interface AlarmChance {
+  /** Id of the alarm, such as backward_whirl. */
+  id: string;
+  /** Its name for people. */
+  name: string;
+  /** Of this priority or a higher one: Alarm.LOW, MEDIUM or HIGH. */
+  priority: number;
+  /** Members that saw it. */
+  seen: number;
+  /** Members that ended. */
+  members: number;
+  /** Share of the members; NaN where none ended. */
+  probability: number;
+  /** The 95 % interval of the probability (Wilson). */
+  lower: number;
+  upper: number;
+  /** Median of the time from the beginning of the horizon until the alarm counts (s), over the members that saw it. */
+  time_to_first: number;
+}
+/** Reads a `flexdrill/msg/AlarmChance`. */
+export function decodeAlarmChance(reader: CdrReader): AlarmChance {
+  return {
+    id: reader.string(),
+    name: reader.string(),
+    priority: reader.uint8(),
+    seen: reader.uint32(),
+    members: reader.uint32(),
+    probability: reader.float64(),
+    lower: reader.float64(),
+    upper: reader.float64(),
+    time_to_first: reader.float64(),
+  };
+}
+
 /** One change of one alarm: an entry of the journal. Alarm defines the states and priorities. */
 export interface AlarmEvent {
   /** Stamp: time of the change, on the rig's clock. Frame: the tool. */
@@ -381,7 +416,10 @@ export interface AppliedInputs {
   rotary_speed: number;
   /** Target weight on bit, before the slew limit (N). */
   weight_on_bit: number;
-  /** The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
+  /**
+   * The worst state of the inputs that the tool uses: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or
+   * INPUT_REJECTED. An optional input of which no sample has arrived does not count.
+   */
   input_quality: number;
   /** Slew limit of the rotary speed (rad/s2). */
   rotary_speed_slew: number;
@@ -401,6 +439,14 @@ export interface AppliedInputs {
   parameter_asked_by: string[];
   /** Every model step is solved in 2^refinement equal parts: as many as the motion requires and the pace allows. */
   refinement: number;
+  /** Target rate of penetration, before the slew limit (m/s); negative while the tool is pulled back. */
+  rate_of_penetration: number;
+  /** Target standpipe pressure, inside minus outside, before the slew limit (Pa). */
+  standpipe_pressure: number;
+  /** Slew limit of the rate of penetration (m/s2). */
+  rate_of_penetration_slew: number;
+  /** Slew limit of the standpipe pressure (Pa/s). */
+  standpipe_pressure_slew: number;
 }
 export const AppliedInputs = {
   /** No sample has arrived yet: the twin runs on its configured start values. */
@@ -413,6 +459,8 @@ export const AppliedInputs = {
   INPUT_STALE: 3,
   /** The newest sample was refused; the last good value is held. */
   INPUT_REJECTED: 4,
+  /** An optional input of which no sample has arrived: the twin runs on its configured constant. */
+  INPUT_ASSUMED: 5,
 } as const;
 /** Reads a `flexdrill/msg/AppliedInputs`. */
 export function decodeAppliedInputs(reader: CdrReader): AppliedInputs {
@@ -433,6 +481,10 @@ export function decodeAppliedInputs(reader: CdrReader): AppliedInputs {
     parameter_value: reader.float64Array(reader.length()),
     parameter_asked_by: reader.many(reader.length(), () => reader.string()),
     refinement: reader.uint8(),
+    rate_of_penetration: reader.float64(),
+    standpipe_pressure: reader.float64(),
+    rate_of_penetration_slew: reader.float64(),
+    standpipe_pressure_slew: reader.float64(),
   };
 }
 
@@ -602,6 +654,31 @@ export function decodeContactForces(reader: CdrReader): ContactForces {
   };
 }
 
+/** A figure of a look-ahead over its members. */
+export interface FigureBand {
+  /**
+   * bit_speed_ripple, pipe_guide_force, guide_wall_force, stop_moment, bending_cycles, damage, torque_transfer or
+   * weight_transfer.
+   */
+  name: string;
+  /** Unit; empty for a ratio. */
+  unit: string;
+  /** Quantiles over the members at 5, 50 and 95 %; NaN where no member has the figure. */
+  p5: number;
+  p50: number;
+  p95: number;
+}
+/** Reads a `flexdrill/msg/FigureBand`. */
+export function decodeFigureBand(reader: CdrReader): FigureBand {
+  return {
+    name: reader.string(),
+    unit: reader.string(),
+    p5: reader.float64(),
+    p50: reader.float64(),
+    p95: reader.float64(),
+  };
+}
+
 /**
  * Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
  * entry 0 is joint_01 of joint_states.
@@ -745,8 +822,8 @@ export function decodeReactions(reader: CdrReader): Reactions {
 }
 
 /**
- * Both inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm
- * and rig/weight_on_bit_kn carry the numbers alone. Topic rig/inputs.
+ * The inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm,
+ * rig/weight_on_bit_kn, rig/rate_of_penetration and rig/standpipe_pressure carry the numbers alone. Topic rig/inputs.
  */
 export interface RigInputs {
   /** Stamp: time of the measurement, on the rig's clock. The age of the input counts from it. Frame: not used. */
@@ -755,10 +832,14 @@ export interface RigInputs {
   rotary_speed_rpm: number;
   /** Weight on bit (kN), NaN if not given. */
   weight_on_bit_kn: number;
-  /** Quality of both values: GOOD, SUSPECT or BAD. */
+  /** Quality of all values: GOOD, SUSPECT or BAD. */
   quality: number;
   /** Sensor or program of origin, for displays; may be empty. */
   source: string;
+  /** Rate of penetration (m/h), negative while the tool is pulled back; NaN if not given. */
+  rate_of_penetration_m_per_h: number;
+  /** Standpipe pressure, inside minus outside at the tool's top (MPa), NaN if not given. */
+  standpipe_pressure_mpa: number;
 }
 export const RigInputs = {
   /** The source considers the values correct. */
@@ -776,6 +857,8 @@ export function decodeRigInputs(reader: CdrReader): RigInputs {
     weight_on_bit_kn: reader.float64(),
     quality: reader.uint8(),
     source: reader.string(),
+    rate_of_penetration_m_per_h: reader.float64(),
+    standpipe_pressure_mpa: reader.float64(),
   };
 }
 
@@ -803,6 +886,158 @@ export function decodeSessionInfo(reader: CdrReader): SessionInfo {
     time_step: reader.float64(),
     start: decodeTime(reader),
     configuration: reader.string(),
+  };
+}
+
+/**
+ * Torque, weight and power from the surface to the bit, and where they are lost. All figures are means over the last
+ * `duration` seconds, in which every step counts; those ending in `_rms` are root mean squares over the same time.
+ * A figure that the tool does not have is NaN: surface torque and hook load need the string above, surface weight and
+ * drag of the string its hoist, the depth of cut a rock that holds the bit.
+ */
+export interface Transfer {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Time that the means cover (s): transfer.window, less at the beginning; 0 before the first tenth of a second. */
+  duration: number;
+  /** Torque of the top drive (N m), positive when it drives. */
+  surface_torque: number;
+  /** Root mean square of it (N m). */
+  surface_torque_rms: number;
+  /** Torque on the top of the tool (N m), positive when it drives. */
+  kickoff_torque: number;
+  /** Root mean square of it (N m). */
+  kickoff_torque_rms: number;
+  /** Torque of the rock against the bit (N m). */
+  bit_torque: number;
+  /** Root mean square of it (N m). */
+  bit_torque_rms: number;
+  /** Torque at the bit over that at the surface, without a string over that at the kick-off. NaN below 1 N m there. */
+  torque_efficiency: number;
+  /**
+   * Torque of the rotation that friction between pipe and guide takes (N m): its power over the speed of the tool's top.
+   * NaN while the tool stands, as for the next two.
+   */
+  pipe_guide_friction_torque: number;
+  /** Torque of the rotation that friction between guide and wall takes (N m), without what the advance takes. */
+  guide_wall_friction_torque: number;
+  /** Torque of the rotation that the pins of the joints take (N m). */
+  joint_friction_torque: number;
+  /** Torque that the friction of the wall takes from the string above (N m). */
+  string_friction_torque: number;
+  /** Weight that is slacked off at the surface (N). */
+  surface_weight: number;
+  /** Root mean square of it (N). */
+  surface_weight_rms: number;
+  /** Axial force on the guide at the kick-off (N), positive where it pushes down the hole. */
+  kickoff_weight: number;
+  /** Root mean square of it (N). */
+  kickoff_weight_rms: number;
+  /** Weight on the bit (N). */
+  bit_weight: number;
+  /** Root mean square of it (N). */
+  bit_weight_rms: number;
+  /** Load on the hook (N). */
+  hook_load: number;
+  /** Axial friction of the guide on the pipe (N), positive where it pushes up the hole. */
+  pipe_guide_axial_drag: number;
+  /** Axial friction of the wall on the guide (N), positive where it pushes up the hole. */
+  guide_wall_axial_drag: number;
+  /** Axial friction of the wall on the string above (N), positive where it pushes up the hole. */
+  string_axial_drag: number;
+  /** Depth of cut (m per turn). */
+  depth_of_cut: number;
+  /** Rate of penetration of the bit (m/s), negative when the tool is pulled back. */
+  rate_of_penetration: number;
+  /** Power put in: of the top drive (W). */
+  drive_power: number;
+  /** Of the hoist (W). */
+  hoist_power: number;
+  /** Of the weight on bit, where the weight is given (W). */
+  weight_on_bit_power: number;
+  /** Of gravity (W). */
+  gravity_power: number;
+  /** Of the point loads (W). */
+  load_power: number;
+  /** Of the advance of the tool against the friction of the wall (W). */
+  feed_power: number;
+  /** Of the pressure in the pipe (W). */
+  pressure_power: number;
+  /** Power taken: by the rock (W). */
+  bit_power: number;
+  /** By friction in both layers and in the joints (W): the sum of the next three, to the accuracy of a step. */
+  friction_power: number;
+  /** By friction between pipe and guide (W). */
+  pipe_guide_friction_power: number;
+  /** By friction between guide and wall (W). */
+  guide_wall_friction_power: number;
+  /** By friction in the joints (W). */
+  joint_friction_power: number;
+  /** By the damping of contacts, stops and joints with play (W). */
+  contact_damping_power: number;
+  /** By Rayleigh damping (W). */
+  rayleigh_damping_power: number;
+  /** By the time integration (W). */
+  numerical_damping_power: number;
+  /** By the string above, to friction on the wall and to the mud (W). */
+  string_power: number;
+  /** Of updating the axial force in the geometric stiffness (W), positive when put in. */
+  axial_update_power: number;
+  /** Stored as motion and deformation (W), negative when it is released. */
+  stored_power: number;
+  /** Put in, less taken, less stored (W): the error of the energy audit. */
+  error_power: number;
+  /** By the mud that moves with pipe and guide (W): power taken, part of the same balance. */
+  mud_power: number;
+}
+/** Reads a `flexdrill/msg/Transfer`. */
+export function decodeTransfer(reader: CdrReader): Transfer {
+  return {
+    header: decodeHeader(reader),
+    duration: reader.float64(),
+    surface_torque: reader.float64(),
+    surface_torque_rms: reader.float64(),
+    kickoff_torque: reader.float64(),
+    kickoff_torque_rms: reader.float64(),
+    bit_torque: reader.float64(),
+    bit_torque_rms: reader.float64(),
+    torque_efficiency: reader.float64(),
+    pipe_guide_friction_torque: reader.float64(),
+    guide_wall_friction_torque: reader.float64(),
+    joint_friction_torque: reader.float64(),
+    string_friction_torque: reader.float64(),
+    surface_weight: reader.float64(),
+    surface_weight_rms: reader.float64(),
+    kickoff_weight: reader.float64(),
+    kickoff_weight_rms: reader.float64(),
+    bit_weight: reader.float64(),
+    bit_weight_rms: reader.float64(),
+    hook_load: reader.float64(),
+    pipe_guide_axial_drag: reader.float64(),
+    guide_wall_axial_drag: reader.float64(),
+    string_axial_drag: reader.float64(),
+    depth_of_cut: reader.float64(),
+    rate_of_penetration: reader.float64(),
+    drive_power: reader.float64(),
+    hoist_power: reader.float64(),
+    weight_on_bit_power: reader.float64(),
+    gravity_power: reader.float64(),
+    load_power: reader.float64(),
+    feed_power: reader.float64(),
+    pressure_power: reader.float64(),
+    bit_power: reader.float64(),
+    friction_power: reader.float64(),
+    pipe_guide_friction_power: reader.float64(),
+    guide_wall_friction_power: reader.float64(),
+    joint_friction_power: reader.float64(),
+    contact_damping_power: reader.float64(),
+    rayleigh_damping_power: reader.float64(),
+    numerical_damping_power: reader.float64(),
+    string_power: reader.float64(),
+    axial_update_power: reader.float64(),
+    stored_power: reader.float64(),
+    error_power: reader.float64(),
+    mud_power: reader.float64(),
   };
 }
 
@@ -867,9 +1102,12 @@ export interface TwinStatus {
   config_hash: string;
   /** Version of flexdrill. */
   version: string;
-  /** Per input: rotary_speed, weight_on_bit. */
+  /**
+   * Per input: rotary_speed, weight_on_bit; then rate_of_penetration and standpipe_pressure where the tool uses them, a
+   * value other than zero is assumed, or a sample arrived.
+   */
   input_name: string[];
-  /** INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
+  /** INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE, INPUT_REJECTED or INPUT_ASSUMED. */
   input_state: Uint8Array;
   /** Time since the newest good sample (s), NaN if there was none. */
   input_age: Float64Array;
@@ -981,6 +1219,8 @@ export const TwinStatus = {
   INPUT_STALE: 3,
   /** The newest sample was refused; the last good value is held. */
   INPUT_REJECTED: 4,
+  /** An optional input of which no sample has arrived: the twin runs on its configured constant. */
+  INPUT_ASSUMED: 5,
   /** Not recording. */
   RECORDING_OFF: 0,
   /** Recording to recording_path. */
@@ -1073,6 +1313,80 @@ export function decodeTwinStatus(reader: CdrReader): TwinStatus {
     pace_factor: reader.float64(),
     recording_drops_cause: reader.string(),
     steps_stood_still: reader.uint64(),
+  };
+}
+
+/** A rotary speed and a weight on bit to be tried in a look-ahead. */
+export interface WhatIfCandidate {
+  /** Rotary speed (r/min), within inputs.rotary_speed of the configuration. */
+  rotary_speed: number;
+  /** Weight on bit (kN), within inputs.weight_on_bit of the configuration. */
+  weight_on_bit: number;
+  /** How fast the speed changes on the way there (r/min per s); 0: as fast as the configuration's slew limit. */
+  speed_ramp: number;
+  /** How fast the weight changes on the way there (kN/s); 0: as fast as the configuration's slew limit. */
+  weight_ramp: number;
+}
+/** Reads a `flexdrill/msg/WhatIfCandidate`. */
+export function decodeWhatIfCandidate(reader: CdrReader): WhatIfCandidate {
+  return {
+    rotary_speed: reader.float64(),
+    weight_on_bit: reader.float64(),
+    speed_ramp: reader.float64(),
+    weight_ramp: reader.float64(),
+  };
+}
+
+/** What a look-ahead says of one candidate. */
+export interface WhatIfAnswer {
+  /** Which. */
+  candidate: WhatIfCandidate;
+  /** Time of the way to the candidate's speed and weight, before the horizon (s); NaN where they were not reached. */
+  run_up: number;
+  /** Members that count: those up to the first number at which every alarm is decided. */
+  members: number;
+  /**
+   * Members among them whose motion could not be computed to the end. They are in no probability: what would have come is
+   * unknown, not safe.
+   */
+  failed: number;
+  /** Why the first of these failed, or why there is no member at all; empty where none did. */
+  failure: string;
+  /**
+   * Whether the members decide every alarm: a sequential test between a chance of a tenth or less and one of a half or more,
+   * with a risk of 5 % for either error.
+   */
+  decided: boolean;
+  /** Chance that a member saw any alarm, with its 95 % interval (Wilson); NaN where no member ended. */
+  any_alarm: number;
+  any_alarm_lower: number;
+  any_alarm_upper: number;
+  /** The alarms that a member saw, with each priority. */
+  alarms: AlarmChance[];
+  /** The continuous figures. */
+  figures: FigureBand[];
+  /** Members by the worst quality of their computed motion. */
+  quality_good: number;
+  quality_degraded: number;
+  quality_poor: number;
+}
+/** Reads a `flexdrill/msg/WhatIfAnswer`. */
+export function decodeWhatIfAnswer(reader: CdrReader): WhatIfAnswer {
+  return {
+    candidate: decodeWhatIfCandidate(reader),
+    run_up: reader.float64(),
+    members: reader.uint32(),
+    failed: reader.uint32(),
+    failure: reader.string(),
+    decided: reader.bool(),
+    any_alarm: reader.float64(),
+    any_alarm_lower: reader.float64(),
+    any_alarm_upper: reader.float64(),
+    alarms: reader.many(reader.length(), () => decodeAlarmChance(reader)),
+    figures: reader.many(reader.length(), () => decodeFigureBand(reader)),
+    quality_good: reader.uint32(),
+    quality_degraded: reader.uint32(),
+    quality_poor: reader.uint32(),
   };
 }
 
@@ -1197,7 +1511,10 @@ export interface WhirlWarning {
   window: number;
   /** When this level was reached, on the rig's clock. */
   since: Time;
-  /** The worse of the two inputs' states: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or INPUT_REJECTED. */
+  /**
+   * The worst state of the inputs that the tool uses: INPUT_NOT_RECEIVED, INPUT_OK, INPUT_SLOW, INPUT_STALE or
+   * INPUT_REJECTED.
+   */
   input_quality: number;
   /** Number of changes so far, of the level, its station and kind, or of the trust in the inputs. */
   sequence: number;
@@ -1252,6 +1569,8 @@ export const WhirlWarning = {
   INPUT_STALE: 3,
   /** The newest sample was refused; the last good value is held. */
   INPUT_REJECTED: 4,
+  /** An optional input of which no sample has arrived: the twin runs on its configured constant. */
+  INPUT_ASSUMED: 5,
 } as const;
 /** Reads a `flexdrill/msg/WhirlWarning`. */
 export function decodeWhirlWarning(reader: CdrReader): WhirlWarning {
@@ -1477,16 +1796,21 @@ export function decodeMarkerArray(reader: CdrReader): MarkerArray {
 export const DECODERS = {
   "flexdrill/msg/Ageing": decodeAgeing,
   "flexdrill/msg/Alarm": decodeAlarm,
+  "flexdrill/msg/AlarmChance": decodeAlarmChance,
   "flexdrill/msg/AlarmEvent": decodeAlarmEvent,
   "flexdrill/msg/AlarmList": decodeAlarmList,
   "flexdrill/msg/AppliedInputs": decodeAppliedInputs,
   "flexdrill/msg/BitState": decodeBitState,
   "flexdrill/msg/ContactForces": decodeContactForces,
+  "flexdrill/msg/FigureBand": decodeFigureBand,
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/RigInputs": decodeRigInputs,
   "flexdrill/msg/SessionInfo": decodeSessionInfo,
+  "flexdrill/msg/Transfer": decodeTransfer,
   "flexdrill/msg/TwinStatus": decodeTwinStatus,
+  "flexdrill/msg/WhatIfAnswer": decodeWhatIfAnswer,
+  "flexdrill/msg/WhatIfCandidate": decodeWhatIfCandidate,
   "flexdrill/msg/WhirlState": decodeWhirlState,
   "flexdrill/msg/WhirlWarning": decodeWhirlWarning,
   "visualization_msgs/msg/MarkerArray": decodeMarkerArray,

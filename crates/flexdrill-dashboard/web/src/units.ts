@@ -30,6 +30,12 @@ const QUANTITIES = {
   },
   depth: { si: { unit: "m", factor: 1, digits: 2 }, field: { unit: "ft", factor: 1 / FOOT, digits: 2 } },
   gap: { si: { unit: "mm", factor: 1e3, digits: 1 }, field: { unit: "in", factor: 12 / FOOT, digits: 3 } },
+  advance: { si: { unit: "m/h", factor: 3600, digits: 1 }, field: { unit: "ft/h", factor: 3600 / FOOT, digits: 1 } },
+  pressure: {
+    si: { unit: "MPa", factor: 1e-6, digits: 2 },
+    field: { unit: "psi", factor: (FOOT / 12) ** 2 / POUND_FORCE, digits: 0 },
+  },
+  cut: { si: { unit: "mm", factor: 1e3, digits: 2 }, field: { unit: "in", factor: 12 / FOOT, digits: 4 } },
   angle: {
     si: { unit: "°", factor: 180 / Math.PI, digits: 2 },
     field: { unit: "°", factor: 180 / Math.PI, digits: 2 },

@@ -15,6 +15,7 @@ export const INPUT_STATE: Record<number, string> = {
   [TwinStatus.INPUT_SLOW]: "slow",
   [TwinStatus.INPUT_STALE]: "STALE",
   [TwinStatus.INPUT_REJECTED]: "REJECTED",
+  [TwinStatus.INPUT_ASSUMED]: "assumed",
 };
 
 export const QUALITY: Record<number, string> = {

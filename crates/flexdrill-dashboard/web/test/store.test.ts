@@ -369,3 +369,26 @@ test("bytes that are no message are counted and change nothing", () => {
   assert.equal(store.unreadable, 1);
   assert.equal(store.status, null);
 });
+
+test("optional inputs of the status do not stand in the place of the weight", () => {
+  const store = new Store();
+  hear(store, 10, 1);
+  const status = {
+    header: header(10.1),
+    state: 1,
+    real_time_factor: 1,
+    model_quality: 0,
+    input_name: ["rotary_speed", "weight_on_bit", "rate_of_penetration", "standpipe_pressure"],
+    input_state: [1, 1, 5, 5],
+    input_received: [4.2, 9.9e3, NaN, NaN],
+    input_applied: [4.1, 1e4, 0, 0],
+  };
+  store.accept("twin/status", status as unknown as TwinStatus);
+  const moment = store.moment();
+  assert.ok(moment);
+  const shown = (name: "weight_on_bit_applied" | "weight_on_bit_received" | "weight_on_bit_state") =>
+    moment.layout.scalar(moment.row, name);
+  assert.ok(Math.abs(shown("weight_on_bit_applied") - 1e4) < 1);
+  assert.ok(Math.abs(shown("weight_on_bit_received") - 9.9e3) < 1);
+  assert.equal(shown("weight_on_bit_state"), 1);
+});

@@ -8,6 +8,7 @@ mod contacts;
 mod joints;
 mod reactions;
 mod shape;
+mod transfer;
 mod whirl;
 
 pub use ageing::ageing;
@@ -16,6 +17,7 @@ pub use contacts::contact_forces;
 pub use joints::{joint_deflections, joint_state};
 pub use reactions::reactions;
 pub use shape::{ShapeStyle, tool_shape};
+pub use transfer::transfer;
 pub use whirl::{whirl_state, whirl_warning, whirl_warning_is_suppressed};
 
 use super::std_msgs::Header;

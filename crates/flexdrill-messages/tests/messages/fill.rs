@@ -7,7 +7,9 @@ use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::fill::{self, ShapeStyle};
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::visualization_msgs::{Marker, MarkerArray};
-use flexdrill_messages::{Ageing, BitState, ContactForces, JointDeflections, Reactions, WhirlWarning, sensor_msgs};
+use flexdrill_messages::{
+    Ageing, BitState, ContactForces, JointDeflections, Reactions, Transfer, WhirlWarning, sensor_msgs,
+};
 
 fn header() -> Header {
     Header {
@@ -90,6 +92,64 @@ fn ageing_is_told_per_hour_and_relative_to_the_worst() {
     assert_eq!(message.guide_wall_friction_work, [7.0, 8.0]);
     assert_eq!(message.joint_measured_depth.len(), 3);
     assert_eq!(message.woehler_slope, 5.0);
+}
+
+/// Every figure of the message is another one of the snapshot: none is left out, and none stands twice.
+#[test]
+fn transfer_fills_every_field_with_its_own_figure() {
+    let mut snapshot = snapshot();
+    let mut next = 0.0;
+    let mut number = || {
+        next += 1.0;
+        next
+    };
+    let from = &mut snapshot.transfer;
+    from.duration = number();
+    for along in [&mut from.torque, &mut from.weight] {
+        (along.mean, along.rms) = ([0; 3].map(|_| number()), [0; 3].map(|_| number()));
+    }
+    from.mean.axial_drag = [0; 3].map(|_| number());
+    from.mean.friction_power = [0; 3].map(|_| number());
+    from.friction_torque = [0; 4].map(|_| number());
+    from.mean.hook_load = number();
+    from.mean.depth_of_cut = number();
+    from.mean.rate_of_penetration = number();
+    from.torque_efficiency = number();
+    let power = &mut from.power;
+    for power in [
+        &mut power.drive,
+        &mut power.hoist,
+        &mut power.weight_on_bit,
+        &mut power.gravity,
+        &mut power.loads,
+        &mut power.feed,
+        &mut power.pressure,
+        &mut power.bit,
+        &mut power.friction,
+        &mut power.contact_damping,
+        &mut power.rayleigh_damping,
+        &mut power.numerical_damping,
+        &mut power.string,
+        &mut power.axial_update,
+        &mut power.stored,
+        &mut power.error,
+        &mut power.mud,
+    ] {
+        *power = number();
+    }
+    let mut message = Transfer::default();
+    fill::transfer(&snapshot, &header(), &mut message);
+    let json = serde_json::to_value(&message).unwrap();
+    let mut values: Vec<f64> = json
+        .as_object()
+        .unwrap()
+        .values()
+        .filter_map(serde_json::Value::as_f64)
+        .collect();
+    values.sort_by(f64::total_cmp);
+    assert_eq!(values, (1..=next as u32).map(f64::from).collect::<Vec<_>>());
+    assert_eq!((message.surface_torque, message.bit_torque_rms), (2.0, 7.0));
+    assert_eq!((message.duration, message.mud_power), (1.0, next));
 }
 
 #[test]

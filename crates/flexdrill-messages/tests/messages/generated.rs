@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use flexdrill_messages::generated::TYPES;
-use xtask::messages::{Catalogue, schema};
+use xtask::messages::{Catalogue, definition, hash, schema};
 
 /// The root of the repository.
 fn root() -> PathBuf {
@@ -39,6 +39,73 @@ fn every_definition_has_a_type_and_its_whole_schema() {
         assert_eq!(definition.name.to_string(), info.ros_type);
         assert_eq!(schema::schema(definition, &catalogue).unwrap(), info.schema);
     }
+}
+
+/// Hashes of an action of the example interfaces, and of the messages that all actions use, as generators for ROS 2 Jazzy
+/// write them.
+#[test]
+fn an_action_has_its_published_hashes() {
+    let mut catalogue = Catalogue::read(&root()).unwrap();
+    let text = "int32 order\n---\nint32[] sequence\n---\nint32[] sequence\n";
+    catalogue
+        .add_action("example_interfaces", "Fibonacci", text, definition::Source::Text)
+        .unwrap();
+    for (package, kind, name, published) in [
+        (
+            "example_interfaces",
+            "action",
+            "Fibonacci_FeedbackMessage",
+            "RIHS01_c1de71afd52e49a89c53d8262366884185bc0a02f78ce051c4e46b0a7fe59bb2",
+        ),
+        (
+            "example_interfaces",
+            "action",
+            "Fibonacci_GetResult_Response",
+            "RIHS01_6021dc98ab9b4bbe395e48aa4de81ee5f68eb570f88358affcc648146668b24f",
+        ),
+        (
+            "action_msgs",
+            "msg",
+            "GoalStatusArray",
+            "RIHS01_6c1684b00f177d37438febe6e709fc4e2b0d4248dca4854946f9ed8b30cda83e",
+        ),
+        (
+            "action_msgs",
+            "msg",
+            "GoalInfo",
+            "RIHS01_6398fe763154554353930716b225947f93b672f0fb2e49fdd01bb7a7e37933e9",
+        ),
+        (
+            "unique_identifier_msgs",
+            "msg",
+            "UUID",
+            "RIHS01_1b8e8aca958cbea28fe6ef60bf6c19b683c97a9ef60bb34752067d0f2f7ab437",
+        ),
+    ] {
+        let name = definition::TypeName {
+            package: package.to_owned(),
+            kind,
+            name: name.to_owned(),
+        };
+        let definition = catalogue.get(&name).unwrap();
+        assert_eq!(hash::rihs01(definition, &catalogue).unwrap(), published, "{name}");
+    }
+    // The action as a whole names what ROS 2 makes of it, in this order.
+    let whole = catalogue
+        .actions()
+        .find(|action| action.name.package == "example_interfaces")
+        .unwrap();
+    let fields: Vec<&str> = whole.fields.iter().map(|field| field.name.as_str()).collect();
+    let expected = [
+        "goal",
+        "result",
+        "feedback",
+        "send_goal_service",
+        "get_result_service",
+        "feedback_message",
+    ];
+    assert_eq!(fields, expected);
+    assert!(catalogue.dependencies(whole).unwrap().len() > 10);
 }
 
 /// Hashes of standard types as ROS 2 Jazzy's own packages carry them.

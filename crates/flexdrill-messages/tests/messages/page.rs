@@ -8,7 +8,7 @@ use std::path::Path;
 
 use flexdrill_messages::{
     Ageing, Alarm, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
-    RigInputs, SessionInfo, TwinStatus, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
+    RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
@@ -156,6 +156,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<Reactions>(&mut maker),
         reference::<RigInputs>(&mut maker),
         reference::<SessionInfo>(&mut maker),
+        reference::<Transfer>(&mut maker),
         reference::<TwinStatus>(&mut maker),
         reference::<WhirlState>(&mut maker),
         reference::<WhirlWarning>(&mut maker),

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::RealTimeLoop;
 use crate::clock::{Clock, SimulatedClock};
-use crate::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
+use crate::link::{Command, Gauges, LoopEvent, PublisherEnd, RequestEnd, RunState, Settings, StateSlot, Targets, link};
 use crate::monotonic;
 use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::inputs::Inputs;
@@ -51,7 +51,7 @@ fn tool() -> ToolDescription {
 struct Bench {
     solver: RealTimeLoop<ScriptedClock>,
     publisher: PublisherEnd,
-    commands: rtrb::Producer<Command>,
+    requests: RequestEnd,
     targets: Arc<Targets>,
     gauges: Arc<Gauges>,
     clock: ScriptedClock,
@@ -63,6 +63,7 @@ fn settings() -> SimulationSettings {
         settings.initial_inputs = Inputs {
             rotary_speed: 1.0,
             weight_on_bit: 2.0,
+            ..Inputs::default()
         };
         // Every speed is reached within a step.
         settings.rotary_speed_slew = 1e300;
@@ -79,7 +80,7 @@ impl Bench {
     fn new() -> Self {
         let targets = Targets::new(settings().initial_inputs);
         let gauges = Arc::new(Gauges::default());
-        let (end, publisher, commands) = link(Arc::clone(&targets), Arc::clone(&gauges));
+        let (end, publisher, requests) = link(Arc::clone(&targets), Arc::clone(&gauges));
         let clock = ScriptedClock {
             now: Arc::new(AtomicU64::new(MS)),
         };
@@ -87,7 +88,7 @@ impl Bench {
         Self {
             solver,
             publisher,
-            commands,
+            requests,
             targets,
             gauges,
             clock,
@@ -108,6 +109,7 @@ impl Bench {
             Inputs {
                 rotary_speed,
                 weight_on_bit: 2.0,
+                ..Inputs::default()
             },
             1,
         );
@@ -249,7 +251,7 @@ fn a_reset_shows_the_start_again_and_keeps_the_clock() {
     bench.period(0);
     bench.period(0);
     bench.reports();
-    bench.commands.push(Command::Reset).unwrap();
+    bench.requests.commands.push(Command::Reset).unwrap();
     bench.period(0);
     bench.period(0);
     assert_eq!(
@@ -264,7 +266,7 @@ fn a_reset_while_failed_moves_on_with_the_present_inputs() {
     bench.speed(TOO_FAST);
     bench.period(0);
     bench.reports();
-    bench.commands.push(Command::Reset).unwrap();
+    bench.requests.commands.push(Command::Reset).unwrap();
     bench.period(0);
     assert_eq!(
         bench.reports(),
@@ -282,13 +284,13 @@ fn a_pause_stands_still_and_counts_as_skipped() {
     let mut bench = Bench::new();
     bench.period(0);
     bench.reports();
-    bench.commands.push(Command::Pause(true)).unwrap();
+    bench.requests.commands.push(Command::Pause(true)).unwrap();
     bench.period(0);
     bench.speed(9.0);
     bench.period(0);
     assert!(bench.reports().is_empty());
     assert_eq!(bench.gauges.run_state(), RunState::Paused);
-    bench.commands.push(Command::Pause(false)).unwrap();
+    bench.requests.commands.push(Command::Pause(false)).unwrap();
     bench.period(0);
     assert_eq!(bench.reports(), ["applied 9 at 5 skipped 10", "frame 10 at 20"]);
 }
@@ -348,7 +350,8 @@ fn the_loop_ends_when_told_and_follows_the_deadlines() {
 fn what_is_set_before_the_first_tick_acts_on_the_first_step() {
     let targets = Targets::new(settings().initial_inputs);
     let gauges = Arc::new(Gauges::default());
-    let (end, mut publisher, mut commands) = link(targets, Arc::clone(&gauges));
+    let (end, mut publisher, requests) = link(targets, Arc::clone(&gauges));
+    let mut commands = requests.commands;
     let (run, newest) = (run(), Arc::new(AtomicU64::new(0)));
     let applied = run.applied();
     let solver = RealTimeLoop::new(run, SimulatedClock::new(Arc::clone(&newest)), end, 5);
@@ -368,7 +371,7 @@ fn what_is_set_before_the_first_tick_acts_on_the_first_step() {
         }
         let settings = Settings {
             live: applied.live,
-            slew: [number as f64, 2.0 * number as f64],
+            slew: [1.0, 2.0, 3.0, 4.0].map(|factor| factor * number as f64),
             whirl: applied.whirl,
             schedule: applied.schedule,
         };
@@ -389,7 +392,10 @@ fn what_is_set_before_the_first_tick_acts_on_the_first_step() {
     gauges.stop.store(true, Ordering::Relaxed);
     thread.join().unwrap();
     let newest = 2.0 * room as f64;
-    assert_eq!((first.0.step, first.0.slew), (0, [newest, 2.0 * newest]));
+    assert_eq!(
+        (first.0.step, first.0.slew),
+        (0, [1.0, 2.0, 3.0, 4.0].map(|factor| factor * newest))
+    );
     assert_eq!(first.1, 2 * room as u64);
 }
 
@@ -400,7 +406,7 @@ fn a_clock_that_is_set_leaves_the_model_and_takes_the_stamps_along() {
     const FORGED: u64 = 2_147_400_000_000 * MS;
     let targets = Targets::new(settings().initial_inputs);
     let gauges = Arc::new(Gauges::default());
-    let (end, mut publisher, _commands) = link(targets, Arc::clone(&gauges));
+    let (end, mut publisher, _requests) = link(targets, Arc::clone(&gauges));
     let newest = Arc::new(AtomicU64::new(START));
     let solver = RealTimeLoop::new(run(), SimulatedClock::new(Arc::clone(&newest)), end, 5);
     let thread = std::thread::spawn(move || solver.run());
@@ -447,4 +453,39 @@ fn a_clock_that_is_set_leaves_the_model_and_takes_the_stamps_along() {
     gauges.stop.store(true, Ordering::Relaxed);
     thread.join().unwrap();
     assert_eq!(gauges.steps_skipped.load(Ordering::Relaxed), 0);
+}
+
+/// The state travels to the requester in the room that it gave.
+#[test]
+fn a_state_that_is_asked_for_comes_back_in_its_slot() {
+    let mut bench = Bench::new();
+    bench.speed(4.0);
+    bench.period(MS);
+    for (number, room) in [(1, 16), (2, 4 << 20)] {
+        let mut slot = StateSlot::new(room);
+        slot.number = number;
+        bench.requests.commands.push(Command::State(slot)).unwrap();
+        let run = &bench.solver.run;
+        let (expected, applied) = (run.simulation().checkpoint().unwrap(), run.applied());
+        bench.period(MS);
+        let slot = bench.requests.states.pop().unwrap();
+        assert_eq!((slot.number, slot.applied), (number, Some(applied)));
+        match slot.checkpoint() {
+            Ok(bytes) => assert!(number == 2 && bytes == expected),
+            Err(error) => assert!(
+                number == 1 && error.to_string().contains("longer than the 16 bytes"),
+                "{error}"
+            ),
+        }
+    }
+    // Nobody listens: nothing is held up.
+    for _ in 0..20 {
+        bench
+            .requests
+            .commands
+            .push(Command::State(StateSlot::new(16)))
+            .unwrap();
+        bench.period(MS);
+    }
+    assert!(bench.gauges.steps_taken.load(Ordering::Relaxed) > 100);
 }

@@ -6,10 +6,11 @@ use super::drawn;
 use super::health::shares;
 use super::text::{number, percent};
 use crate::ReportError;
+use crate::drive::OptionalInput;
 use crate::history::History;
 use crate::plots;
 use crate::reading::Summary;
-use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, pa_to_mpa, rad_per_s_to_rpm};
 use flexdrill_messages::words;
 
 /// A row of the table; the mean is taken over `window` (s), or over the whole recording without one.
@@ -22,6 +23,17 @@ fn row(what: &str, unit: &str, history: &History, factor: f64, window: Option<[f
                 @for value in [range.min, mean.unwrap_or(f64::NAN), range.max] { td.n { (number(factor * value)) } }
                 td { (unit) }
             }
+        }
+    }
+}
+
+/// The rows of an optional input; none where it was not sent and did not act.
+fn optional(what: &str, unit: &str, input: &OptionalInput, factor: f64) -> Markup {
+    let sent = input.received.range().is_some();
+    html! {
+        @if input.concerns() {
+            (row(&format!("{what}, received"), unit, &input.received, factor, None))
+            (row(&format!("{what}, {}", if sent { "accepted" } else { "assumed" }), unit, &input.accepted, factor, None))
         }
     }
 }
@@ -51,6 +63,8 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                     (row("weight on bit, received", "kN", &drive.received.weight_on_bit, kn, window))
                     (row("weight on bit, accepted", "kN", &drive.accepted.weight_on_bit, kn, window))
                     (row("weight on bit, at the bit", "kN", &drive.bit.weight_on_bit, kn, window))
+                    (optional("rate of penetration", "m/h", &drive.rate_of_penetration, m_per_s_to_m_per_h(1.0)))
+                    (optional("standpipe pressure", "MPa", &drive.standpipe_pressure, pa_to_mpa(1.0)))
                 }
             }
             @if let Some([from, to]) = window {
@@ -76,7 +90,7 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                 }
             } @else if !drive.input_quality.is_empty() {
                 p {
-                    "State of the inputs, the worse of the two: " (shares(&drive.input_quality, words::input_state)) "."
+                    "State of the inputs, the worst of them: " (shares(&drive.input_quality, words::input_state)) "."
                 }
             }
             (figure)

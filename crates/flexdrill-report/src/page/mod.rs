@@ -5,6 +5,7 @@ mod drive;
 mod health;
 mod locations;
 mod text;
+mod transfer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -51,6 +52,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
                 (locations::worst(summary)?)
                 (locations::envelopes(summary)?)
                 (drive::torque(summary)?)
+                (transfer::section(summary)?)
                 (health::section(summary)?)
                 (limits())
                 (configuration(summary))

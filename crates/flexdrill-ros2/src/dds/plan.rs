@@ -110,11 +110,12 @@ pub fn dds_topic_name(topic: &str) -> String {
 }
 
 /// The DDS topics of a service, with their types: its requests and its replies. `/a/b` is `rq/a/bRequest` and `rr/a/bReply`,
-/// `std_srvs/srv/Trigger` is `std_srvs::srv::dds_::Trigger_Request_` and `..._Response_`.
+/// `std_srvs/srv/Trigger` is `std_srvs::srv::dds_::Trigger_Request_` and `..._Response_`; a service of an action has `action`
+/// in the place of `srv`.
 pub fn service_topics(name: &str, ros_type: &str) -> [(String, String); 2] {
     let (package, kind) = ros_type.split_once('/').unwrap_or((ros_type, ""));
-    let kind = kind.rsplit('/').next().unwrap_or_default();
-    let dds_type = |part: &str| format!("{package}::srv::dds_::{kind}_{part}_");
+    let (folder, kind) = kind.rsplit_once('/').unwrap_or(("srv", kind));
+    let dds_type = |part: &str| format!("{package}::{folder}::dds_::{kind}_{part}_");
     [
         (format!("rq{name}Request"), dds_type("Request")),
         (format!("rr{name}Reply"), dds_type("Response")),
@@ -124,8 +125,8 @@ pub fn service_topics(name: &str, ros_type: &str) -> [(String, String); 2] {
 /// The DDS name of a ROS message type: `std_msgs/msg/Float64` is `std_msgs::msg::dds_::Float64_`.
 pub fn dds_type_name(ros_type: &str) -> String {
     let (package, name) = ros_type.split_once('/').unwrap_or((ros_type, ""));
-    let name = name.rsplit('/').next().unwrap_or_default();
-    format!("{package}::msg::dds_::{name}_")
+    let (folder, name) = name.rsplit_once('/').unwrap_or(("msg", name));
+    format!("{package}::{folder}::dds_::{name}_")
 }
 
 #[cfg(test)]
@@ -140,6 +141,14 @@ mod tests {
         assert_eq!(dds_topic_name(&replies.0), "rr/rig_7/flexdrill/resetReply");
         assert_eq!(requests.1, "std_srvs::srv::dds_::Trigger_Request_");
         assert_eq!(replies.1, "std_srvs::srv::dds_::Trigger_Response_");
+        let [requests, replies] =
+            service_topics("/flexdrill/a/_action/get_result", "flexdrill/action/WhatIf_GetResult");
+        assert_eq!(requests.0, "rq/flexdrill/a/_action/get_resultRequest");
+        assert_eq!(replies.1, "flexdrill::action::dds_::WhatIf_GetResult_Response_");
+        assert_eq!(
+            dds_type_name("flexdrill/action/WhatIf_FeedbackMessage"),
+            "flexdrill::action::dds_::WhatIf_FeedbackMessage_"
+        );
         assert_eq!(
             dds_type_name("flexdrill/msg/TwinStatus"),
             "flexdrill::msg::dds_::TwinStatus_"

@@ -44,6 +44,7 @@ const LARGEST_SQUARE: f32 = 1e6;
 type Column = [f32; NODE];
 
 /// Room for an elimination.
+#[derive(Clone)]
 pub(super) struct SingleSweep {
     /// D^-1 (U, r) of each node.
     columns: Vec<Aligned<[Column; COLUMNS]>>,
@@ -84,6 +85,8 @@ pub(super) struct SingleElimination<'a> {
     pub additions: &'a Additions<f32>,
     pub nodes: &'a [Node],
     pub dependents: &'a [Dependents],
+    /// Rows per joint that are constraints.
+    pub joint_rows: usize,
     pub links: &'a [Link],
     pub rows: &'a [Option<[f64; NODE]>],
     /// The runs of nodes that are solved for; each receives how far up it moves the tool. All other nodes stay.
@@ -176,7 +179,7 @@ impl SingleElimination<'_> {
         let b = &mut self.sweep.columns[k];
         let mut right = S::round(node);
         let rows = [node[FIRST_ROW], node[SECOND_ROW]];
-        if joint.is_some() {
+        if joint.is_some() && self.joint_rows > 0 {
             // The values of the joint's rows are no moments.
             right = right.times(S::round(&MOMENTS));
         }
@@ -207,6 +210,10 @@ impl SingleElimination<'_> {
         let crossed = touching == Touching::Both;
         let with_pipe = &mut b[..if crossed { 12 } else { 6 }];
         right = dependents.eliminate(a, with_pipe, Rounded(right), rows, crosses).0;
+        let is_free = |rows: &[f64; NODE]| rows[FIRST_ROW] != 0.0;
+        if joint.is_some() && self.joint_rows == 0 && self.rows[k].as_ref().is_none_or(is_free) {
+            right = eliminate_spin(a, &mut b[..12], right);
+        }
         if let (Some(rows), Some(held)) = (&self.rows[k], held) {
             hold::<S>(a, rows);
             for column in &mut b[..12] {
@@ -255,6 +262,34 @@ impl SingleElimination<'_> {
         }
         carry_joined(b, &lower, carry);
     }
+}
+
+/// Eliminates the spin below a joint with play from a block, its coupling and the right-hand side, which it gives back. It is
+/// not coupled to the span above. Its row is left as that of a rotation that follows from others: one on the diagonal.
+#[inline(always)]
+fn eliminate_spin<S: Single>(a: &mut [Column; NODE], coupling: &mut [Column], right: S) -> S {
+    let pivot = 1.0 / a[FIRST_ROW][FIRST_ROW];
+    let only = S::load(&ONLY[FIRST_ROW]);
+    // Exactly one in its own row: that row is then zero, and takes the entry over the pivot without cancellation.
+    let mut by = a[FIRST_ROW].map(|x| x * pivot);
+    by[FIRST_ROW] = 1.0;
+    let by = S::load(&by);
+    let reduced = |column: S, entry: f32| {
+        let cleared = column.minus_product(by, S::splat(entry));
+        cleared.plus_product(only, S::splat(entry * pivot))
+    };
+    for (k, column) in a.iter_mut().enumerate() {
+        if k != FIRST_ROW {
+            reduced(S::load(column), column[FIRST_ROW]).store(column);
+        }
+    }
+    for column in coupling {
+        reduced(S::load(column), column[FIRST_ROW]).store(column);
+    }
+    a[FIRST_ROW] = ONLY[FIRST_ROW];
+    let mut lanes = Aligned([0.0; NODE]);
+    right.store(&mut lanes);
+    reduced(right, lanes[FIRST_ROW])
 }
 
 /// Keeps the rows of a block that are equations; a held row says that its unknown is the right-hand side, which is zero.

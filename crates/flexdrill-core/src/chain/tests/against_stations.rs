@@ -1,6 +1,7 @@
 //! Residual, tangent and solution against those over all stations, multipliers among the unknowns.
 
 use super::*;
+use crate::dynamics::stations::add_shortening_tangent;
 
 /// Over the fewest nodes there can be, and over those that steps of this size need.
 fn check(tool: &ToolDescription, h: f64, seed: u64) {
@@ -15,10 +16,12 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
     let factors = scheme.factors(h);
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.3, 1e4);
     conditions.bit_torque = 90.0;
+    conditions.rate_of_penetration = 0.2;
+    conditions.standpipe_pressure = 5e6;
     for instructions in Instructions::available() {
         let mut chain = Chain::of(&model, &Tolerances::default(), nodes_for, instructions);
         let slaving = slaving(&chain, &model);
-        let mut state = lively(&chain, seed);
+        let mut state = lively(&chain, &model, seed);
         clean(&chain, &mut state);
         // Each span has a different axial force.
         let mut next = seed + 9;
@@ -27,6 +30,8 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         }
 
         let mut room = Room::new(&model, instructions);
+        let start = before(&chain, &state, seed);
+        room.interactions.begin(&start, h);
         equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
         let mut full = State::at_rest(&model);
         let forces = JointForces {
@@ -36,6 +41,9 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         chain.show(&model, &state, &forces, &mut full);
         let mut whole = Assembler::new(&model, instructions);
         let mut at_stations = Interactions::new(&model, instructions);
+        let mut full_start = State::at_rest(&model);
+        chain.show(&model, &start, &forces, &mut full_start);
+        at_stations.begin(&full_start, h);
         whole.residual(&mut at_stations, &model, &full, &conditions);
         let inside = |layer: &LayerContacts| {
             layer
@@ -60,7 +68,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         // those; their places hold the rows.
         let n = chain.unknowns();
         let mut expected = slaving.tr_mul(&DVector::from_column_slice(&whole.residual));
-        let rows = Joint::rotational_rows(tool.joint.kind);
+        let rows = Joint::constraints(&tool.joint);
         let mut right = -expected.clone();
         let scale = whole.residual.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let near = |got: f64, expected: f64, what: &str| {
@@ -92,6 +100,9 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
 
         // Tangent without geometric stiffness, and its solution.
         let mut system = whole.step_constant(&model, &conditions, factors);
+        if model.shortens() {
+            add_shortening_tangent(&mut system, &model, &full, &conditions, factors);
+        }
         whole.linearise(&at_stations, &model, &full, &conditions, factors);
         whole.increment.add_to(&mut system);
         let mut matrix = DMatrix::zeros(model.unknowns(), model.unknowns());
@@ -159,10 +170,51 @@ fn default_tools() {
 }
 
 #[test]
+fn friction_laws() {
+    for [inner, outer] in FRICTION {
+        check(&with_friction(small(6, 3), inner, outer), 5e-4, 7);
+    }
+}
+
+#[test]
 fn ball_cages_and_a_tie() {
     let mut tool = small(5, 3);
     tool.joint.kind = JointKind::BallCage;
     tool.wob_path = WobPath::Shared;
+    check(&tool, 5e-4, 4);
+}
+
+#[test]
+fn friction_in_pins_and_play() {
+    for (elements, seed) in [(1, 3), (3, 7)] {
+        check(&with_pin_friction(small(6, elements)), 5e-4, seed);
+        check(&with_play(small(6, elements)), 5e-4, seed);
+    }
+    let mut tool = with_play(small(5, 3));
+    tool.joint.kind = JointKind::BallCage;
+    tool.wob_path = WobPath::Shared;
+    check(&tool, 5e-4, 4);
+    // More than eight joints, which are evaluated in two groups.
+    let mut tool = with_play(with_pin_friction(small(12, 3)));
+    tool.joint.limit = 0.13;
+    check(&tool, 5e-4, 24);
+}
+
+/// With one element per link: within longer spans the axial force is made even, which over all stations it becomes by
+/// their motion along the link.
+#[test]
+fn links_that_shorten() {
+    check(&with_shortening(small(6, 1)), 5e-4, 3);
+    let mut tool = with_shortening(small(5, 1));
+    tool.wob_path = WobPath::Shared;
+    check(&tool, 5e-4, 4);
+    // Under the standpipe's pressure, which falls along the tool.
+    tool.pressure = Some(PressureDescription {
+        at_top: PressureSource::Standpipe,
+        drop_per_metre: 0.05,
+        end: PressureEnd::Held,
+        joint_seal_diameter: 0.062,
+    });
     check(&tool, 5e-4, 4);
 }
 
@@ -216,6 +268,72 @@ fn fixed_guides() {
     let mut tool = small(5, 4);
     tool.guide_fixed = true;
     check(&tool, 5e-4, 13);
+}
+
+/// A pipe of two bores under the standpipe's pressure, its end in a seal, and tied.
+#[test]
+fn pressure_in_the_pipe() {
+    let mut tool = small(5, 4);
+    tool.pipe_sections[2].inner_diameter = 0.020;
+    let mut pressure = PressureDescription {
+        at_top: PressureSource::Standpipe,
+        drop_per_metre: 0.05,
+        end: PressureEnd::Sealed { diameter: 0.063 },
+        joint_seal_diameter: 0.062,
+    };
+    tool.pressure = Some(pressure);
+    check(&tool, 5e-4, 22);
+    pressure.end = PressureEnd::Held;
+    tool.pressure = Some(pressure);
+    tool.wob_path = WobPath::Shared;
+    check(&tool, 5e-4, 23);
+}
+
+/// A guide that was straight, and one that is bent sideways, whose couples act inside spans too.
+#[test]
+fn preloaded_guides() {
+    for (curvature, phase) in [(0.0, 0.0), (0.2, 0.7)] {
+        let mut tool = small(5, 4);
+        tool.guide_free_curvature = Some(FreeCurvature { curvature, phase });
+        tool.supports.push(Support {
+            location: Location::Top,
+            body: Body::Guide,
+            directions: vec![Direction::Psi],
+        });
+        check(&tool, 5e-4, 19);
+        tool.guide_bending_factor = 0.05;
+        check(&with_soft_contacts(tool), 5e-4, 20);
+    }
+}
+
+/// Mud around pipes with and without joints, of two diameters, in free and fixed guides, with masses.
+#[test]
+fn mud_around_the_pipes() {
+    for (elements, seed) in [(1, 3), (3, 7), (5, 11)] {
+        check(&with_mud(small(6, elements)), 5e-4, seed);
+    }
+    let mut tool = with_mud(small(5, 4));
+    tool.pipe_sections[1].outer_diameter = 0.050;
+    tool.pipe_sections[2].inner_diameter = 0.020;
+    tool.masses = vec![
+        mass(Location::Joint(1), Body::Pipe),
+        mass(Location::Station(6), Body::Guide),
+    ];
+    check(&tool, 5e-4, 25);
+    tool.wob_path = WobPath::Shared;
+    tool.guide_bending_factor = 0.05;
+    check(&with_soft_contacts(tool), 5e-4, 26);
+    for (elements, seed) in [(1, 3), (3, 7), (5, 11)] {
+        check(&with_mud_near_walls(small(6, elements)), 5e-4, seed);
+    }
+    let mut tool = with_mud_near_walls(small(5, 4));
+    tool.pipe_sections[1].outer_diameter = 0.050;
+    check(&tool, 5e-4, 29);
+    tool.guide_fixed = true;
+    check(&tool, 5e-4, 27);
+    tool.guide_fixed = false;
+    tool.joint.kind = JointKind::Revolute;
+    check(&tool, 5e-4, 28);
 }
 
 #[test]

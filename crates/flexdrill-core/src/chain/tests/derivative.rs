@@ -9,12 +9,15 @@ fn check_derivative(tool: &ToolDescription) {
     let factors = Scheme::newmark(0.6).factors(5e-4);
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.0, 1e4);
     conditions.bit_torque = 90.0;
+    conditions.rate_of_penetration = 0.2;
     let instructions = Instructions::best();
     let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
     // No axial force: the tangent leaves geometric stiffness out.
-    let mut state = lively(&chain, 21);
+    let mut state = lively(&chain, &model, 21);
     clean(&chain, &mut state);
     let mut room = Room::new(&model, instructions);
+    let start = before(&chain, &state, 22);
+    room.interactions.begin(&start, 5e-4);
     equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
     assert!(room.interactions.inner.count() > 2, "no inner contact to test");
     assert!(
@@ -53,6 +56,7 @@ fn check_derivative(tool: &ToolDescription) {
             .for_each(|(to, x)| *to = by * x);
         // New room each time, as the laws learn of friction from one correction to the next.
         let mut room = Room::new(&model, instructions);
+        room.interactions.begin(&start, 5e-4);
         let mut newton = equations(&model, &mut chain, &mut room);
         correct(&newton, &mut moved, factors);
         newton.evaluate(&mut moved, &conditions, true);
@@ -83,7 +87,20 @@ fn the_tangent_is_the_derivative_of_the_residual() {
         tool.guide_fixed = true;
         check_derivative(&tool);
     }
+    check_derivative(&with_pin_friction(small(6, 3)));
+    check_derivative(&with_play(small(6, 3)));
+    check_derivative(&with_play(with_pin_friction(small(6, 3))));
+    for [inner, outer] in FRICTION {
+        check_derivative(&with_friction(small(6, 3), inner, outer));
+    }
+    check_derivative(&with_shortening(small(6, 3)));
+    check_derivative(&with_mud(small(6, 3)));
+    check_derivative(&with_mud_near_walls(small(6, 3)));
     let mut tool = small(6, 3);
+    tool.guide_free_curvature = Some(FreeCurvature {
+        curvature: 0.2,
+        phase: 0.7,
+    });
     tool.bit.inertia = 0.02;
     tool.wob_path = WobPath::Shared;
     tool.masses = vec![

@@ -25,7 +25,9 @@ use crate::elements::joint::Joint;
 use crate::model::Model;
 use crate::tool::description::LiveParameters;
 use crate::tool::{
-    Body, Direction, JointKind, LoadHistory, Location, PointLoad, PointMass, Support, ToolDescription, WobPath,
+    AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
+    MudDescription, MudFilm, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, Shortening,
+    Support, ToolDescription, WobPath,
 };
 
 fn random(seed: &mut u64) -> f64 {
@@ -40,10 +42,86 @@ fn small(links: usize, elements: usize) -> ToolDescription {
     tool
 }
 
+/// Friction in the pins, with a rate of swing that is not far above the width in which it turns.
+fn with_pin_friction(mut tool: ToolDescription) -> ToolDescription {
+    tool.joint.friction.coefficient = 0.2;
+    tool.joint.friction.slip_rate = 0.5;
+    tool
+}
+
+fn with_shortening(mut tool: ToolDescription) -> ToolDescription {
+    tool.shortening = Shortening::SecondOrder;
+    tool
+}
+
+/// Play; the contact is soft, as the spins of a lively state are far apart.
+fn with_play(mut tool: ToolDescription) -> ToolDescription {
+    tool.joint.play.half_angle = 0.05;
+    tool.joint.play.stiffness = 1e4;
+    tool.joint.play.damping = 0.1;
+    tool
+}
+
+/// Mud of 1100 kg/m3 whose viscosity is large enough to be told from rounding.
+fn with_mud(mut tool: ToolDescription) -> ToolDescription {
+    tool.mud = Some(MudDescription {
+        density: 1100.0,
+        viscosity: 2.0,
+        frequency: 4.0,
+        added_mass: AddedMass::Concentric,
+        damping: MudDamping::Viscous,
+        film: MudFilm::None,
+    });
+    tool
+}
+
+/// Mud whose mass and film grow near the walls. The film is soft, as a lively state moves far into it.
+fn with_mud_near_walls(tool: ToolDescription) -> ToolDescription {
+    let mut tool = with_mud(tool);
+    if let Some(mud) = &mut tool.mud {
+        (mud.added_mass, mud.film, mud.viscosity) = (AddedMass::Eccentric, MudFilm::Squeeze, 0.02);
+    }
+    tool
+}
+
 /// Contacts that spans of a metre do not give way to.
 fn with_soft_contacts(mut tool: ToolDescription) -> ToolDescription {
     (tool.inner.stiffness, tool.outer.stiffness) = (1e5, 2e5);
     tool
+}
+
+/// Both layers with a friction law of their own, and different coefficients around and along.
+fn with_friction(mut tool: ToolDescription, inner: FrictionLaw, outer: FrictionLaw) -> ToolDescription {
+    (tool.inner.friction_law, tool.outer.friction_law) = (inner, outer);
+    (tool.inner.friction_axial, tool.outer.friction_axial) = (0.1, 0.5);
+    tool
+}
+
+/// Pairs of friction laws by which each law is in each layer.
+const FRICTION: [[FrictionLaw; 2]; 4] = [
+    [FrictionLaw::Vector, FrictionLaw::Vector],
+    [FrictionLaw::Bristle, FrictionLaw::Bristle],
+    [FrictionLaw::Vector, FrictionLaw::Bristle],
+    [FrictionLaw::Bristle, FrictionLaw::Separate],
+];
+
+/// Where a step that ends at `state` may have begun: up to 40 um away, so that some bristles slip and others stick, with
+/// random forces in the bristles.
+fn before(chain: &Chain, state: &State, seed: u64) -> State {
+    let mut seed = seed;
+    let mut before = state.clone();
+    before
+        .q
+        .iter_mut()
+        .for_each(|x| *x += 4e-5 * random(&mut seed) * random(&mut seed).abs());
+    for (k, node) in chain.model.nodes.list.iter().enumerate() {
+        if node.joint.is_none() {
+            before.q.copy_within(NODE * k..NODE * k + 3, NODE * k + 6);
+        }
+    }
+    let forces = before.bristles.iter_mut().flatten().flatten();
+    forces.for_each(|force| *force = 300.0 * random(&mut seed));
+    before
 }
 
 fn mass(location: Location, body: Body) -> PointMass {
@@ -68,9 +146,13 @@ fn load(location: Location, body: Body) -> PointLoad {
 }
 
 /// Contact in both layers at about a third of the stations, inside spans too, at joints and at the first station.
-fn lively(chain: &Chain, seed: u64) -> State {
-    let mut seed = seed;
-    let mut state = chain.state();
+fn lively(chain: &Chain, model: &Model, seed: u64) -> State {
+    let (mut seed, mut pins) = (seed, seed + 77);
+    let mut state = chain.state(model);
+    state
+        .pin_moments
+        .iter_mut()
+        .for_each(|moment| *moment = 40.0 + 20.0 * random(&mut pins));
     for values in [&mut state.v, &mut state.a] {
         values.iter_mut().for_each(|x| *x = random(&mut seed));
     }
@@ -151,9 +233,9 @@ fn equations<'a>(model: &'a Model, chain: &'a mut Chain, room: &'a mut Room) -> 
 /// row.
 fn slaving(chain: &Chain, model: &Model) -> DMatrix<f64> {
     let n = chain.unknowns();
-    let rows = Joint::rotational_rows(model.description.joint.kind);
+    let rows = Joint::constraints(&model.description.joint);
     let mut out = DMatrix::zeros(model.unknowns(), n + rows * model.joints.len());
-    let (mut unit, mut full) = (chain.state(), State::at_rest(model));
+    let (mut unit, mut full) = (chain.state(model), State::at_rest(model));
     for j in 0..n {
         // Where the pipe passes a node in one piece, the rotations below are those above.
         let one_piece = chain.model.nodes.list[j / NODE].joint.is_none();

@@ -95,6 +95,42 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
     }
 }
 
+/// The energy of a preloaded guide is the same over the chain and over the stations, up to that of the inner stations'
+/// own deflection, which is constant and zero in an arc.
+#[test]
+fn a_preload_stores_the_same_energy_over_the_chain() {
+    let mut tool = small(4, 5);
+    tool.guide_free_curvature = Some(FreeCurvature {
+        curvature: 0.1,
+        phase: 0.0,
+    });
+    let [(preloaded, _), (built, scale)] =
+        [tool.clone(), tool.with(|tool| tool.guide_free_curvature = None)].map(|tool| {
+            let model = Model::new(&tool).unwrap();
+            let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
+            let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, Instructions::best());
+            let mut state = lively(&chain, &model, 5);
+            clean(&chain, &mut state);
+            let mut room = Room::new(&model, Instructions::best());
+            equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
+            let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());
+            equations(&model, &mut chain, &mut room).energy(&mut point, &state, &conditions);
+            let mut full = State::at_rest(&model);
+            chain.show(&model, &state, &no_forces(&chain), &mut full);
+            let mut whole = Assembler::new(&model, Instructions::best());
+            let mut interactions = Interactions::new(&model, Instructions::best());
+            whole.residual(&mut interactions, &model, &full, &conditions);
+            let mut at_stations = EnergyPoint::new(&model, model.unknowns(), 0);
+            at_stations.evaluate(&model, &full, &conditions, &whole, &interactions);
+            (point.stored - at_stations.stored, at_stations.stored.abs())
+        });
+    // The two states differ in nothing but the preload, and so do both ways of adding up: rounding of all energies.
+    assert!(
+        (preloaded - built).abs() < 1e-9 * scale,
+        "{preloaded} against {built} J of {scale}"
+    );
+}
+
 #[test]
 fn turning_as_a_whole_changes_no_energy() {
     let tool = ToolDescription::paper();
@@ -102,7 +138,7 @@ fn turning_as_a_whole_changes_no_energy() {
     let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     for instructions in Instructions::available() {
         let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
-        let mut state = lively(&chain, 5);
+        let mut state = lively(&chain, &model, 5);
         let spins: Vec<usize> = chain.spins().collect();
         spins.iter().for_each(|&spin| state.q[spin] *= 2e-4);
         clean(&chain, &mut state);

@@ -19,7 +19,7 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
     for instructions in Instructions::available() {
         let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
         let mut room = Room::new(&model, instructions);
-        let mut state = lively(&chain, 8);
+        let mut state = lively(&chain, &model, 8);
         clean(&chain, &mut state);
         chain.prepare(&model, &conditions, factors);
         equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, false);

@@ -1,4 +1,4 @@
-//! Rotational rows (Eq. 13) and stops of all joints, eight joints at a time.
+//! Rotational rows (Eq. 13), stops, play and pin friction of all joints, eight joints at a time.
 
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
@@ -9,6 +9,7 @@ use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 
 /// The joints of a tool as linearised by the last residual.
+#[derive(Clone)]
 pub struct Joints {
     /// Eight joints each, from the top.
     groups: Vec<JointGroup>,
@@ -26,8 +27,13 @@ impl Joints {
         }
     }
 
-    /// Linearises rows and stops of all joints at `state`, whose rotations are at `places`, and hands each joint with its
-    /// number to `visit`.
+    /// Forgets what the corrections of the step before learned of friction.
+    pub(super) fn begin(&mut self) {
+        self.groups.iter_mut().for_each(JointGroup::begin);
+    }
+
+    /// Linearises rows, stops, play and friction of all joints at `state`, whose rotations are at `places`, and hands each
+    /// joint with its number to `visit`.
     pub(crate) fn linearise(
         &mut self,
         places: &[JointPlaces],
@@ -77,6 +83,38 @@ impl Joints {
         })
     }
 
+    /// Energy (J) and power of the damping (W) of the play of each joint, if there is play.
+    pub(crate) fn plays(&self) -> impl Iterator<Item = PlayReport> + '_ {
+        let groups = self
+            .groups
+            .iter()
+            .filter(|group| group.has_play())
+            .map(JointGroup::play);
+        let plays = groups.flat_map(|play| (0..8).map(move |lane| (play, lane)));
+        plays.take(self.count).map(|(play, lane)| PlayReport {
+            multiplier: play.multiplier[lane],
+            energy: play.energy[lane],
+            dissipation: play.dissipation[lane],
+        })
+    }
+
+    /// Moments of the pins' friction on the six rotations of each joint (N m), against the motion, and the power that they
+    /// take (W), if there is friction.
+    pub(crate) fn frictions(&self) -> impl Iterator<Item = ([f64; 6], f64)> + '_ {
+        let groups = self.groups.iter().filter(|group| group.has_friction());
+        let pins = groups.flat_map(|group| (0..8).map(move |lane| (group.pins(), lane)));
+        pins.take(self.count).map(|(axes, lane)| {
+            let mut moments = [0.0; 6];
+            let mut power = 0.0;
+            for axis in axes {
+                let moment = axis.slip.friction[lane];
+                power += moment * axis.slip.speed[lane];
+                (0..6).for_each(|k| moments[k] -= axis.gradient[k][lane] * moment);
+            }
+            (moments, power)
+        })
+    }
+
     /// Gradient of rotational row `row` of a joint, in (psi_a, phi_ya, phi_za, psi_b, phi_yb, phi_zb).
     pub fn row_gradient(&self, joint: usize, row: usize) -> [f64; 6] {
         let gradient = &self.groups[joint / 8].rows()[row].gradient;
@@ -95,6 +133,17 @@ pub struct StopReport {
     pub dissipation: f64,
 }
 
+/// The play of a joint at the last residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PlayReport {
+    /// What takes the place of the multiplier of the joint's row (N m).
+    pub multiplier: f64,
+    /// Energy in its spring (J).
+    pub energy: f64,
+    /// Power taken by its damping (W).
+    pub dissipation: f64,
+}
+
 /// What a joint adds to the tangent.
 pub(crate) struct JointTangent<'a> {
     rotations: &'a [[Lane; 6]; 6],
@@ -103,13 +152,18 @@ pub(crate) struct JointTangent<'a> {
 }
 
 impl JointTangent<'_> {
-    /// Gradients of its rotational rows in the six rotations.
+    /// Gradients of its rotational rows in the six rotations; of rows that are constraints.
     pub fn row_gradients(&self) -> impl Iterator<Item = [f64; 6]> + '_ {
-        let rows = self.group.rows().iter();
+        let constraints = if self.group.has_play() {
+            0
+        } else {
+            self.group.rows().len()
+        };
+        let rows = self.group.rows()[..constraints].iter();
         rows.map(|row| std::array::from_fn(|k| row.gradient[k][self.lane]))
     }
 
-    /// Derivative of moment `k` in rotation `l`: the stop, and the curvature of the rotational rows.
+    /// Derivative of moment `k` in rotation `l`: stop, play, friction, and the curvature of the rotational rows.
     #[inline(always)]
     pub fn rotation(&self, l: usize, k: usize) -> f64 {
         self.rotations[l][k][self.lane]
@@ -133,10 +187,14 @@ pub(crate) struct JointLinearisation<'a> {
 }
 
 impl JointLinearisation<'_> {
-    /// Number of its rotational rows.
+    /// Number of its rotational rows that are constraints.
     #[inline(always)]
     pub fn rows(&self) -> usize {
-        self.group.rows().len()
+        if self.group.has_play() {
+            0
+        } else {
+            self.group.rows().len()
+        }
     }
 
     /// Value of rotational row `r` (-).
@@ -158,6 +216,23 @@ impl JointLinearisation<'_> {
         let (stop, lane) = (self.group.shut_stop()?, self.lane);
         Some([0, 1, 2, 3, 4, 5].map(|k| stop.gradient[k][lane] * stop.moment[lane]))
     }
+
+    /// Moments of play and friction on the six rotations (N m); `None` where there is neither.
+    #[inline(always)]
+    pub fn further_moments(&self) -> Option<[f64; 6]> {
+        self.group.further_moments(self.lane)
+    }
+}
+
+/// Moments with which slipping pins resist (N m), of the up to eight joints from `first` on; lanes without a joint have
+/// none.
+#[inline(always)]
+pub(crate) fn pin_lanes(moments: &[f64], first: usize) -> Lane {
+    let mut lanes = Lane::default();
+    for (lane, moment) in lanes.iter_mut().zip(&moments[first..]) {
+        *lane = *moment;
+    }
+    lanes
 }
 
 /// Rotations of up to eight joints and their rates, a joint per lane; lanes without a joint repeat the last one.
@@ -201,7 +276,7 @@ impl<F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, F>
             let places = &places[first..];
             let count = places.len().min(8);
             let (q, rate) = rotations(&places[..count], state);
-            group.linearise::<V>(&q, &rate);
+            group.linearise::<V>(&q, &rate, &pin_lanes(&state.pin_moments, first));
             for lane in 0..count {
                 visit(first + lane, &JointLinearisation { group, lane });
             }

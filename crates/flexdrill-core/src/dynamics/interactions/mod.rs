@@ -5,41 +5,77 @@
 
 mod joints;
 
-use crate::elements::bit::BitTorque;
+use crate::dynamics::state::{State, bristles};
 use crate::elements::gap::LayerContacts;
+use crate::elements::mud_wall::Motion;
+use crate::elements::rock::BitLoad;
 use crate::model::Model;
 use crate::simd::Instructions;
 
-pub(crate) use joints::{JointLinearisation, JointTangent, Joints, rotations};
+pub(crate) use joints::{JointLinearisation, JointTangent, Joints, pin_lanes, rotations};
 
-/// Contacts, joints and the rock's torque at the last residual.
+/// Contacts, joints and what the rock does to the bit at the last residual.
+#[derive(Clone)]
 pub struct Interactions {
     /// Closed gaps between pipe and guide.
     pub inner: LayerContacts,
     /// Closed gaps between guide and wall.
     pub outer: LayerContacts,
-    /// Rotational rows and stops of the joints.
+    /// Rotational rows, stops, play and pin friction of the joints.
     pub joints: Joints,
-    /// Torque of the rock on the bit.
-    pub bit: BitTorque,
+    /// Torque and weight of the rock on the bit.
+    pub bit: BitLoad,
+    /// How each station moves in both annuli of mud, over all stations; empty where mud near walls does not count.
+    pub(crate) mud: Vec<[Motion; 2]>,
+    /// Whether a layer's friction has bristles.
+    has_bristles: bool,
+    /// Displacements at the start of the step, in the numbering that it is taken in; for bristles only.
+    pub(crate) start: Vec<f64>,
+    /// Size of the step (s); 0 at rest.
+    pub(crate) step: f64,
 }
 
 impl Interactions {
     /// Room for those of `model`.
     pub fn new(model: &Model, instructions: Instructions) -> Self {
+        let has_bristles = !bristles(model).is_empty();
         Self {
             inner: LayerContacts::new(model.stations.len()),
             outer: LayerContacts::new(model.stations.len()),
             joints: Joints::new(model, instructions),
-            bit: BitTorque::default(),
+            bit: BitLoad::new(&model.description.rock),
+            mud: vec![[Motion::default(); 2]; model.mud.as_ref().map_or(0, |mud| mud.near_wall.len())],
+            has_bristles,
+            // A station has at most 24 unknowns in the numbering of the model, and at most a node of 16 in the chain's.
+            start: Vec::with_capacity(if has_bristles { 24 * model.stations.len() } else { 0 }),
+            step: 0.0,
         }
     }
 
-    /// Begins the corrections of a step: the laws forget what they learned of friction in the corrections of the step
+    /// Begins the corrections of a step of size `step` (s) from the state `from`, or with a `step` of 0 of a state at rest,
+    /// in which bristles keep their forces. The laws forget what they learned of friction in the corrections of the step
     /// before.
-    pub(crate) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self, from: &State, step: f64) {
         self.bit.begin();
-        self.inner.begin();
-        self.outer.begin();
+        self.joints.begin();
+        self.step = step;
+        self.inner.begin(from.bristles.iter().map(|station| station[0]), step);
+        self.outer.begin(from.bristles.iter().map(|station| station[1]), step);
+        if self.has_bristles {
+            self.start.clear();
+            self.start.extend_from_slice(&from.q);
+        }
+    }
+
+    /// Keeps the friction of the bristles at the end of a step in `to`.
+    pub(crate) fn keep_bristles(&self, to: &mut State) {
+        if self.has_bristles {
+            to.bristles.fill([[0.0; 2]; 2]);
+            for (layer, contacts) in [&self.inner, &self.outer].into_iter().enumerate() {
+                for (station, touch) in contacts.iter() {
+                    to.bristles[station][layer] = [touch.tangential, touch.axial];
+                }
+            }
+        }
     }
 }

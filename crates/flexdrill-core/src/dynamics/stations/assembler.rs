@@ -13,6 +13,7 @@ use crate::model::Model;
 use crate::simd::Instructions;
 
 /// Residual and tangent over all stations.
+#[derive(Clone)]
 pub struct Assembler {
     /// Internal less external force per unknown.
     pub residual: Vec<f64>,
@@ -38,7 +39,7 @@ impl Assembler {
             increment: TangentIncrement::new(
                 &model.layout,
                 model.joints.len(),
-                Joint::rotational_rows(model.description.joint.kind),
+                Joint::constraints(&model.description.joint),
                 model.held.iter().chain(&model.driven).copied(),
             ),
             system,

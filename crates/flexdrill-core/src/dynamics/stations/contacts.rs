@@ -1,7 +1,7 @@
 //! Contacts of both layers on the whole tool: from the nodes' motion to the gap's own coordinates, and from the gap's
 //! force to the nodes.
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 use super::assembler::Assembler;
 use crate::dynamics::conditions::Conditions;
@@ -9,6 +9,7 @@ use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, inner_lateral, node};
 use crate::elements::gap::{GapVector, LayerContacts};
+use crate::elements::mud_wall::Motion;
 use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};
 use crate::simd::Kernel;
@@ -23,14 +24,31 @@ impl Assembler {
         state: &State,
         conditions: &Conditions,
     ) {
-        let Interactions { inner, outer, .. } = interactions;
+        let Interactions {
+            inner,
+            outer,
+            start,
+            step,
+            ..
+        } = &mut *interactions;
         self.instructions.run(Search {
             layers: [inner, outer],
+            start,
+            step: *step,
             model,
             state,
             conditions,
         });
         let residual = &mut self.residual;
+        if let Some(mud) = model.mud.as_ref().filter(|mud| !mud.near_wall.is_empty()) {
+            for (s, (station, near)) in model.stations.iter().zip(&mud.near_wall).enumerate() {
+                interactions.mud[s] = mud_motions(model, station, state);
+                let taken = [0, 1].map(|k| near[k].take(&interactions.mud[s][k]));
+                let total = taken.map(|taken| [0, 1].map(|k| taken.film[k] + taken.inertia[k]));
+                add_mud_forces(residual, station, total);
+            }
+        }
+        let Interactions { inner, outer, .. } = &*interactions;
         for (s, touch) in inner.iter() {
             let station = &model.stations[s];
             let (on_pipe, on_guide) = inner_forces(model, station, &touch.force().into());
@@ -55,11 +73,19 @@ impl Assembler {
                 (None, Some(_)) => Touching::Guide,
                 (Some(_), _) => Touching::Both,
             };
+            let near = model.mud.as_ref().and_then(|mud| mud.near_wall.get(s));
+            let near = near.map_or([None; 2], |near| {
+                [0, 1].map(|k| near[k].tangent(&interactions.mud[s][k], &factors))
+            });
+            if near.iter().any(Option::is_some) {
+                self.increment.touching[s] = Touching::Both;
+            }
             if self.increment.touching[s] == Touching::Nothing {
                 continue;
             }
             let block = &mut self.increment.contact[s];
             *block = [[0.0; 12]; 12];
+            add_mud_tangent(block, model, station, near);
             // A local force change of minus `on` times `by` . motion is one of the same form on the nodes.
             if let Some(touch) = inner {
                 for term in touch.tangent(factors.stiffness, factors.damping).terms() {
@@ -80,9 +106,53 @@ impl Assembler {
     }
 }
 
+/// How the pipe moves in the guide, and the guide in the hole.
+pub fn mud_motions(model: &Model, station: &Station, state: &State) -> [Motion; 2] {
+    let lateral = |values: &[f64]| {
+        let (pipe, guide) = (inner_motion(model, station, values), node(values, station.guide));
+        [[pipe[1], pipe[2]], [guide[1], guide[2]]]
+    };
+    let (mut d, v, a) = (lateral(&state.q), lateral(&state.v), lateral(&state.a));
+    d[0] = [d[0][0] + station.offset.x, d[0][1] + station.offset.y];
+    [0, 1].map(|k| Motion {
+        d: d[k],
+        v: v[k],
+        a: a[k],
+    })
+}
+
+/// Adds what mud near the walls takes from the pipe, and gives to the guide, and what it takes from the guide, along y
+/// and z of the station.
+pub fn add_mud_forces(forces: &mut [f64], station: &Station, [inner, outer]: [[f64; 2]; 2]) {
+    let on_pipe = station.pipe_to_station.tr_mul(&Vector3::new(0.0, inner[0], inner[1]));
+    (0..3).for_each(|k| forces[station.pipe_above + k] += on_pipe[k]);
+    (0..2).for_each(|k| forces[station.guide + 1 + k] += outer[k] - inner[k]);
+}
+
+/// Adds the derivatives of the forces of mud near the walls to a contact block.
+fn add_mud_tangent(block: &mut ContactBlock, model: &Model, station: &Station, near: [Option<[[f64; 2]; 2]>; 2]) {
+    for (layer, tangent) in near.into_iter().enumerate() {
+        let Some(tangent) = tangent else { continue };
+        let unit = |k: usize| GapVector::from_fn(|i, _| f64::from(u8::from(i == k)));
+        for (column, on) in tangent.iter().enumerate() {
+            let (on, by) = (unit(1) * on[0] + unit(2) * on[1], unit(1 + column));
+            if layer == 0 {
+                let (on, by) = (inner_forces(model, station, &on), inner_forces(model, station, &by));
+                add_product::<12>(block, 0, &joined(&on), &joined(&by));
+            } else {
+                let (on, by) = (outer_force(model, &on), outer_force(model, &by));
+                add_product::<6>(block, 6, &on.data.0[0], &by.data.0[0]);
+            }
+        }
+    }
+}
+
 /// Finds what touches.
 struct Search<'a> {
     layers: [&'a mut LayerContacts; 2],
+    /// Displacements at the start of the step, for bristles, and its size (s).
+    start: &'a [f64],
+    step: f64,
     model: &'a Model,
     state: &'a State,
     conditions: &'a Conditions,
@@ -95,22 +165,37 @@ impl Kernel for Search<'_> {
     fn run<V: Vector>(self) {
         let Self {
             layers: [inner, outer],
+            start,
+            step,
             model,
             state,
             conditions,
         } = self;
+        let advance = conditions.rate_of_penetration;
         inner.clear();
         outer.clear();
         for (s, station) in model.stations.iter().enumerate() {
             let (lateral, clearance) = (inner_lateral(station, state), station.inner_clearance);
             if lateral.norm_squared() > clearance * clearance {
-                let velocity = inner_velocity(model, station, state);
+                let velocity = inner_motion(model, station, &state.v);
+                if conditions.inner.has_bristles() {
+                    let travel = inner_motion(model, station, &state.q) - inner_motion(model, station, start);
+                    inner.set_travel(six::<V>(&travel));
+                }
                 inner.push::<V>(&conditions.inner, s, lateral.into(), clearance, six::<V>(&velocity));
             }
             let clearance = model.outer_clearance;
             let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
             if lateral.norm_squared() > clearance * clearance {
-                let velocity = outer_velocity(model, station, state);
+                let mut velocity = outer_motion(model, station, &state.v);
+                if advance != 0.0 {
+                    velocity[0] += advance;
+                }
+                if conditions.outer.has_bristles() {
+                    let mut travel = outer_motion(model, station, &state.q) - outer_motion(model, station, start);
+                    travel[0] += advance * step;
+                    outer.set_travel(six::<V>(&travel));
+                }
                 outer.push::<V>(&conditions.outer, s, lateral.into(), clearance, six::<V>(&velocity));
             }
         }
@@ -135,11 +220,11 @@ fn scatter(residual: &mut [f64], first: usize, force: &GapVector) {
     }
 }
 
-/// Local velocity of the inner gap, Eq. 23.
+/// Local motion of the inner gap by the nodes' `values`, Eq. 23.
 #[inline]
-fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
-    let pipe = node(&state.v, station.pipe_above);
-    let guide = node(&state.v, station.guide);
+fn inner_motion(model: &Model, station: &Station, values: &[f64]) -> GapVector {
+    let pipe = node(values, station.pipe_above);
+    let guide = node(values, station.guide);
     let mut local = GapVector::zeros();
     local
         .fixed_rows_mut::<3>(0)
@@ -150,10 +235,10 @@ fn inner_velocity(model: &Model, station: &Station, state: &State) -> GapVector 
     local
 }
 
-/// Local velocity of the outer gap, Eq. 23.
+/// Local motion of the outer gap by the nodes' `values`, Eq. 23; the wall's own is left out.
 #[inline]
-fn outer_velocity(model: &Model, station: &Station, state: &State) -> GapVector {
-    let mut local = node(&state.v, station.guide);
+fn outer_motion(model: &Model, station: &Station, values: &[f64]) -> GapVector {
+    let mut local = node(values, station.guide);
     local.fixed_rows_mut::<3>(3).scale_mut(model.guide_radii[1]);
     local
 }

@@ -15,6 +15,7 @@ use crate::simd::Instructions;
 use crate::tool::description::Body;
 
 /// Room for Newton's iteration over all stations.
+#[derive(Clone)]
 pub struct StationRoom {
     /// Residual and tangent.
     pub assembler: Assembler,
@@ -133,7 +134,7 @@ impl StationEquations<'_> {
         h: f64,
     ) -> Result<(), Singular> {
         state.a.fill(0.0);
-        self.interactions.begin();
+        self.interactions.begin(state, 0.0);
         self.evaluate(state, conditions);
         self.room.assembler.drop_reactions(self.model);
         let factors = TangentFactors {
@@ -172,7 +173,7 @@ impl StationEquations<'_> {
             mass: 0.0,
         };
         let mut at = Iteration::first(conditions, factors);
-        self.interactions.begin();
+        self.interactions.begin(state, 0.0);
         self.evaluate(state, conditions);
         let mut best = worst(self.residuals(), self.weights(Accuracy::Rest));
         while at.corrections < self.room.tolerances.max_iterations {
@@ -182,7 +183,7 @@ impl StationEquations<'_> {
             }
             at.corrections += 1;
             correct(self, scratch, factors);
-            scratch.update_axial(self.model);
+            scratch.update_axial(self.model, conditions);
             self.evaluate(scratch, conditions);
             let ratio = worst(self.residuals(), self.weights(Accuracy::Rest));
             if ratio.is_nan() || ratio >= best || self.out_of_range(scratch).is_some() {
@@ -196,14 +197,14 @@ impl StationEquations<'_> {
 
 impl Equations for StationEquations<'_> {
     fn begin(&mut self, stride: &Stride, from: &State) {
-        self.interactions.begin();
+        self.interactions.begin(from, stride.h);
         from.foresee_axial(self.model, stride.foresight, &mut self.room.foreseen);
         self.room.foreseen_part = stride.foreseen_part;
         self.room.limits.for_step(stride.h);
     }
 
     fn residual(&mut self, to: &mut State, at: &Iteration<'_>) {
-        to.blend_axial(self.model, self.room.foreseen_part, &self.room.foreseen);
+        to.blend_axial(self.model, self.room.foreseen_part, &self.room.foreseen, at.conditions);
         self.evaluate(to, at.conditions);
         self.stopwatch.lap(Phase::Assembly);
     }

@@ -1,8 +1,9 @@
 //! Joints on the whole tool: Eq. 12 as translational rows, Eq. 13 and the stops as rotational ones.
 
 use super::assembler::Assembler;
+use super::equations::StationRoom;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::interactions::{JointLinearisation, JointTangent, Joints};
+use crate::dynamics::interactions::{Interactions, JointLinearisation, JointTangent, Joints};
 use crate::dynamics::state::{State, translation};
 use crate::model::Model;
 
@@ -15,7 +16,10 @@ impl Assembler {
         joints.linearise(&model.places.joints, state, |joint, at: &JointLinearisation<'_>| {
             let lambda = rotational_multipliers(model, state, joint);
             let places = &model.places.joints[joint];
-            let stop = at.stop_moments().unwrap_or_default();
+            let mut stop = at.stop_moments().unwrap_or_default();
+            if let Some(further) = at.further_moments() {
+                stop.iter_mut().zip(further).for_each(|(sum, moment)| *sum += moment);
+            }
             let rotations = (places.above..places.above + 3).chain(places.below..places.below + 3);
             for (k, (place, stop)) in rotations.zip(stop).enumerate() {
                 let of_rows = (0..at.rows()).map(|row| lambda[row] * at.gradient(row)[k]);
@@ -65,6 +69,28 @@ impl Assembler {
                 }
             },
         );
+    }
+}
+
+impl StationRoom {
+    /// Sets the moments with which slipping pins of the joints resist (N m) to those under the multipliers in `from`.
+    pub(crate) fn set_pin_moments(&self, model: &Model, from: &State, moments: &mut [f64]) {
+        let pins = &model.description.joint.friction;
+        if pins.coefficient == 0.0 {
+            return;
+        }
+        for (joint, moment) in moments.iter_mut().enumerate() {
+            let force = translation(&from.q, model.multipliers(joint)).norm() * model.force_scale;
+            *moment = pins.moment(rotational_multipliers(model, from, joint)[0], force);
+        }
+    }
+
+    /// Writes the torque of joints with play where that of others has its multiplier: in a place of padding, whose value no
+    /// equation reads.
+    pub(crate) fn show_torque_of_play(&self, model: &Model, interactions: &Interactions, to: &mut State) {
+        for (joint, play) in interactions.joints.plays().enumerate() {
+            to.q[model.multipliers(joint) + 3] = play.multiplier / model.moment_scale;
+        }
     }
 }
 

@@ -7,8 +7,11 @@ mod contacts;
 mod equations;
 mod joints;
 mod residual;
+mod shortening;
 mod tangent;
 
 pub(crate) use assembler::Assembler;
-pub(crate) use contacts::{inner_forces, outer_force};
+pub(crate) use contacts::{add_mud_forces, inner_forces, mud_motions, outer_force};
 pub(crate) use equations::{StationEquations, StationRoom};
+#[cfg(test)]
+pub(crate) use shortening::add_shortening_tangent;

@@ -4,7 +4,7 @@ use super::assembler::Assembler;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{State, element_values};
 use crate::elements::element_form::{add, load};
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -21,6 +21,9 @@ impl Assembler {
             state,
             conditions,
         });
+        if model.shortens() {
+            self.shortening_forces(model, state, conditions);
+        }
         let numbered = Numbered::of(model);
         numbered.add_mass_forces(&mut self.residual, state, conditions, |_| true);
         self.contact_forces(interactions, model, state, conditions);
@@ -61,7 +64,10 @@ impl Kernel for ElementForces<'_> {
         }
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
-        for (element, &tension) in model.elements.list.iter().zip(tensions) {
+        // With shortening all of the pipe's geometric stiffness comes later.
+        let later = if model.shortens() { model.pipe.len() } else { 0 };
+        for (e, (element, &tension)) in model.elements.list.iter().zip(tensions).enumerate() {
+            let tension = if e < later { 0.0 } else { tension };
             let forms = &model.elements.kinds[element.kind as usize];
             let nodes = [element.nodes[0] as usize, element.nodes[1] as usize];
             let zero = V::splat(0.0);
@@ -79,6 +85,28 @@ impl Kernel for ElementForces<'_> {
             let force = forms.to_nodes(force);
             add(residual, nodes[0], force[0]);
             add(residual, nodes[1], force[1]);
+        }
+        preload_forces(residual, model, state);
+        mud_forces(residual, model, state, conditions.rayleigh.alpha);
+    }
+}
+
+/// Adds the inertia of the mud, Rayleigh damping with it (`alpha`, 1/s), and its viscous damping.
+fn mud_forces(residual: &mut [f64], model: &Model, state: &State, alpha: f64) {
+    let pushed = |unknown: usize| state.a[unknown] + alpha * state.v[unknown];
+    model.add_mud_forces(residual, |mud| mud.mass, pushed);
+    model.add_mud_forces(residual, |mud| mud.drag, |unknown| state.v[unknown]);
+}
+
+/// Adds the guide's preload: its stiffness times the displacements, less its couples.
+fn preload_forces(residual: &mut [f64], model: &Model, state: &State) {
+    for (r, couple) in residual.iter_mut().zip(&model.preload) {
+        *r -= couple;
+    }
+    for (preload, nodes) in model.preloads() {
+        let force = preload.stiffness * element_values(&state.q, nodes);
+        for (k, x) in force.iter().enumerate() {
+            residual[nodes[k / 6] + k % 6] += x;
         }
     }
 }

@@ -2,14 +2,15 @@
 //! forces, and what contacts, joints and the bit add in each iteration.
 
 use super::assembler::Assembler;
+use super::shortening::add_shortening_tangent;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
+use crate::dynamics::numbered::Numbered;
 use crate::dynamics::state::{State, motion};
 use crate::elements::beam::ElementMatrix;
 use crate::linear::{BlockSystem, ContactBlock, Touching, add_columns};
 use crate::model::{Model, ResolvedMass};
-use crate::tool::description::Direction;
 
 impl Assembler {
     /// Assembles the whole tangent, Eq. 41, from the parts linearised by the last [`Assembler::residual`] at `state`.
@@ -24,6 +25,9 @@ impl Assembler {
         self.build_step_constant(model, conditions, factors);
         self.system.copy_from(&self.step_constant);
         self.add_geometric_stiffness(model, state, factors.stiffness);
+        if model.shortens() {
+            add_shortening_tangent(&mut self.system, model, state, conditions, factors);
+        }
         self.linearise(interactions, model, state, conditions, factors);
         self.increment.add_to(&mut self.system);
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
@@ -55,9 +59,13 @@ impl Assembler {
     ) {
         self.contact_tangent(interactions, model, factors);
         self.joint_tangent(&interactions.joints, model, state, factors);
-        // The bit's node is the first of the last station's block.
-        let (last, spin) = (model.last(), Direction::Psi as usize);
-        self.contact_block(last)[spin][spin] += factors.damping * interactions.bit.slope;
+        let numbered = Numbered::of(model);
+        numbered.end_tangents(&interactions.bit, conditions, factors, |row, column, value| {
+            // The nodes at both ends have no joint: pipe and guide are in the contact block.
+            let station = model.layout.station_of(column);
+            let first = model.layout.offset(station);
+            self.contact_block(station)[column - first][row - first] += value;
+        });
         for (point, places) in model.masses.iter().zip(&model.places.masses) {
             if point.body.is_coupled() {
                 self.point_tangent(model, point, places, state, conditions, factors);
@@ -117,7 +125,10 @@ impl Assembler {
             add_pipe_element(&mut self.step_constant, model, e, &m, 1.0);
         }
         for (e, element) in model.guide.iter().enumerate() {
-            let m = element.stiffness * elastic + element.mass * inertial;
+            let mut m = element.stiffness * elastic + element.mass * inertial;
+            if let Some(preload) = &element.preload {
+                m += preload.stiffness * factors.stiffness;
+            }
             add_guide_element(&mut self.step_constant, e, &m, 1.0);
         }
         for point in &model.masses {
@@ -126,6 +137,25 @@ impl Assembler {
             for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
                 self.step_constant
                     .add(station, local + k, local + k, inertia * inertial);
+            }
+        }
+        if let Some(mud) = &model.mud {
+            for (s, (station, mud)) in model.stations.iter().zip(&mud.stations).enumerate() {
+                let matrix = mud.mass.times(inertial).plus(mud.drag.times(factors.damping));
+                let turn = &station.pipe_to_station;
+                // Pipe node at 0, guide node at 6; across the hole are y and z of the station.
+                for k in 1..3 {
+                    for i in 0..3 {
+                        for j in 0..3 {
+                            let entry = turn[(k, i)] * turn[(k, j)] * matrix.pipe;
+                            self.step_constant.add(s, i, j, entry);
+                        }
+                        let entry = turn[(k, i)] * matrix.coupling;
+                        self.step_constant.add(s, i, 6 + k, entry);
+                        self.step_constant.add(s, 6 + k, i, entry);
+                    }
+                    self.step_constant.add(s, 6 + k, 6 + k, matrix.guide);
+                }
             }
         }
         for (j, joint) in model.joints.iter().enumerate() {
@@ -147,7 +177,9 @@ impl Assembler {
 
     /// Eq. 41's geometric part: N G of every element, with the axial forces of `state`, times `factor`.
     fn add_geometric_stiffness(&mut self, model: &Model, state: &State, factor: f64) {
-        for (e, element) in model.pipe.iter().enumerate() {
+        // With shortening the pipe's is in its tangent.
+        let pipe = if model.shortens() { 0 } else { model.pipe.len() };
+        for (e, element) in model.pipe[..pipe].iter().enumerate() {
             let tension = factor * state.pipe_axial[e];
             add_pipe_element(&mut self.system, model, e, &element.geometric, tension);
         }
@@ -157,7 +189,7 @@ impl Assembler {
     }
 }
 
-fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix, factor: f64) {
+pub(super) fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize, m: &ElementMatrix, factor: f64) {
     let first = if model.stations[e].joint.is_some() { 12 } else { 0 };
     let m = &m.data.0;
     system.add_scaled(e, first, &part(m, 0, 0), factor);

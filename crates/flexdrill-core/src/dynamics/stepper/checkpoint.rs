@@ -1,59 +1,83 @@
 //! Checkpoints: the state of a motion, apart from the tool.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Counters, Stepper};
 use crate::dynamics::energy::EnergyPoint;
 use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
+use crate::elements::rock::Groove;
+use crate::elements::string::StringState;
+use crate::inputs::Inputs;
 use crate::tool::description::LiveParameters;
 
-/// Everything that a run needs to continue bit for bit.
+/// Everything that a run needs to continue bit for bit: of a stepper while it is written, read back on its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StepperCheckpoint {
-    state: State,
-    energy: EnergyPoint,
+pub struct StepperCheckpoint<'a> {
+    state: Cow<'a, State>,
+    energy: Cow<'a, EnergyPoint>,
     audit: EnergyAudit,
     counters: Counters,
     live: LiveParameters,
     turns: f64,
-    weight_on_bit: f64,
+    inputs: Inputs,
     refinement: u32,
+    string: Option<Cow<'a, StringState>>,
+    groove: Option<Cow<'a, Groove>>,
 }
 
 impl Stepper {
     /// The state from which a run continues bit for bit.
-    pub fn checkpoint(&self) -> StepperCheckpoint {
+    pub fn checkpoint(&self) -> StepperCheckpoint<'_> {
         StepperCheckpoint {
-            state: self.track.state.clone(),
-            energy: self.track.energy.clone(),
+            state: Cow::Borrowed(&self.track.state),
+            energy: Cow::Borrowed(&self.track.energy),
             audit: self.audit,
             counters: self.counters,
             live: self.live,
             turns: self.turns,
-            weight_on_bit: self.weight_on_bit,
+            inputs: self.inputs,
             refinement: self.refinement,
+            string: self.string.as_ref().map(|string| Cow::Borrowed(string.state())),
+            groove: self.interactions.bit.groove().map(Cow::Borrowed),
         }
     }
 
     /// Continues from a checkpoint of the same model; `false`, and nothing done, if its sizes are another model's.
-    pub fn restore(&mut self, checkpoint: &StepperCheckpoint) -> bool {
+    pub fn restore(&mut self, checkpoint: &StepperCheckpoint<'_>) -> bool {
         let track = &mut self.track;
         let same = checkpoint.state.q.len() == track.state.q.len()
             && checkpoint.state.pipe_axial.len() == track.state.pipe_axial.len()
-            && checkpoint.energy.fits(&track.energy);
+            && checkpoint.state.bristles.len() == track.state.bristles.len()
+            && checkpoint.energy.fits(&track.energy)
+            && self.interactions.bit.fits(checkpoint.groove.as_deref())
+            && match (&self.string, &checkpoint.string) {
+                (Some(string), Some(saved)) => string.fits(saved),
+                (None, None) => true,
+                _ => false,
+            };
         if !same {
             return false;
         }
         self.live = checkpoint.live;
         track.state.copy_from(&checkpoint.state);
-        let conditions = self.conditions(checkpoint.state.time, checkpoint.weight_on_bit);
+        let mut conditions = self.conditions(checkpoint.state.time, &checkpoint.inputs);
+        self.interactions.bit.restore(checkpoint.groove.as_deref());
+        let (spin, top) = (self.places().top_spin, self.places().guide_top);
+        if let (Some(string), Some(saved)) = (&mut self.string, &checkpoint.string) {
+            string.restore(saved);
+            let state = &self.track.state;
+            let at = string.present(state.v[spin], state.v[top]);
+            super::advance::apply_string(&mut conditions, &at, state.drive_angle);
+        }
         self.evaluate(&conditions, true);
         self.track.energy.copy_from(&checkpoint.energy);
         self.audit = checkpoint.audit;
         self.counters = checkpoint.counters;
         self.turns = checkpoint.turns;
-        self.weight_on_bit = checkpoint.weight_on_bit;
+        self.inputs = checkpoint.inputs;
         self.set_refinement(checkpoint.refinement);
         true
     }

@@ -6,12 +6,13 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
+use crate::elements::string::StringLine;
 use crate::model::HeldNode;
 
 /// Forces on both pipes together, along the axes of the world (N).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct OutsideForces {
-    /// Of all supports.
+    /// Of all supports, and of the string above.
     pub supports: Vector3<f64>,
     /// Gravity.
     pub weight: Vector3<f64>,
@@ -19,11 +20,12 @@ pub struct OutsideForces {
     pub wall: Vector3<f64>,
     /// Of the rock on the bit.
     pub bit: Vector3<f64>,
-    /// Of the point loads.
+    /// Of the point loads, and of the pressure on the pipe's lower end.
     pub loads: Vector3<f64>,
     /// Minus mass times acceleration.
     pub inertia: Vector3<f64>,
-    /// Of the damping: the part that is proportional to the mass, since the other one acts between neighbours.
+    /// Of the damping: the part that is proportional to the mass, since the other one acts between neighbours, and that
+    /// of the mud in the hole.
     pub damping: Vector3<f64>,
 }
 
@@ -45,10 +47,72 @@ impl Stepper {
         parts
     }
 
+    /// Axial force of the string above on the guide's first node (N), positive where it pushes down the hole; `None`
+    /// without a hoist.
+    fn string_force(&self) -> Option<f64> {
+        let string = self.string.as_ref()?;
+        string.description().hoist?;
+        let places = self.places();
+        let v = &self.track.state.v;
+        let [impedance, arriving] = string.present(v[places.top_spin], v[places.guide_top]).axial?;
+        Some(impedance * (2.0 * arriving - v[places.guide_top]))
+    }
+
+    /// Torque on the top of the pipe (N m), positive where it drives: that of the string above, or of the drive.
+    pub fn torque_at_kickoff(&self) -> f64 {
+        let Some(string) = &self.string else {
+            return self.drive_torque();
+        };
+        let places = self.places();
+        let v = &self.track.state.v;
+        let speed = v[places.top_spin];
+        let [impedance, arriving] = string.present(speed, v[places.guide_top]).torsion;
+        impedance * (2.0 * arriving - speed)
+    }
+
+    /// Speed of the tool's top (rad/s).
+    pub fn top_speed(&self) -> f64 {
+        self.track.state.v[self.places().top_spin]
+    }
+
+    /// Rate at which the tool advances along the wall (m/s): the hoist's, or the one that is asked for.
+    pub fn advance_of_frame(&self) -> f64 {
+        let hoist = self.string.as_ref().and_then(StringLine::hoist);
+        hoist.map_or(self.inputs.rate_of_penetration, |hoist| hoist.advance)
+    }
+
+    /// Depth of the bit below where it began (m), with a hoist: that of the frame and of the guide's end in it.
+    pub fn bit_depth(&self) -> Option<f64> {
+        let hoist = self.string.as_ref()?.hoist()?;
+        Some(hoist.depth + self.track.state.q[self.places().guide_end])
+    }
+
+    /// Axial force of the guide's support, or of the string, at the top (N), positive where it pushes the guide down the hole: what the weight
+    /// on bit, the friction of the wall and the guide's weight come to there. `None` where the guide is not held.
+    pub fn weight_at_kickoff(&self) -> Option<f64> {
+        if let Some(force) = self.string_force() {
+            return Some(force);
+        }
+        let index = self.model.held.binary_search(&self.model.stations[0].guide).ok()?;
+        Some(self.track.energy.reactions[index])
+    }
+
+    /// Pressure in the pipe at the tool's top (Pa); 0 without it.
+    pub fn pressure_at_top(&self) -> f64 {
+        self.track.energy.pressure
+    }
+
+    /// Force of the pressure on the pipe's lower end (N), along the axes of the world.
+    fn pressure_on_end(&self) -> Vector3<f64> {
+        let (_, _, frame) = self.model.node_of(self.model.places.pipe_end);
+        let on_end = self.model.pressure.as_ref().map_or(0.0, |pressure| pressure.on_end);
+        frame.column(0) * (on_end * self.track.energy.pressure)
+    }
+
     /// The sums of all forces on the tool from outside.
     pub fn outside_forces(&self) -> OutsideForces {
         let (model, energy) = (&self.model, &self.track.energy);
-        let bottom = &model.stations[model.last()];
+        let (top, bottom) = (&model.stations[0], &model.stations[model.last()]);
         let wall = self.interactions.outer.iter().map(|(station, touch)| {
             let [x, y, z, ..] = touch.force();
             model.stations[station].frame * Vector3::new(x, y, z)
@@ -63,14 +127,25 @@ impl Stepper {
             Some(chain) => chain.sum_in_world(model, values, energy.spans.iter().map(spans)),
             None => model.sum_in_world(values),
         };
+        // The guide moves against the wall through mud; between pipe and guide it acts on both alike.
+        let mud = match &self.chain {
+            _ if energy.mud.is_empty() => Vector3::zeros(),
+            Some(chain) => chain.sum_in_world(model, &energy.mud, std::iter::empty()),
+            None => model.sum_in_world(&energy.mud),
+        };
         OutsideForces {
-            supports: model.held_nodes.iter().map(|at| self.reaction(at)[0]).sum(),
+            supports: model
+                .held_nodes
+                .iter()
+                .map(|at| self.reaction(at)[0])
+                .sum::<Vector3<f64>>()
+                + top.frame.column(0) * self.string_force().unwrap_or(0.0),
             weight: model.total_weight,
             wall: wall.sum(),
             bit: bottom.frame.column(0) * -energy.weight_on_bit,
-            loads: loads.sum(),
+            loads: loads.sum::<Vector3<f64>>() + self.pressure_on_end(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),
-            damping: -sum(&energy.damping, |span| &span.damping),
+            damping: -sum(&energy.damping, |span| &span.damping) - mud,
         }
     }
 }

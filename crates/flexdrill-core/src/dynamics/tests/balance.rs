@@ -7,6 +7,7 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
+use crate::inputs::Inputs;
 use crate::tool::{Body, Direction, JointKind, LoadHistory, Location, PointLoad, ToolDescription};
 use nalgebra::Vector3;
 
@@ -30,7 +31,12 @@ fn stepper_of(tool: &ToolDescription, tolerances: Tolerances, solver: SolverKind
 fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     let mut stepper = stepper(Tolerances::default(), SolverKind::Stations);
     let weight_on_bit = 10e3;
-    stepper.settle(weight_on_bit).unwrap();
+    stepper
+        .settle(&Inputs {
+            weight_on_bit,
+            ..Inputs::ZERO
+        })
+        .unwrap();
     let (model, state) = (stepper.model(), stepper.state());
     let residual = stepper.station_residual();
     // All forces from outside on both pipes in the world: gravity, weight on bit, wall, supports.
@@ -115,21 +121,23 @@ fn joints_stay_closed_and_both_solvers_agree() {
     let tool = ToolDescription::paper();
     let [mut fast, mut reference] =
         [SolverKind::Stations, SolverKind::Reference].map(|kind| stepper_of(&tool, tolerances, kind));
-    fast.settle(10e3).unwrap();
+    let loaded = Inputs {
+        weight_on_bit: 10e3,
+        ..Inputs::ZERO
+    };
+    fast.settle(&loaded).unwrap();
     let mut speed = 0.0;
     let (mut inner, mut outer) = (0, 0);
     for step in 0..1200 {
         let next = f64::min(speed + 0.01, 4.0);
-        let forcing = crate::dynamics::stepper::Forcing {
-            rotary_speed: [speed, next],
-            weight_on_bit: [10e3; 2],
-        };
+        let turning = |rotary_speed| Inputs { rotary_speed, ..loaded };
+        let forcing = crate::dynamics::stepper::Forcing::between(&turning(speed), &turning(next));
         speed = next;
         // From rest, and in every hundredth of the steps under way, when there is contact in both layers between the
         // joints too.
         let compared = step < 10 || step % 100 == 99;
         if compared {
-            reference.start_from(&fast.state(), 10e3);
+            reference.start_from(&fast.state(), &loaded);
             reference.advance(2.5e-4, &forcing).ok().unwrap();
         }
         fast.advance(2.5e-4, &forcing).ok().unwrap();

@@ -9,9 +9,13 @@ use crate::dynamics::state::State;
 use crate::dynamics::stations::Assembler;
 use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
+use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::support::{Random, small};
-use crate::tool::{Body, JointKind, Location, PointMass, ToolDescription, WobPath};
+use crate::tool::{
+    AddedMass, Body, FreeCurvature, FrictionLaw, JointKind, Location, MudDamping, MudDescription, MudFilm, PointMass,
+    PressureDescription, PressureEnd, PressureSource, Shortening, ToolDescription, WobPath,
+};
 
 /// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces.
 /// Deterministic.
@@ -38,6 +42,10 @@ fn lively_state(model: &Model) -> State {
             state.q[node + 5] = 0.05 * random();
         }
     }
+    state
+        .pin_moments
+        .iter_mut()
+        .for_each(|moment| *moment = 40.0 + 20.0 * random());
     state.pipe_axial.iter_mut().for_each(|n| *n = 1e4 * random());
     state.guide_axial.iter_mut().for_each(|n| *n = 1e4 * random());
     state
@@ -54,12 +62,29 @@ fn check(tool: &ToolDescription) {
     };
     let stepper = Stepper::new(tool, &settings).unwrap();
     let model = stepper.model();
-    let mut conditions = stepper.conditions(0.0, 1e4);
+    let mut conditions = stepper.conditions(
+        0.0,
+        &Inputs {
+            weight_on_bit: 1e4,
+            ..Inputs::ZERO
+        },
+    );
     conditions.bit_torque = 90.0;
+    conditions.rate_of_penetration = 0.2;
     let state = lively_state(model);
+    // A step that began up to 40 um away: some bristles slip, others stick.
+    let mut start = state.clone();
+    let mut generator = Random(77);
+    start
+        .q
+        .iter_mut()
+        .for_each(|x| *x += 4e-5 * generator.next() * generator.next().abs());
+    let forces = start.bristles.iter_mut().flatten().flatten();
+    forces.for_each(|force| *force = 300.0 * generator.next());
     let free = |i: usize| !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i);
     let mut assembler = Assembler::new(model, Instructions::best());
     let mut interactions = Interactions::new(model, Instructions::best());
+    interactions.begin(&start, settings.time_step);
     assembler.residual(&mut interactions, model, &state, &conditions);
     assert!(interactions.inner.count() > 2, "no inner contact to test");
     assert!(interactions.outer.count() > 2, "no outer contact to test");
@@ -114,6 +139,7 @@ fn check(tool: &ToolDescription) {
                 moved.a[column] += factors.mass * step;
                 let mut assembler = Assembler::new(model, Instructions::best());
                 let mut interactions = Interactions::new(model, Instructions::best());
+                interactions.begin(&start, settings.time_step);
                 assembler.residual(&mut interactions, model, &moved, &conditions);
                 assembler.residual
             };
@@ -146,9 +172,55 @@ fn universal_joints() {
 }
 
 #[test]
+fn friction_laws() {
+    for [inner, outer] in [
+        [FrictionLaw::Vector, FrictionLaw::Vector],
+        [FrictionLaw::Bristle, FrictionLaw::Bristle],
+        [FrictionLaw::Vector, FrictionLaw::Bristle],
+    ] {
+        let mut tool = small();
+        (tool.inner.friction_law, tool.outer.friction_law) = (inner, outer);
+        (tool.inner.friction_axial, tool.outer.friction_axial) = (0.1, 0.5);
+        check(&tool);
+    }
+}
+
+#[test]
 fn ball_cage_joints() {
     let mut tool = small();
     tool.joint.kind = JointKind::BallCage;
+    check(&tool);
+}
+
+#[test]
+fn friction_in_pins() {
+    let mut tool = small();
+    tool.joint.friction.coefficient = 0.2;
+    check(&tool);
+}
+
+#[test]
+fn joints_with_play() {
+    for kind in [JointKind::Universal, JointKind::BallCage] {
+        let mut tool = small();
+        tool.joint.kind = kind;
+        tool.joint.play.half_angle = 0.05;
+        tool.joint.play.stiffness = 1e4;
+        check(&tool);
+    }
+}
+
+#[test]
+fn links_that_shorten() {
+    let mut tool = small();
+    tool.shortening = Shortening::SecondOrder;
+    check(&tool);
+    tool.pressure = Some(PressureDescription {
+        at_top: PressureSource::Constant(5e6),
+        drop_per_metre: 0.05,
+        end: PressureEnd::Sealed { diameter: 0.063 },
+        joint_seal_diameter: 0.062,
+    });
     check(&tool);
 }
 
@@ -170,6 +242,34 @@ fn bodies_on_nodes() {
         body(Location::Station(1), Body::Pipe, 0.01),
         body(Location::Station(4), Body::Guide, 0.03),
     ];
+    check(&tool);
+}
+
+#[test]
+fn a_preloaded_guide() {
+    let mut tool = small();
+    tool.guide_free_curvature = Some(FreeCurvature {
+        curvature: 0.2,
+        phase: 0.7,
+    });
+    check(&tool);
+}
+
+#[test]
+fn mud_around_the_pipes() {
+    let mut tool = small();
+    tool.mud = Some(MudDescription {
+        density: 1100.0,
+        viscosity: 2.0,
+        frequency: 4.0,
+        added_mass: AddedMass::Concentric,
+        damping: MudDamping::Viscous,
+        film: MudFilm::None,
+    });
+    check(&tool);
+    if let Some(mud) = &mut tool.mud {
+        (mud.added_mass, mud.film, mud.viscosity) = (AddedMass::Eccentric, MudFilm::Squeeze, 0.02);
+    }
     check(&tool);
 }
 

@@ -3,19 +3,24 @@
 
 use std::ops::Range;
 
+use super::bristle::Bristles;
 use super::memory::LayerMemory;
-use super::{GapLaw, Touch};
+use super::vector::VectorMemory;
+use super::{GapLaw, Sliding, Touch, separate, vector};
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
+use crate::tool::FrictionLaw;
 
 /// The closed gaps of a layer at the last residual, with their contacts.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct LayerContacts {
     /// Stations whose gap was found closed since the layer was cleared, in this order; the index is their slot.
     found: Vec<Found>,
     /// Their contacts by slot, eight to a group. Lanes after the last slot are unused.
     touches: Vec<Touch<Lane>>,
+    /// A group whose contacts belong to slots of several groups.
+    scattered: Touch<Lane>,
     /// Per station one more than its slot, or 0 where it has none.
     slots: Vec<usize>,
     /// Whether only some stations are being evaluated again, so that contacts keep their slots.
@@ -27,7 +32,11 @@ pub struct LayerContacts {
     lateral: [Lane; 2],
     clearance: Lane,
     velocities: [Lane; 8],
+    /// The motion of each since the start of the step, in the same lanes; for bristles only.
+    travels: [Lane; 8],
     memory: LayerMemory,
+    vector_memory: VectorMemory,
+    bristles: Bristles,
 }
 
 /// A station with a slot.
@@ -44,6 +53,7 @@ impl LayerContacts {
         Self {
             found: Vec::with_capacity(stations),
             touches: vec![Touch::default(); stations.div_ceil(8)],
+            scattered: Touch::default(),
             slots: vec![0; stations],
             partial: false,
             waiting: [0; 8],
@@ -52,13 +62,30 @@ impl LayerContacts {
             lateral: [Aligned([1.0; 8]); 2],
             clearance: Lane::default(),
             velocities: [Lane::default(); 8],
+            travels: [Lane::default(); 8],
             memory: LayerMemory::new(stations),
+            vector_memory: VectorMemory::new(stations),
+            bristles: Bristles::new(stations),
         }
     }
 
-    /// Starts a step: the friction's memory of the previous step becomes void.
-    pub(crate) fn begin(&mut self) {
+    /// Starts a step of size `step` (s): the friction's memory of the previous step becomes void, and bristles start
+    /// from the forces `held` per station, around and along (N). With a `step` of 0 they keep these.
+    pub(crate) fn begin(&mut self, held: impl Iterator<Item = [f64; 2]>, step: f64) {
         self.memory.begin();
+        self.vector_memory.begin();
+        self.bristles.begin(held, step);
+    }
+
+    /// Energy in the bristles of all contacts (J); 0 without bristles.
+    pub(crate) fn bristle_energy(&self, law: &GapLaw) -> f64 {
+        if !law.has_bristles() || law.bristle_stiffness == 0.0 {
+            return 0.0;
+        }
+        let squares = self
+            .iter()
+            .map(|(_, touch)| touch.tangential * touch.tangential + touch.axial * touch.axial);
+        0.5 * squares.sum::<f64>() / law.bristle_stiffness
     }
 
     /// Opens all gaps.
@@ -80,8 +107,14 @@ impl LayerContacts {
         }
     }
 
-    /// Queues the closed gap of a station with its motion, the velocity in six lanes, see [`GapLaw::touch`]. Contacts
-    /// are complete after [`LayerContacts::finish`].
+    /// Sets how the gap that is pushed next has moved since the start of the step, in six lanes.
+    #[inline(always)]
+    pub(crate) fn set_travel<V: Vector>(&mut self, travel: V) {
+        travel.store(&mut self.travels[self.count]);
+    }
+
+    /// Queues the closed gap of a station with its motion, the velocity in six lanes, see [`super`]. Contacts are
+    /// complete after [`LayerContacts::finish`].
     #[inline(always)]
     pub(crate) fn push<V: Vector>(
         &mut self,
@@ -136,23 +169,38 @@ impl LayerContacts {
             *x = Eight::load(&lanes);
         }
         let lateral = [Eight::load(&self.lateral[0]), Eight::load(&self.lateral[1])];
-        let touch = law.touch(lateral, Eight::load(&self.clearance), &velocity);
+        let mut touch = law.press(lateral, Eight::load(&self.clearance), &velocity);
+        let sliding = Sliding::of(&touch, &velocity);
         let waiting = &self.waiting[..self.count];
         let stations = waiting.iter().map(|&slot| self.found[slot].station);
-        if self.partial {
-            // The slots of these contacts are scattered over the groups.
-
-            let mut lanes = Touch::default();
-            touch.store(&mut lanes);
-            self.memory.follow(law, stations, &mut lanes);
-            for (lane, &slot) in waiting.iter().enumerate() {
-                self.touches[slot / 8].set_lane(slot % 8, &lanes.lane(lane));
-            }
+        // All gaps are evaluated in order: the eight slots are one group. Where only some are evaluated again, their
+        // slots are scattered over the groups.
+        let lanes = if self.partial {
+            &mut self.scattered
         } else {
-            // All gaps are evaluated in order: the eight slots are one group.
-            let lanes = &mut self.touches[waiting[0] / 8];
-            touch.store(lanes);
-            self.memory.follow(law, stations, lanes);
+            &mut self.touches[waiting[0] / 8]
+        };
+        match law.surface.friction_law {
+            FrictionLaw::Separate => {
+                separate::rub(law, &mut touch, sliding);
+                touch.store(lanes);
+                self.memory.follow(law, stations, lanes);
+            }
+            FrictionLaw::Vector => {
+                vector::rub(law, &mut touch, sliding);
+                touch.store(lanes);
+                touch.coupling.store(&mut lanes.coupling);
+                self.vector_memory.follow(law, stations, lanes);
+            }
+            FrictionLaw::Bristle => {
+                touch.store(lanes);
+                self.bristles.rub(law, stations, lanes, &self.travels);
+            }
+        }
+        if self.partial {
+            for (lane, &slot) in waiting.iter().enumerate() {
+                self.touches[slot / 8].set_lane(slot % 8, &self.scattered.lane(lane));
+            }
         }
         self.count = 0;
     }

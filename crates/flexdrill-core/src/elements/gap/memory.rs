@@ -5,7 +5,7 @@ use crate::elements::slip::{Slip, SlipMemory};
 use crate::simd::number::Lane;
 
 /// Memory of all stations of a layer.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct LayerMemory {
     /// Number of the step; entries of earlier steps are void, so that starting a step clears nothing.
     step: u64,
@@ -65,18 +65,17 @@ impl LayerMemory {
 mod tests {
     use crate::elements::gap::{GapLaw, LayerContacts};
     use crate::simd::vector::{Portable, Vector};
-    use crate::tool::GapDescription;
+    use crate::tool::{FrictionLaw, GapDescription};
 
     /// A contact that slides around at `speed` (m/s).
-    fn slide(layer: &mut LayerContacts, speed: f64) -> [f64; 2] {
+    fn slide(friction_law: FrictionLaw, layer: &mut LayerContacts, speed: f64) -> [f64; 2] {
         let law = GapLaw {
             surface: GapDescription {
-                stiffness: 1e7,
-                damping: 0.5,
-                friction_tangential: 0.7,
-                friction_axial: 0.7,
+                friction_law,
+                ..GapDescription::new(1e7, 0.7)
             },
             slip_speed: 0.01,
+            bristle_stiffness: 8e6,
         };
         layer.clear();
         let velocity = Portable::load(&[0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0, 0.0]);
@@ -88,17 +87,20 @@ mod tests {
 
     #[test]
     fn a_turned_slide_is_remembered_within_a_step_only() {
-        let exact = |speed: f64| slide(&mut LayerContacts::new(5), speed);
-        let mut layer = LayerContacts::new(5);
-        layer.begin();
-        assert_eq!(slide(&mut layer, 0.1), exact(0.1));
-        let [friction, slope] = slide(&mut layer, -0.1);
-        // A correction from 0.1 to -0.1 m/s changes the friction by twice the full one; the exact slope, at ten widths
-        // on either side, knows of a hundredth of it.
-        assert_eq!(friction, exact(-0.1)[0]);
-        let chord = (exact(-0.1)[0] - exact(0.1)[0]).abs() / 0.2;
-        assert!(slope > chord && slope < 2.0 * chord, "{slope} against {chord}");
-        layer.begin();
-        assert_eq!(slide(&mut layer, -0.1), exact(-0.1));
+        for law in [FrictionLaw::Separate, FrictionLaw::Vector] {
+            let exact = |speed: f64| slide(law, &mut LayerContacts::new(5), speed);
+            let mut layer = LayerContacts::new(5);
+            let begin = |layer: &mut LayerContacts| layer.begin(std::iter::empty(), 5e-4);
+            begin(&mut layer);
+            assert_eq!(slide(law, &mut layer, 0.1), exact(0.1));
+            let [friction, slope] = slide(law, &mut layer, -0.1);
+            // A correction from 0.1 to -0.1 m/s changes the friction by twice the full one; the exact slope, at ten
+            // widths on either side, knows of a hundredth of it.
+            assert_eq!(friction, exact(-0.1)[0]);
+            let chord = (exact(-0.1)[0] - exact(0.1)[0]).abs() / 0.2;
+            assert!(slope > chord && slope < 2.0 * chord, "{slope} against {chord}");
+            begin(&mut layer);
+            assert_eq!(slide(law, &mut layer, -0.1), exact(-0.1));
+        }
     }
 }

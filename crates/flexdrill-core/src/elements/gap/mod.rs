@@ -13,8 +13,13 @@
 //! The force is that of the gap on the inner body; the outer body gets the opposite through its own radius, so that the
 //! torques and couples act on both, Eq. 25 and 26.
 
+mod bristle;
 mod layer;
 mod memory;
+mod separate;
+#[cfg(test)]
+mod tests;
+mod vector;
 
 pub use layer::LayerContacts;
 
@@ -22,7 +27,7 @@ use nalgebra::{SVector, Vector2};
 
 use super::slip::Slip;
 use crate::simd::number::{Lane, Number};
-use crate::tool::GapDescription;
+use crate::tool::{FrictionLaw, GapDescription};
 
 /// Local motion or force of a gap.
 pub type GapVector = SVector<f64, 6>;
@@ -32,8 +37,35 @@ pub type GapVector = SVector<f64, 6>;
 pub struct GapLaw {
     /// Stiffness, damping, friction.
     pub surface: GapDescription,
-    /// Regularisation speed of the friction (m/s).
+    /// Regularisation speed of the friction (m/s); a bristle has none.
     pub slip_speed: f64,
+    /// Stiffness of a bristle (N/m).
+    pub bristle_stiffness: f64,
+}
+
+/// Sliding at a contact around and along: speeds (m/s) or, over a step, distances (m).
+#[derive(Debug, Clone, Copy)]
+struct Sliding<N> {
+    around: N,
+    along: N,
+    /// Derivatives of both by the displacement along t (1/s or -).
+    by: [N; 2],
+}
+
+impl<N: Number> Sliding<N> {
+    /// Of a `motion` in local coordinates at the contact point, Eq. 23.
+    #[inline(always)]
+    fn of(touch: &Touch<N>, motion: &[N; 6]) -> Self {
+        let [y, z] = touch.direction;
+        let closing = (y * motion[1]).plus_product(z, motion[2]);
+        let swinging = y * motion[2] - z * motion[1];
+        let tilting = (motion[4] * y).plus_product(motion[5], z);
+        Self {
+            around: swinging + motion[3],
+            along: motion[0] + (motion[4] * z - motion[5] * y),
+            by: [-(closing * touch.curvature), tilting * touch.curvature],
+        }
+    }
 }
 
 /// The contact of a closed gap, or one in each of eight lanes.
@@ -57,10 +89,15 @@ pub struct Touch<N = f64> {
     curvature: N,
     /// d normal / d displacement along n and along t (N/m), d normal / d closing speed (N s/m).
     normal_by: [N; 3],
-    /// d sliding speed / d displacement along t (1/s), around and along.
+    /// d sliding speed / d displacement along t (1/s), around and along; of a bristle d sliding distance.
     sliding_by: [N; 2],
-    /// Sliding around and along, with its friction per normal force.
+    /// Sliding around and along, with its friction per normal force. Of a bristle: sliding distance, and minus
+    /// d friction / d normal force.
     slip: [Slip<N>; 2],
+    /// What [`Slip::slope`] is for the friction around by the sliding along, and the other way round.
+    coupling: N,
+    /// Whether the slopes are by the sliding distance of the step, as a bristle's, not by the sliding speed.
+    by_travel: bool,
 }
 
 /// The derivative of a gap's force as four dyads: the force changes by minus the sum of `on` times (`by` . motion).
@@ -80,6 +117,8 @@ pub struct GapTangent {
     pub by_around: f64,
     /// Force along per motion along.
     pub by_along: f64,
+    /// Force around per motion along, and along per motion around.
+    pub by_other: f64,
 }
 
 /// A dyad of a [`GapTangent`].
@@ -110,11 +149,11 @@ impl GapTangent {
                 by: tangent,
             },
             TangentTerm {
-                on: around * self.by_around,
+                on: around * self.by_around + along * self.by_other,
                 by: around,
             },
             TangentTerm {
-                on: along * self.by_along,
+                on: along * self.by_along + around * self.by_other,
                 by: along,
             },
         ]
@@ -154,6 +193,9 @@ impl Touch {
         let [around, along] = &self.slip;
         let (share_around, share_along) = (around.friction, along.friction);
         let (slope_around, slope_along) = (self.normal * around.slope, self.normal * along.slope);
+        let slope_other = self.normal * self.coupling;
+        let [around_by, along_by] = self.sliding_by;
+        let sliding = if self.by_travel { stiffness } else { damping };
         let normal = self.normal_by[0] * stiffness + self.normal_by[2] * damping;
         let across = self.normal_by[1] * stiffness;
         // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus
@@ -165,12 +207,13 @@ impl Touch {
             by_tangent: [
                 across + turning * self.tangential,
                 turning * self.normal,
-                share_around * across + slope_around * self.sliding_by[0] * stiffness,
-                share_along * across + slope_along * self.sliding_by[1] * stiffness,
+                share_around * across + (slope_around * around_by + slope_other * along_by) * stiffness,
+                share_along * across + (slope_along * along_by + slope_other * around_by) * stiffness,
                 -turning * self.axial,
             ],
-            by_around: slope_around * damping,
-            by_along: slope_along * damping,
+            by_around: slope_around * sliding,
+            by_along: slope_along * sliding,
+            by_other: slope_other * sliding,
         }
     }
 }
@@ -192,6 +235,8 @@ impl Touch<Lane> {
             normal_by: [self.normal_by[0][k], self.normal_by[1][k], self.normal_by[2][k]],
             sliding_by: two(&self.sliding_by),
             slip: [self.slip[0].lane(k), self.slip[1].lane(k)],
+            coupling: self.coupling[k],
+            by_travel: self.by_travel,
         }
     }
 
@@ -214,13 +259,15 @@ impl Touch<Lane> {
         for (x, from) in self.slip.iter_mut().zip(&from.slip) {
             x.set_lane(k, from);
         }
+        self.coupling[k] = from.coupling;
+        self.by_travel = from.by_travel;
     }
 }
 
 impl Slip<Lane> {
     /// The slip in lane `k`.
     #[inline(always)]
-    fn lane(&self, k: usize) -> Slip {
+    pub(in crate::elements) fn lane(&self, k: usize) -> Slip {
         Slip {
             speed: self.speed[k],
             friction: self.friction[k],
@@ -236,7 +283,7 @@ impl Slip<Lane> {
 }
 
 impl<N: Number> Touch<N> {
-    /// Writes all lanes to memory.
+    /// Writes all lanes to memory, but for the coupling, which only some laws have.
     #[inline(always)]
     fn store(self, to: &mut Touch<N::Memory>) {
         self.normal.store(&mut to.normal);
@@ -271,12 +318,11 @@ impl GapLaw {
     }
 
     /// The contact of a closed gap at lateral displacement `lateral` (y, z; offsets included) and local velocity
-    /// `velocity`.
+    /// `velocity`, without friction.
     ///
-    /// Normal force F = k d (1 + c d') >= 0 with penetration d: continuous at onset, never pulling. Friction mu F v /
-    /// sqrt(v^2 + v_s^2) separately around and along (Eq. 25), at the sliding speeds of Eq. 23.
+    /// Normal force F = k d (1 + c d') >= 0 with penetration d: continuous at onset, never pulling.
     #[inline(always)]
-    pub fn touch<N: Number>(&self, lateral: [N; 2], clearance: N, velocity: &[N; 6]) -> Touch<N> {
+    fn press<N: Number>(&self, lateral: [N; 2], clearance: N, velocity: &[N; 6]) -> Touch<N> {
         let (zero, one) = (N::of(0.0), N::of(1.0));
         let (k, c) = (N::of(self.surface.stiffness), N::of(self.surface.damping));
         let distance = (lateral[0] * lateral[0]).plus_product(lateral[1], lateral[1]).root();
@@ -291,101 +337,37 @@ impl GapLaw {
         let spring = k * depth;
         let normal = spring * viscous;
         let by_rate = (spring * c).where_above(viscous, zero);
-
-        // Sliding speeds at the contact point, Eq. 23, and their derivatives.
-        let around = swinging + velocity[3];
-        let along = velocity[0] + (velocity[4] * z - velocity[5] * y);
-        let tilting = (velocity[4] * y).plus_product(velocity[5], z);
-        let [full_around, full_along] = self.friction().map(N::of);
-        let slip = [
-            Slip::at(around, full_around, self.slip_speed),
-            Slip::at(along, full_along, self.slip_speed),
-        ];
-        let (tangential, axial) = (-(slip[0].friction * normal), -(slip[1].friction * normal));
+        let nothing = Slip {
+            speed: zero,
+            friction: zero,
+            slope: zero,
+        };
         Touch {
             normal,
-            tangential,
-            axial,
+            tangential: zero,
+            axial: zero,
             energy: N::of(0.5) * spring * depth,
             dissipation: (normal - spring) * closing,
-            friction_power: -(tangential * around + axial * along),
+            friction_power: zero,
             direction: [y, z],
             curvature,
             normal_by: [k * viscous, by_rate * swinging * curvature, by_rate],
-            sliding_by: [-(closing * curvature), tilting * curvature],
-            slip,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::SMatrix;
-
-    fn law() -> GapLaw {
-        GapLaw {
-            surface: GapDescription {
-                stiffness: 1e7,
-                damping: 0.5,
-                friction_tangential: 0.2,
-                friction_axial: 0.15,
-            },
-            slip_speed: 0.01,
+            sliding_by: [zero; 2],
+            slip: [nothing; 2],
+            coupling: zero,
+            by_travel: false,
         }
     }
 
-    #[test]
-    fn tangents_are_those_of_differences() {
-        let clearance = 8.5e-3;
-        let lateral = Vector2::new(-6.1e-3, 6.2e-3);
-        let velocity = GapVector::from_column_slice(&[0.004, 0.05, -0.12, 0.13, -0.02, 0.03]);
-        let at = |d: Vector2<f64>, v: &GapVector| law().touch([d.x, d.y], clearance, &(*v).into());
-        let touch = at(lateral, &velocity);
-        let force = |d: Vector2<f64>, v: &GapVector| GapVector::from_column_slice(&at(d, v).force());
-        let [y, z] = touch.direction;
-        let pushed = GapVector::from_column_slice(&[0.0, -y, -z, 0.0, 0.0, 0.0]) * touch.normal;
-        let friction = GapVector::from_column_slice(&touch.friction_force());
-        assert!((force(lateral, &velocity) - pushed - friction).norm() < 1e-12 * touch.normal);
-        let derivative = |stiffness: f64, damping: f64| {
-            let terms = touch
-                .tangent(stiffness, damping)
-                .terms()
-                .map(|term| term.on * term.by.transpose());
-            -terms.iter().fold(SMatrix::<f64, 6, 6>::zeros(), |sum, term| sum + term)
-        };
-        let (by_displacement, by_velocity) = (derivative(1.0, 0.0), derivative(0.0, 1.0));
-        // Central differences with steps of 1e-5 of each motion's scale: relative error well below 1e-6.
-        for c in 0..2 {
-            let mut h = Vector2::zeros();
-            h[c] = 1e-9;
-            let difference = (force(lateral + h, &velocity) - force(lateral - h, &velocity)) / 2e-9;
-            let column = by_displacement.column(1 + c);
-            assert!(
-                (column - difference).norm() < 1e-6 * column.norm(),
-                "{column} {difference}"
-            );
-        }
-        for c in 0..6 {
-            let mut h = GapVector::zeros();
-            h[c] = 1e-7;
-            let difference = (force(lateral, &(velocity + h)) - force(lateral, &(velocity - h))) / 2e-7;
-            let column = by_velocity.column(c);
-            assert!(
-                (column - difference).norm() < 1e-6 * column.norm().max(1.0),
-                "{c} {column} {difference}"
-            );
-        }
+    /// Stiffness of the bristle (N/m) of a contact of normal stiffness `normal` (N/m) between bodies with Poisson's
+    /// ratio `poisson_ratio`: 0.82 times that of the contact for steel (Mindlin 1949).
+    pub fn bristle_stiffness(normal: f64, poisson_ratio: f64) -> f64 {
+        2.0 * (1.0 - poisson_ratio) / (2.0 - poisson_ratio) * normal
     }
 
-    #[test]
-    fn nothing_pulls_and_nothing_jumps_at_onset() {
-        let law = law();
-        let clearance = 8.5e-3;
-        for speed in [-10.0, -1.0, 0.0, 1.0, 10.0] {
-            let velocity = [0.0, 0.0, speed, 0.0, 0.0, 0.0];
-            let touch = law.touch([0.0, clearance + 1e-12], clearance, &velocity);
-            assert!(touch.normal >= 0.0 && touch.normal < 1e-4);
-        }
+    /// Whether the friction has bristles, which need the motion since the start of the step.
+    #[inline(always)]
+    pub(crate) fn has_bristles(&self) -> bool {
+        self.surface.friction_law == FrictionLaw::Bristle
     }
 }

@@ -1,8 +1,10 @@
 //! Joints eight at a time: [`super::law`] over eight lanes. The last linearisation stays in memory for the tangent.
 
-use super::Joint;
+use super::friction::{AxisFriction, PinMemory};
 use super::law::{JointLaw, RotationFunction, tangent};
+use super::play::Play;
 use super::stop::Stop;
+use super::{Joint, Rotations};
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
@@ -16,6 +18,11 @@ pub struct JointGroup {
     rows: [RotationFunction<Lane>; 2],
     /// Rotational rows per joint.
     count: usize,
+    /// Torque of the rows that are contacts with play.
+    play: Play<Lane>,
+    /// Friction about both axes of the crosses.
+    pins: [AxisFriction<Lane>; 2],
+    memory: PinMemory,
     stop: Stop<Lane>,
     /// Whether some stop is shut; if none is, the derivatives in `stop` are out of date.
     shut: bool,
@@ -38,9 +45,14 @@ impl JointGroup {
                 limit_sine: each(&|law| law.limit_sine),
                 stop_stiffness: at(0).stop_stiffness,
                 stop_damping: at(0).stop_damping,
+                friction: at(0).friction,
+                play: at(0).play,
             },
             rows: Default::default(),
             count: Joint::rotational_rows(at(0).kind),
+            play: Play::default(),
+            pins: Default::default(),
+            memory: PinMemory::default(),
             stop: Stop::default(),
             shut: false,
             rate: [Lane::default(); 6],
@@ -57,10 +69,60 @@ impl JointGroup {
         &self.stop
     }
 
-    /// Linearises rows and stops at rotations `q` and rates `rate`.
+    /// Whether the rows are contacts with play instead of constraints.
+    pub fn has_play(&self) -> bool {
+        self.law.has_play()
+    }
+
+    /// The torque of rows with play.
+    pub fn play(&self) -> &Play<Lane> {
+        &self.play
+    }
+
+    /// Whether the pins have friction.
+    pub fn has_friction(&self) -> bool {
+        self.law.friction.coefficient > 0.0
+    }
+
+    /// Friction of the pins about both axes of the cross; zero without friction.
+    pub fn pins(&self) -> &[AxisFriction<Lane>; 2] {
+        &self.pins
+    }
+
+    /// Forgets what the corrections of the step before learned of friction.
+    pub fn begin(&mut self) {
+        self.memory.begin();
+    }
+
+    /// Moments on the six rotations of play and friction of the joint in `lane` (N m); `None` where there is neither.
     #[inline(always)]
-    pub fn linearise<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6]) {
-        V::call(Linearise { group: self, q, rate });
+    pub fn further_moments(&self, lane: usize) -> Option<Rotations> {
+        if !self.has_play() && !self.has_friction() {
+            return None;
+        }
+        let mut out = [0.0; 6];
+        if self.has_play() {
+            let multiplier = self.play.multiplier[lane];
+            (0..6).for_each(|k| out[k] = self.rows[0].gradient[k][lane] * multiplier);
+        }
+        if self.has_friction() {
+            for axis in &self.pins {
+                (0..6).for_each(|k| out[k] += axis.gradient[k][lane] * axis.slip.friction[lane]);
+            }
+        }
+        Some(out)
+    }
+
+    /// Linearises rows, stops, play and friction at rotations `q` and rates `rate`, where slipping pins of an axis resist with
+    /// the moment `full` (N m).
+    #[inline(always)]
+    pub fn linearise<V: Vector>(&mut self, q: &[Lane; 6], rate: &[Lane; 6], full: &Lane) {
+        V::call(Linearise {
+            group: self,
+            q,
+            rate,
+            full,
+        });
     }
 
     /// The stops at the last linearisation, if one of them is shut.
@@ -86,6 +148,7 @@ struct Linearise<'a> {
     group: &'a mut JointGroup,
     q: &'a [Lane; 6],
     rate: &'a [Lane; 6],
+    full: &'a Lane,
 }
 
 impl Kernel for Linearise<'_> {
@@ -93,7 +156,7 @@ impl Kernel for Linearise<'_> {
 
     #[inline(always)]
     fn run<V: Vector>(self) {
-        let Self { group, q, rate } = self;
+        let Self { group, q, rate, full } = self;
         group.rate = *rate;
         let (q, rate): ([Eight<V>; 6], [Eight<V>; 6]) = (load(q), load(rate));
         group.law.rows(&q, &mut group.rows);
@@ -102,6 +165,14 @@ impl Kernel for Linearise<'_> {
         group.shut = group.law.has_stop() && group.law.stop(&q, &rate, &mut group.stop);
         if was_shut && !group.shut {
             (group.stop.moment, group.stop.energy, group.stop.dissipation) = Default::default();
+        }
+        if group.law.has_play() {
+            group.law.play(&group.rows[0], &rate, &mut group.play);
+        }
+        if group.law.friction.coefficient > 0.0 {
+            let pins = &mut group.pins;
+            group.law.friction(&q, &rate, Eight::<V>::load(full), pins);
+            group.memory.follow(full, group.law.friction.slip_rate, pins);
         }
     }
 }
@@ -121,10 +192,22 @@ impl Kernel for Derive<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self { group, lambda, out, .. } = self;
-        let lambda = load::<V, 2>(lambda);
+        let mut lambda = load::<V, 2>(lambda);
+        if group.has_play() {
+            lambda[0] = Eight::load(&group.play.multiplier);
+        }
         let stop = group.shut.then_some((&group.stop, &group.rate));
         let rows = &group.rows[..group.count];
         tangent(rows, &lambda[..group.count], stop, self.stiffness, self.damping, out);
+        if group.has_play() {
+            let play = &group.play;
+            play.add_tangent::<Eight<V>>(&group.rows[0], &group.rate, self.stiffness, self.damping, out);
+        }
+        if group.has_friction() {
+            for axis in &group.pins {
+                axis.add_tangent::<Eight<V>>(&group.rate, self.stiffness, self.damping, out);
+            }
+        }
     }
 }
 
@@ -139,8 +222,6 @@ fn load<V: Vector, const N: usize>(from: &[Lane; N]) -> [Eight<V>; N] {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
     use nalgebra::{Matrix3, Rotation3, Vector3};
 
     use super::super::law::moments;
@@ -151,15 +232,8 @@ mod tests {
     #[test]
     fn eight_joints_are_eight_times_one() {
         for kind in [JointKind::Universal, JointKind::BallCage, JointKind::Revolute] {
-            let description = JointDescription {
-                kind,
-                limit: 0.1,
-                stop_stiffness: 2e5,
-                stop_damping: 0.5,
-                cross_phase: 0.2,
-                cross_phase_step: FRAC_PI_2,
-                hinge_angle: Default::default(),
-            };
+            let mut description = JointDescription::new(kind, 0.1);
+            description.cross_phase = 0.2;
             let turn = *Rotation3::from_axis_angle(&Vector3::y_axis(), 0.047).matrix();
             // Five joints, so that three lanes have none; at three of them the stop is shut, at one it opens too fast
             // to push.
@@ -181,7 +255,7 @@ mod tests {
                 Aligned(std::array::from_fn(|lane| 50.0 - 10.0 * lane as f64 + 7.0 * row as f64))
             });
             let mut group = JointGroup::of(&joints);
-            group.linearise::<Portable>(&q, &rate);
+            group.linearise::<Portable>(&q, &rate, &Lane::default());
             let got: [Lane; 6] = std::array::from_fn(|k| {
                 let of_rows = |lane: usize| -> f64 {
                     let rows = group.rows().iter().zip(&lambda);

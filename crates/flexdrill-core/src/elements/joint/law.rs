@@ -9,7 +9,7 @@ use super::jet::Jet;
 use super::rotation::{DirectionJet, shaft_axis, transverse_axis};
 use super::stop::Stop;
 use crate::simd::number::Number;
-use crate::tool::JointKind;
+use crate::tool::{JointKind, JointPlay, PinFriction};
 
 /// A scalar function of a joint's six rotations with its derivatives.
 #[derive(Debug, Clone, Copy, Default)]
@@ -43,6 +43,10 @@ pub struct JointLaw<M> {
     pub stop_stiffness: f64,
     /// c of the stop (s/rad).
     pub stop_damping: f64,
+    /// Friction in the pins of the cross.
+    pub friction: PinFriction,
+    /// Play about the shaft.
+    pub play: JointPlay,
 }
 
 impl<M> RotationFunction<M> {
@@ -166,7 +170,7 @@ impl<M> JointLaw<M> {
 
     /// a_z(a): the arm of the cross that the link above carries.
     #[inline(always)]
-    fn upper_arm<T: Number<Memory = M>>(&self, q: &[T; 6]) -> DirectionJet<T> {
+    pub(super) fn upper_arm<T: Number<Memory = M>>(&self, q: &[T; 6]) -> DirectionJet<T> {
         let angle = q[0] + T::load(&self.phase) + T::of(FRAC_PI_2);
         transverse_axis(angle.sin_cos(), q[1], q[2])
     }
@@ -255,15 +259,8 @@ pub(super) mod tests {
     use crate::tool::JointDescription;
 
     pub fn joint(kind: JointKind) -> Joint {
-        let description = JointDescription {
-            kind,
-            limit: 0.1,
-            stop_stiffness: 2e5,
-            stop_damping: 0.5,
-            cross_phase: 0.2,
-            cross_phase_step: FRAC_PI_2,
-            hinge_angle: Default::default(),
-        };
+        let mut description = JointDescription::new(kind, 0.1);
+        description.cross_phase = 0.2;
         let turn = *Rotation3::from_axis_angle(&Vector3::y_axis(), 0.047).matrix();
         Joint::new(&description, 1, Matrix3::identity(), turn)
     }

@@ -8,11 +8,15 @@
 //! | rows | the rotational rows of Eq. 13, zero where they hold |
 //! | bend angle | between the two links' axes at the joint (rad, >= 0) |
 //!
+//! Friction in the pins is in [`friction`], play about the shaft in [`play`], the stop in [`stop`].
+//!
 //! The law is written once, in [`law`], over `Number`: for one joint, and for eight at a time in [`group`].
 
+pub mod friction;
 pub mod group;
 mod jet;
 pub mod law;
+pub mod play;
 pub mod rotation;
 pub mod stop;
 
@@ -50,6 +54,8 @@ impl Joint {
             limit_sine: libm::sin(description.limit),
             stop_stiffness: description.stop_stiffness,
             stop_damping: description.stop_damping,
+            friction: description.friction,
+            play: description.play,
         };
         if description.hinge_angle == HingeAngle::AsBuilt {
             let mut row = Default::default();
@@ -64,6 +70,15 @@ impl Joint {
         match kind {
             JointKind::Universal | JointKind::BallCage => 1,
             JointKind::Revolute => 2,
+        }
+    }
+
+    /// Number of rotational rows that are constraints with a multiplier: with play there are none.
+    pub fn constraints(description: &JointDescription) -> usize {
+        if description.play.half_angle > 0.0 {
+            0
+        } else {
+            Self::rotational_rows(description.kind)
         }
     }
 
@@ -103,13 +118,10 @@ mod tests {
         let bend = 0.05_f64;
         let frame = |angle: f64| frame_along(tangent(angle));
         let description = JointDescription {
-            kind: JointKind::Revolute,
-            limit: 0.1,
-            stop_stiffness: 1e5,
-            stop_damping: 0.5,
             cross_phase: 0.3,
             cross_phase_step: 0.0,
             hinge_angle: HingeAngle::AsBuilt,
+            ..JointDescription::new(JointKind::Revolute, 0.1)
         };
         let joint = Joint::new(&description, 0, frame(0.4), frame(0.4 + bend));
         let turned = |psi: f64| {

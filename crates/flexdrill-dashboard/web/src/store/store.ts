@@ -12,6 +12,7 @@ import {
   type JointDeflections,
   type MarkerArray,
   type SessionInfo,
+  type Transfer,
   type TwinStatus,
   type WhirlState,
 } from "../messages";
@@ -54,6 +55,7 @@ export class Store {
 
   status: TwinStatus | null = null;
   sessionInfo: SessionInfo | null = null;
+  transfer: Transfer | null = null;
   /** Messages that were not understood: page and twin are of different versions. */
   unreadable = 0;
 
@@ -164,6 +166,9 @@ export class Store {
         return trace.takeJoints(message as JointDeflections);
       case "twin/whirl":
         return trace.takeWhirl(message as WhirlState);
+      case "twin/transfer":
+        this.transfer = message as Transfer;
+        return;
       case "twin/tool_shape":
         return trace.takeShape(message as MarkerArray);
     }

@@ -13,6 +13,7 @@ export const TOPICS = [
   "twin/joint_deflections",
   "twin/whirl",
   "twin/tool_shape",
+  "twin/transfer",
 ] as const;
 export type Topic = (typeof TOPICS)[number];
 

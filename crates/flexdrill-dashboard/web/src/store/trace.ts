@@ -108,7 +108,9 @@ export class Trace {
     second.set("real_time_factor", status.real_time_factor);
     second.set("model_quality", status.model_quality);
     status.input_name.forEach((name, index) => {
-      const input = name === "rotary_speed" ? "rotary_speed" : "weight_on_bit";
+      // The optional inputs have no columns; they must not stand in those of speed and weight.
+      if (name !== "rotary_speed" && name !== "weight_on_bit") return;
+      const input = name;
       second.set(`${input}_state`, status.input_state[index]);
       second.set(`${input}_received`, status.input_received[index]);
       second.set(`${input}_applied`, status.input_applied[index]);

@@ -1,10 +1,11 @@
-// The panels next to the tool: alarms, location, steering; one of them is shown.
+// The panels next to the tool: alarms, location, transfer, steering; one of them is shown.
 
 import { h, setAttribute, setText, show } from "../dom";
 import type { Context, View } from "../view";
 import { Alarms } from "./alarms";
 import { LocationView } from "./location";
 import type { Steer } from "./steer";
+import { TransferView } from "./transfer";
 
 export class Panels implements View {
   readonly element: HTMLElement;
@@ -20,6 +21,7 @@ export class Panels implements View {
     for (const [name, view] of [
       ["Alarms", new Alarms(context)],
       ["Location", new LocationView(context)],
+      ["Transfer", new TransferView(context)],
       ["Steer", steer],
     ] as const) {
       const id = name.toLowerCase();
@@ -74,8 +76,8 @@ export class Panels implements View {
     const count = store.isBag || store.silent ? 0 : (store.alarms?.unacknowledged ?? 0);
     setText(this.tabs[0].tab, count > 0 ? `Alarms (${count})` : "Alarms");
     const driving = this.steer.driving;
-    setText(this.tabs[2].tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
-    this.tabs[2].tab.classList.toggle("driving", driving !== null);
+    setText(this.tabs[3].tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
+    this.tabs[3].tab.classList.toggle("driving", driving !== null);
     for (const { view } of this.tabs) view.draw(now);
   }
 }

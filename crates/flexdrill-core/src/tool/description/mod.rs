@@ -3,9 +3,18 @@
 //! The model is built from a [`ToolDescription`], which is checked then. While the model runs only the
 //! [`LiveParameters`] can change.
 
-use std::f64::consts::FRAC_PI_2;
+mod joint;
+mod mud_and_pressure;
 
 use serde::{Deserialize, Serialize};
+
+pub use joint::{HingeAngle, JointDescription, JointKind, JointPlay, PinFriction};
+pub use mud_and_pressure::{
+    AddedMass, MudDamping, MudDescription, MudFilm, PressureDescription, PressureEnd, PressureSource,
+};
+
+use crate::elements::rock::RockLaw;
+use crate::elements::string::StringDescription;
 
 /// Everything the mechanics needs to know, in SI units and radians.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,12 +37,16 @@ pub struct ToolDescription {
     pub guide_section: Tube,
     /// Factor on the guide's bending stiffness (slotted guides are softer), dimensionless.
     pub guide_bending_factor: f64,
+    /// Curvature of the guide as made; `None` where it is without stress in the path.
+    pub guide_free_curvature: Option<FreeCurvature>,
     /// Every guide node held in all six directions (the verification cases' fixed outer beam).
     pub guide_fixed: bool,
     /// Diameter of the bore (m), Eq. 31.
     pub hole_diameter: f64,
     /// The joints between links.
     pub joint: JointDescription,
+    /// How the pipe's links shorten along the chord as they tilt across it.
+    pub shortening: Shortening,
     /// Mass- and stiffness-proportional damping of both pipes, Eq. 7.
     pub rayleigh: Rayleigh,
     /// Gap layer between pipe and guide.
@@ -44,14 +57,24 @@ pub struct ToolDescription {
     pub slip_speed: f64,
     /// The bit and its rock, Eq. 1.
     pub bit: BitDescription,
+    /// How the rock answers the bit.
+    pub rock: RockLaw,
+    /// The string above the tool; without one the drive prescribes the spin of the first node.
+    pub string: Option<StringDescription>,
     /// Acceleration of gravity along world +Z (m/s2), already reduced by the buoyancy factor.
     pub gravity: f64,
+    /// Pump pressure in the pipe; `None` without flow.
+    pub pressure: Option<PressureDescription>,
+    /// The mud that moves with the pipes; `None` where it is in the gravity only.
+    pub mud: Option<MudDescription>,
     /// Held directions, Table 1 and its variants.
     pub supports: Vec<Support>,
     /// Whether the spin of the first pipe node follows the drive's angle (else it is as `supports` say).
     pub drive_top: bool,
     /// How the weight on bit reaches the tool.
     pub wob_path: WobPath,
+    /// Where the weight on bit of the inputs is measured.
+    pub weight_place: WeightPlace,
     /// Loads over time, in addition to gravity, drive and bit.
     pub loads: Vec<PointLoad>,
     /// Point masses added to nodes.
@@ -113,64 +136,25 @@ pub struct Tube {
     pub inner_diameter: f64,
 }
 
-/// Kinds of joint between two links, Eq. 12 and 13.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum JointKind {
-    /// Cross (Hooke) joint: second row of Eq. 13, with a bend limit.
-    Universal,
-    /// Constant velocity: both ends spin at the same rate at any bend, with a bend limit.
-    BallCage,
-    /// Both rows of Eq. 13 as equalities: a hinge with one free axis, for comparison only.
-    Revolute,
+/// The bend of a tube without load.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct FreeCurvature {
+    /// Curvature (1/m), 0 where it is straight.
+    pub curvature: f64,
+    /// Toolface of the bend while the tube's spin is 0 (rad): the angle from the high side (-z) to the side that it
+    /// bends to, positive towards +y.
+    pub phase: f64,
 }
 
-/// The angle theta in the third row of Eq. 13, for [`JointKind::Revolute`].
+/// How a tilted span of the pipe shortens along its chord, see `elements::shortening`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum HingeAngle {
-    /// 90 degrees: links that are in line at rest.
+pub enum Shortening {
+    /// Not at all: the elements are linear, as the paper's.
     #[default]
-    Straight,
-    /// The angle of the undeflected tool in the well at spin zero: links keep the well's bend, which turns with them.
-    AsBuilt,
-}
-
-/// All joints of the pipe.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct JointDescription {
-    /// Which rows hold.
-    pub kind: JointKind,
-    /// Bend angle chi at which the stop begins (rad).
-    pub limit: f64,
-    /// Rotational stiffness of the stop (N m/rad).
-    pub stop_stiffness: f64,
-    /// Hunt-Crossley damping of the stop (s/rad).
-    pub stop_damping: f64,
-    /// Phase of the first joint's cross about the shaft (rad).
-    pub cross_phase: f64,
-    /// Turn of the cross from one joint to the next (rad).
-    pub cross_phase_step: f64,
-    /// Theta of Eq. 13 for [`JointKind::Revolute`].
-    pub hinge_angle: HingeAngle,
-}
-
-impl JointDescription {
-    /// Joints of one kind that bend up to `limit` (rad), with the stop of the paper's case and crosses that turn by 90
-    /// degrees from joint to joint.
-    #[must_use]
-    pub const fn new(kind: JointKind, limit: f64) -> Self {
-        Self {
-            kind,
-            limit,
-            stop_stiffness: 2e5,
-            stop_damping: 0.5,
-            cross_phase: 0.0,
-            cross_phase_step: FRAC_PI_2,
-            hinge_angle: HingeAngle::Straight,
-        }
-    }
+    None,
+    /// By the square of the tilt.
+    SecondOrder,
 }
 
 /// Rayleigh damping C = alpha M + beta K, Eq. 7.
@@ -194,6 +178,24 @@ pub struct GapDescription {
     pub friction_tangential: f64,
     /// Coulomb coefficient along the axis, mu_2.
     pub friction_axial: f64,
+    /// How friction follows from sliding.
+    pub friction_law: FrictionLaw,
+    /// Speed at which the regularised friction of this layer reaches 71 % of Coulomb's (m/s); `None` takes
+    /// [`ToolDescription::slip_speed`]. A bristle has none.
+    pub slip_speed: Option<f64>,
+}
+
+/// How the friction of a gap layer follows from sliding.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FrictionLaw {
+    /// Around and along by themselves, Eq. 25.
+    #[default]
+    Separate,
+    /// Against the whole sliding velocity.
+    Vector,
+    /// Against the whole sliding velocity, with an elastic slip before it: the contact can stick.
+    Bristle,
 }
 
 impl GapDescription {
@@ -206,6 +208,8 @@ impl GapDescription {
             damping: 0.5,
             friction_tangential: friction,
             friction_axial: friction,
+            friction_law: FrictionLaw::Separate,
+            slip_speed: None,
         }
     }
 }
@@ -318,6 +322,18 @@ pub enum WobPath {
     /// The ends of both pipes are tied axially. A jointed pipe deflects across the hole and carries hardly any of the
     /// load.
     Shared,
+}
+
+/// Where the weight on bit of the inputs is measured.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WeightPlace {
+    /// At the bit: it acts as it is.
+    #[default]
+    Bit,
+    /// At the kick-off, as the axial force on the guide there. The weight at the bit follows so that the guide's
+    /// reaction becomes the input: friction and weight of the guide lie between the two.
+    Kickoff,
 }
 
 /// A load over time.

@@ -1,9 +1,15 @@
 //! The matrices of a span whose inner stations are slaved to its ends (Guyan): made once per tool.
 
+mod columns_of;
+mod guyan;
+
+use columns_of::{columns, end_column, force_rows, lateral_columns, motion_columns, with_tension};
+use guyan::{Guyan, slowest};
 use nalgebra::{DMatrix, Matrix3};
 
-use super::columns::{EndColumn, TENSION};
+use super::columns::EndColumn;
 use super::precision::OnNodesInBoth;
+use crate::elements::mud::{Lateral, MudLump};
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -25,8 +31,14 @@ pub(super) struct LinkMatrices {
     pub stiffness: Aligned<[SpanMatrix; 2]>,
     pub mass: Aligned<[SpanMatrix; 2]>,
     pub geometric: Aligned<[SpanMatrix; 2]>,
+    /// Stiffness of the guide's preload; none where it has none.
+    pub preload: Option<Box<Aligned<SpanMatrix>>>,
+    /// The mud that couples pipe and guide; none without mud.
+    pub mud: Option<Box<MudMatrices>>,
     /// Mean axial force (N) by the ends' displacements; also in lane [`TENSION`] of the geometric stiffness.
     pub tension: Aligned<[EndColumn; 2]>,
+    /// E A / L of the pipe (N/m).
+    pub axial: f64,
     /// Lateral position of each station but the first in its station's frame: y in 0..8, z in 8..16.
     pub lateral: Aligned<[SpanMatrix; 2]>,
     /// Local motion of each station, the top included: the pipe's in the station's frame, rotations times its radius; the
@@ -48,13 +60,42 @@ pub(super) struct LinkMatrices {
     pub compliance: [DMatrix<f64>; 2],
 }
 
+/// The mud's part in a span that is not in its mass: what couples pipe and guide, and viscous damping.
+#[derive(Debug, Clone)]
+pub(super) struct MudMatrices {
+    /// Mass on the ends of pipe and guide by the motion of the other's.
+    pub mass_across: Aligned<[SpanMatrix; 2]>,
+    /// Damping by the own motion, and by that of the other's ends.
+    pub drag: Aligned<[SpanMatrix; 2]>,
+    pub drag_across: Aligned<[SpanMatrix; 2]>,
+}
+
+impl MudMatrices {
+    fn is_close(&self, other: &Self) -> bool {
+        [
+            (&self.mass_across, &other.mass_across),
+            (&self.drag, &other.drag),
+            (&self.drag_across, &other.drag_across),
+        ]
+        .into_iter()
+        .all(|(a, b)| (0..2).all(|body| near(a[body].as_flattened(), b[body].as_flattened())))
+    }
+}
+
+/// Whether two lists of numbers are the same but for rounding.
+fn near(a: &[f64], b: &[f64]) -> bool {
+    let scale = a.iter().chain(b).fold(0.0_f64, |m, x| m.max(x.abs()));
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * scale)
+}
+
 impl LinkMatrices {
     /// Of the span of `per` elements below station `first`.
     pub fn of(model: &Model, first: usize, per: usize) -> Self {
         let span = Span { model, first, per };
         let matrices = span.assembled();
-        let [pipe, guide] = span.slaving(&matrices);
-        let slowest = pipe.slowest.min(guide.slowest);
+        let preload = span.preload();
+        let [pipe, guide] = span.slaving(&matrices, preload.as_ref());
+        let slowest = span.slowest(&matrices, preload.as_ref(), [&pipe, &guide]);
         let slaved = [pipe.slaved * span.to_node_unknowns(), guide.slaved];
         let compliance = [pipe.compliance, guide.compliance];
         // Guyan: what the inner nodes' matrices come to at the ends, S^T A S.
@@ -69,7 +110,10 @@ impl LinkMatrices {
             stiffness: condensed(STIFFNESS),
             mass: condensed(MASS),
             geometric: with_tension(condensed(GEOMETRIC), &tension),
+            mud: span.mud_matrices(&slaved).map(Box::new),
+            preload: preload.map(|preload| Box::new(Aligned(columns(&(slaved[1].transpose() * preload * &slaved[1]))))),
             tension: Aligned(tension.map(|tension| end_column(|j| tension[j]))),
+            axial: span.axial(),
             lateral: lateral_columns(&maps),
             motion: maps.iter().map(motion_columns).collect(),
             on_nodes: OnNodesInBoth::of(force.iter().map(|rows| &**rows), model.guide_radii),
@@ -100,10 +144,6 @@ impl LinkMatrices {
 
     /// Whether `other` is the same but for rounding.
     pub fn is_close(&self, other: &Self) -> bool {
-        let near = |a: &[f64], b: &[f64]| {
-            let scale = a.iter().chain(b).fold(0.0_f64, |m, x| m.max(x.abs()));
-            a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * scale)
-        };
         (0..2).all(|body| {
             near(
                 self.stiffness[body].as_flattened(),
@@ -115,7 +155,15 @@ impl LinkMatrices {
                 )
                 && near(&self.tension[body], &other.tension[body])
                 && near(self.slaved[body].as_slice(), other.slaved[body].as_slice())
-        }) && self
+        }) && match (&self.preload, &other.preload) {
+            (Some(a), Some(b)) => near(a.as_flattened(), b.as_flattened()),
+            (None, None) => true,
+            _ => false,
+        } && match (&self.mud, &other.mud) {
+            (Some(a), Some(b)) => a.is_close(b),
+            (None, None) => true,
+            _ => false,
+        } && self
             .motion
             .iter()
             .zip(&other.motion)
@@ -152,12 +200,110 @@ impl Span<'_> {
                 part += from;
             }
         }
+        if let Some([pipe, _, guide]) = self.mud(|mud| mud.mass) {
+            matrices[0][MASS] += pipe;
+            matrices[1][MASS] += guide;
+        }
         matrices
     }
 
+    /// A matrix of the mud over all nodes of the span: of the pipe, of the pipe by the guide, of the guide.
+    fn mud(&self, matrix: impl Fn(&MudLump) -> Lateral) -> Option<[DMatrix<f64>; 3]> {
+        let mud = self.model.mud.as_ref()?;
+        let size = 6 * (self.per + 1);
+        let mut out: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(size, size));
+        for e in 0..self.per {
+            let matrix = matrix(&mud.halves[self.first + e]);
+            for i in [e, e + 1] {
+                let turn = self.pipe_to_station(i);
+                for k in 1..3 {
+                    let (at, guide) = (6 * i, 6 * i + k);
+                    for row in 0..3 {
+                        for column in 0..3 {
+                            out[0][(at + row, at + column)] += turn[(k, row)] * turn[(k, column)] * matrix.pipe;
+                        }
+                        out[1][(at + row, guide)] += turn[(k, row)] * matrix.coupling;
+                    }
+                    out[2][(guide, guide)] += matrix.guide;
+                }
+            }
+        }
+        Some(out)
+    }
+
+    /// Rotation of the pipe's displacements at station `i` of the span, in its link's frame, to the station's frame.
+    fn pipe_to_station(&self, i: usize) -> Matrix3<f64> {
+        let station = &self.model.stations[self.first + i];
+        match station.joint.filter(|_| i == 0) {
+            // The station's own rotation is that of the link above.
+            Some(joint) => station.frame.transpose() * self.model.joints[joint].lower,
+            None => station.pipe_to_station,
+        }
+    }
+
+    /// What the mud's matrices come to at the ends.
+    fn mud_matrices(&self, slaved: &[DMatrix<f64>; 2]) -> Option<MudMatrices> {
+        let on_ends =
+            |body: usize, matrix: &DMatrix<f64>, by: usize| columns(&(slaved[body].transpose() * matrix * &slaved[by]));
+        let across = |matrix: &DMatrix<f64>| Aligned([on_ends(0, matrix, 1), on_ends(1, &matrix.transpose(), 0)]);
+        let [_, mass, _] = self.mud(|mud| mud.mass)?;
+        let [pipe, drag, guide] = self.mud(|mud| mud.drag)?;
+        Some(MudMatrices {
+            mass_across: across(&mass),
+            drag: Aligned([on_ends(0, &pipe, 0), on_ends(1, &guide, 1)]),
+            drag_across: across(&drag),
+        })
+    }
+
+    /// Slowest frequency of the inner nodes, the ends held (rad/s). Mud couples pipe and guide, which lowers it.
+    fn slowest(
+        &self,
+        [pipe, guide]: &[[DMatrix<f64>; 3]; 2],
+        preload: Option<&DMatrix<f64>>,
+        [of_pipe, of_guide]: [&Guyan; 2],
+    ) -> f64 {
+        let alone = of_pipe.slowest.min(of_guide.slowest);
+        let inner = 6 * (self.per - 1);
+        let coupling = match self.mud(|mud| mud.mass) {
+            Some([_, coupling, _]) if inner > 0 && alone > 0.0 && of_guide.slowest.is_finite() => coupling,
+            _ => return alone,
+        };
+        let both = |pipe: &DMatrix<f64>, guide: &DMatrix<f64>, coupling: Option<&DMatrix<f64>>| {
+            let part = |matrix: &DMatrix<f64>| matrix.view((6, 6), (inner, inner)).clone_owned();
+            let mut out = DMatrix::zeros(2 * inner, 2 * inner);
+            out.view_mut((0, 0), (inner, inner)).copy_from(&part(pipe));
+            out.view_mut((inner, inner), (inner, inner)).copy_from(&part(guide));
+            if let Some(coupling) = coupling.map(part) {
+                out.view_mut((0, inner), (inner, inner)).copy_from(&coupling);
+                out.view_mut((inner, 0), (inner, inner))
+                    .copy_from(&coupling.transpose());
+            }
+            out
+        };
+        let of_guide = preload.map_or_else(|| guide[STIFFNESS].clone(), |preload| &guide[STIFFNESS] + preload);
+        let stiffness = both(&pipe[STIFFNESS], &of_guide, None);
+        let mass = both(&pipe[MASS], &guide[MASS], Some(&coupling));
+        // Without a frequency the span is split.
+        slowest(&stiffness, &mass).unwrap_or(0.0).min(alone)
+    }
+
+    /// Stiffness of the guide's preload over all nodes of the span.
+    fn preload(&self) -> Option<DMatrix<f64>> {
+        let size = 6 * (self.per + 1);
+        let mut out: Option<DMatrix<f64>> = None;
+        for e in 0..self.per {
+            if let Some(preload) = &self.model.guide[self.first + e].preload {
+                let out = out.get_or_insert_with(|| DMatrix::zeros(size, size));
+                let mut part = out.view_mut((6 * e, 6 * e), (12, 12));
+                part += &preload.stiffness;
+            }
+        }
+        out
+    }
+
     /// How the inner nodes of pipe and guide follow the ends.
-    fn slaving(&self, [pipe, guide]: &[[DMatrix<f64>; 3]; 2]) -> [Guyan; 2] {
-        let of = |[stiffness, mass, _]: &[DMatrix<f64>; 3]| {
+    fn slaving(&self, [pipe, guide]: &[[DMatrix<f64>; 3]; 2], preload: Option<&DMatrix<f64>>) -> [Guyan; 2] {
+        let of = |stiffness: &DMatrix<f64>, mass: &DMatrix<f64>| {
             // Inner nodes without a static solution count as infinitely slow, so that the span is split.
             Guyan::of(stiffness, mass).unwrap_or_else(|| Guyan {
                 slowest: 0.0,
@@ -167,9 +313,12 @@ impl Span<'_> {
         let guide = if self.model.description.guide_fixed {
             Guyan::held(self.per)
         } else {
-            of(guide)
+            match preload {
+                Some(preload) => of(&(&guide[STIFFNESS] + preload), &guide[MASS]),
+                None => of(&guide[STIFFNESS], &guide[MASS]),
+            }
         };
-        [of(pipe), guide]
+        [of(&pipe[STIFFNESS], &pipe[MASS]), guide]
     }
 
     /// From the unknowns of the nodes at both ends to the displacements of the pipe's ends. A node has the displacement of
@@ -214,6 +363,12 @@ impl Span<'_> {
         ]
     }
 
+    /// Axial stiffness of the pipe's elements one after the other (N/m).
+    fn axial(&self) -> f64 {
+        let elements = &self.model.pipe[self.first..self.first + self.per];
+        1.0 / elements.iter().map(|e| 1.0 / e.beam.tension(1.0)).sum::<f64>()
+    }
+
     /// The local motion of pipe and guide at each station, the top included, by the unknowns of the ends: six rows, twelve
     /// columns. At the span's top it is the span above that meets the gap, but for the tool's first station.
     fn station_maps(&self, slaved: &[DMatrix<f64>; 2]) -> Vec<[DMatrix<f64>; 2]> {
@@ -253,37 +408,6 @@ impl Span<'_> {
     }
 }
 
-/// Lateral rows of the stations' maps, all stations of a span in the lanes of one column.
-fn lateral_columns(maps: &[[DMatrix<f64>; 2]]) -> Aligned<[SpanMatrix; 2]> {
-    let mut lateral = Aligned([[[0.0; 16]; 12]; 2]);
-    for (i, maps) in maps.iter().enumerate().skip(1) {
-        for (columns, map) in lateral.iter_mut().zip(maps) {
-            for (j, column) in columns.iter_mut().enumerate() {
-                (column[i - 1], column[8 + i - 1]) = (map[(1, j)], map[(2, j)]);
-            }
-        }
-    }
-    lateral
-}
-
-/// A station's maps by columns: the motion is their sum, each times an unknown of the ends.
-fn motion_columns(maps: &[DMatrix<f64>; 2]) -> Aligned<MotionColumns> {
-    let columns = |map: &DMatrix<f64>| {
-        std::array::from_fn(|j| {
-            let mut column = [0.0; 8];
-            (0..6).for_each(|k| column[k] = map[(k, j)]);
-            column
-        })
-    };
-    Aligned([columns(&maps[0]), columns(&maps[1])])
-}
-
-/// The same maps by rows: the force on the ends is their sum, each times a component of the local force.
-fn force_rows(maps: &[DMatrix<f64>; 2]) -> Aligned<ForceRows> {
-    let rows = |map: &DMatrix<f64>| std::array::from_fn(|k| end_column(|j| map[(k, j)]));
-    Aligned([rows(&maps[0]), rows(&maps[1])])
-}
-
 /// From a node's displacements to the local motion at a station: the pipe's in the station's frame, rotations times its
 /// radius; the guide's.
 fn local(model: &Model, station: usize, body: usize) -> DMatrix<f64> {
@@ -301,85 +425,8 @@ pub(super) fn local_lateral(model: &Model, station: usize, body: usize) -> DMatr
     local(model, station, body).rows(1, 2).clone_owned()
 }
 
-/// Geometric stiffness with the axial force in the lane [`TENSION`].
-fn with_tension(mut matrices: Aligned<[SpanMatrix; 2]>, tension: &[[f64; 12]; 2]) -> Aligned<[SpanMatrix; 2]> {
-    for (columns, tension) in matrices.iter_mut().zip(tension) {
-        for (column, tension) in columns.iter_mut().zip(tension) {
-            column[TENSION] = *tension;
-        }
-    }
-    matrices
-}
-
 /// Row of an [`EndColumn`] of end unknown `k` of twelve.
 #[inline(always)]
 pub(super) const fn row(k: usize) -> usize {
     if k < 6 { k } else { k + 2 }
-}
-
-fn columns(matrix: &DMatrix<f64>) -> SpanMatrix {
-    std::array::from_fn(|j| end_column(|i| matrix[(i, j)]))
-}
-
-/// A column of the twelve unknowns of both ends.
-fn end_column(of: impl Fn(usize) -> f64) -> EndColumn {
-    let mut column = [0.0; 16];
-    (0..12).for_each(|i| column[row(i)] = of(i));
-    column
-}
-
-/// A span's inner nodes, their ends held (Guyan).
-struct Guyan {
-    /// Displacements of all nodes by those of the two ends, twelve columns.
-    slaved: DMatrix<f64>,
-    /// K_ii^-1.
-    compliance: DMatrix<f64>,
-    /// Slowest inner frequency (rad/s).
-    slowest: f64,
-}
-
-impl Guyan {
-    /// Of a span all of whose inner nodes are held too.
-    fn held(per: usize) -> Self {
-        let n = 6 * (per + 1);
-        let mut slaved = DMatrix::zeros(n, 12);
-        for i in 0..6 {
-            (slaved[(i, i)], slaved[(n - 6 + i, 6 + i)]) = (1.0, 1.0);
-        }
-        Self {
-            slaved,
-            compliance: DMatrix::zeros(n - 12, n - 12),
-            slowest: f64::INFINITY,
-        }
-    }
-
-    fn of(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<Self> {
-        let n = stiffness.nrows();
-        let held = Self::held(n / 6 - 1);
-        let inner = n - 12;
-        if inner == 0 {
-            return Some(held);
-        }
-        let mut slaved = held.slaved;
-        let part = |matrix: &DMatrix<f64>| matrix.view((6, 6), (inner, inner)).clone_owned();
-        let factor = part(mass).cholesky()?.l();
-        let mut to_ends = DMatrix::zeros(inner, 12);
-        to_ends
-            .view_mut((0, 0), (inner, 6))
-            .copy_from(&stiffness.view((6, 0), (inner, 6)));
-        to_ends
-            .view_mut((0, 6), (inner, 6))
-            .copy_from(&stiffness.view((6, n - 6), (inner, 6)));
-        let inside = part(stiffness).cholesky()?;
-        slaved.view_mut((6, 0), (inner, 12)).copy_from(&-inside.solve(&to_ends));
-        // L^-1 K L^-T of K x = omega^2 L L^T x.
-        let left = factor.solve_lower_triangular(&part(stiffness))?;
-        let both = factor.solve_lower_triangular(&left.transpose())?;
-        let symmetric = 0.5 * (&both + both.transpose());
-        Some(Self {
-            slaved,
-            compliance: inside.inverse(),
-            slowest: symmetric.symmetric_eigenvalues().min().max(0.0).sqrt(),
-        })
-    }
 }

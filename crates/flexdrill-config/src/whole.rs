@@ -1,0 +1,168 @@
+//! The checks of a whole configuration: every section, and the keys that exclude each other.
+
+use super::Schema;
+use super::boundary::{BottomAxial, Drive, Preset};
+use super::checker::Checker;
+use super::inputs::Measured;
+use super::place::Mesh;
+use super::rock::Law;
+use super::string::Model;
+use flexdrill_core::tool::WeightPlace;
+
+impl Schema {
+    /// Whether the hoist lowers the tool: the rock then holds the bit.
+    pub(crate) fn has_hoist(&self) -> bool {
+        self.rock.law == Law::DepthOfCut
+    }
+
+    pub(crate) fn mesh(&self) -> Mesh {
+        Mesh {
+            links: self.tool.links,
+            elements_per_link: self.tool.elements_per_link,
+            length: self.well.length(),
+        }
+    }
+
+    /// String, rock and the keys that exclude each other.
+    fn check_string(&self, c: &mut Checker) {
+        let has_line = self.string.model == Model::Line;
+        c.below("rock", |c| self.rock.check(c, has_line));
+        c.below("string", |c| self.string.check(c, self.solver.time_step));
+        c.require(
+            !has_line || self.boundary.drive == Drive::Top,
+            "boundary.drive",
+            "none",
+            "",
+            "top with string.model: line",
+            "the string turns the first link",
+        );
+        let downhole = self.inputs.rotary_speed.measured == Measured::Downhole;
+        c.require(
+            !has_line || !downhole,
+            "string.model",
+            "line",
+            "",
+            "measured, or inputs.rotary_speed.measured: surface",
+            "a speed that is measured downhole has the swing of the string already",
+        );
+        c.require(
+            self.string.model != Model::Measured || downhole,
+            "string.model",
+            "measured",
+            "",
+            "none or line, or inputs.rotary_speed.measured: downhole",
+            "a speed at the surface is not that of the first link",
+        );
+        c.require(
+            !self.has_hoist() || self.boundary.bottom_axial == BottomAxial::Free,
+            "boundary.bottom_axial",
+            "fixed",
+            "",
+            "free with rock.law: depth_of_cut",
+            "the rock holds the bit along the hole",
+        );
+        c.require(
+            !self.has_hoist() || self.boundary.weight_on_bit_at == WeightPlace::Bit,
+            "boundary.weight_on_bit_at",
+            "kickoff",
+            "",
+            "bit with rock.law: depth_of_cut",
+            "the hoist holds the weight at the surface, and the rock gives that at the bit",
+        );
+        c.require(
+            !self.has_hoist() || self.boundary.preset == Preset::Paper,
+            "boundary.preset",
+            "none",
+            "",
+            "paper with rock.law: depth_of_cut",
+            "the hoist carries the guide's top, which no support may hold",
+        );
+    }
+
+    pub(crate) fn check(&self, c: &mut Checker) {
+        let mesh = self.mesh();
+        c.below("run", |c| self.run.check(c));
+        c.below("well", |c| self.well.check(c));
+        c.below("tool", |c| self.tool.check(c));
+        let guide = self.tool.guide.outer_diameter;
+        c.require(
+            guide < self.well.hole_diameter,
+            "well.hole_diameter",
+            self.well.hole_diameter,
+            "m",
+            format!("above the guide's outer diameter, {guide} m"),
+            "the guide lies in the hole",
+        );
+        c.below("contact", |c| self.contact.check(c));
+        c.below("environment", |c| {
+            self.environment.check_numbers(c);
+            if let Some(pressure) = &self.environment.pressure {
+                c.below("pressure", |c| pressure.check(c, self));
+            }
+            if let Some(mud) = &self.environment.mud {
+                c.below("mud", |c| mud.check(c, self));
+            }
+        });
+        c.below("boundary", |c| self.boundary.check(c, &mesh));
+        self.check_string(c);
+        let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();
+        c.require(
+            !guide_may_spin,
+            "boundary.supports",
+            "nothing that holds the guide's psi",
+            "",
+            "given psi of the guide in a straight well",
+            "only curvature keeps the guide from turning",
+        );
+        let phase = self.tool.guide.free_curvature_phase_deg;
+        c.require(
+            phase == 0.0 || self.boundary.holds_guide_spin(),
+            "tool.guide.free_curvature_phase_deg",
+            phase,
+            "deg",
+            "0, or boundary.supports given psi of the guide",
+            "a bend off the high side turns the guide until it lies along the build; the model has small turns only",
+        );
+        c.below("loads", |c| {
+            for (index, load) in self.loads.iter().enumerate() {
+                c.below(index, |c| load.check(c, &mesh));
+            }
+        });
+        c.below("masses", |c| {
+            for (index, mass) in self.masses.iter().enumerate() {
+                c.below(index, |c| mass.check(c, &mesh));
+            }
+        });
+        c.below("initial", |c| self.initial.check(c, self.start));
+        c.below("solver", |c| self.solver.check(c));
+        c.below("inputs", |c| self.inputs.check(c));
+        c.below("network", |c| self.network.check(c));
+        c.below("whirl", |c| self.whirl.check(c, &mesh));
+        c.below("stick_slip", |c| self.stick_slip.check(c));
+        c.below("shock", |c| self.shock.check(c));
+        c.below("joint_load", |c| self.joint_load.check(c));
+        c.below("chaotic_whirl", |c| self.chaotic_whirl.check(c));
+        c.below("transfer", |c| self.transfer.check(c));
+        c.below("look_ahead", |c| self.look_ahead.check(c));
+        c.below("guide_preload", |c| self.guide_preload.check(c));
+        c.below("pressure_folding", |c| self.pressure_folding.check(c));
+        c.require(
+            self.guide_preload.rated_moment_nm == 0.0 || self.tool.guide.free_curvature().is_some(),
+            "guide_preload.rated_moment_nm",
+            self.guide_preload.rated_moment_nm,
+            "N m",
+            "0, or tool.guide.free_curvature given",
+            "a guide that was made with the curvature of the hole has no preload",
+        );
+        c.require(
+            self.pressure_folding.rated_compression_kn == 0.0 || self.environment.pressure.is_some(),
+            "pressure_folding.rated_compression_kn",
+            self.pressure_folding.rated_compression_kn,
+            "kN",
+            "0, or environment.pressure given",
+            "without pressure in the pipe none of its compression comes from it",
+        );
+        c.below("alarms", |c| self.alarms.check(c));
+        c.below("outputs", |c| self.outputs.check(c));
+    }
+}

@@ -1,0 +1,245 @@
+//! A step in time: in parts that are halved and retried until they converge.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::Stepper;
+use super::settings::Forcing;
+use crate::chain::ChainEquations;
+use crate::dynamics::conditions::{Conditions, TopEnd};
+use crate::dynamics::energy::{SpanWorks, StepEnds};
+use crate::dynamics::newton::{self, Rejected, Stride};
+use crate::dynamics::numbered::Numbered;
+use crate::dynamics::outcome::StepOutcome;
+use crate::dynamics::phases::Phase;
+use crate::dynamics::stations::StationEquations;
+use crate::dynamics::sub_steps::SubSteps;
+use crate::dynamics::tolerances::Accuracy;
+use crate::elements::string::StringStep;
+use crate::tool::description::Direction;
+
+/// Whole turns after which they are subtracted from the pipe's spins, so that the rounding of the angles stays below that of
+/// the forces however long the tool runs.
+const UNWIND_TURNS: f64 = 1000.0;
+
+/// A whole step, of which parts are taken.
+struct WholeStep {
+    /// Its size (s).
+    h: f64,
+    /// Time at its start (s).
+    time: f64,
+    /// Angle of the drive at its start (rad).
+    drive_angle: f64,
+    forcing: Forcing,
+}
+
+impl WholeStep {
+    /// Angle of the drive (rad) at a part of the step, 0 to 1: the speed changes linearly.
+    fn drive_angle_at(&self, part: f64) -> f64 {
+        let [speed_0, speed_1] = self.forcing.rotary_speed;
+        self.drive_angle + self.h * part * (speed_0 + 0.5 * (speed_1 - speed_0) * part)
+    }
+}
+
+/// What the string does at the end of a step, as conditions of the tool.
+pub(super) fn apply_string(conditions: &mut Conditions, step: &StringStep, drive_angle: f64) {
+    conditions.top = [Some(TopEnd::of(step.torsion)), step.axial.map(TopEnd::of)];
+    conditions.drive_torque = Some(step.drive_torque);
+    conditions.drive_angle = drive_angle + step.drive_turns;
+    if step.axial.is_some() {
+        (conditions.depth, conditions.rate_of_penetration) = (step.depth, step.advance);
+    }
+}
+
+impl Stepper {
+    /// Advances by `h` (s) under `forcing`, in the parts of [`Stepper::set_refinement`]. A sub-step that does not converge
+    /// is halved and retried; when the smallest one fails, the state stays that before the step.
+    pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
+        self.prepare(h);
+        let whole = WholeStep {
+            h,
+            time: self.track.state.time,
+            drive_angle: self.track.state.drive_angle,
+            forcing: *forcing,
+        };
+        let audit_before = self.audit;
+        let mut sub_steps = SubSteps::new(self.max_halvings, self.refinement);
+        if self.refinement > 0 {
+            self.keep();
+        }
+        let mut iterations = 0;
+        while let Some(part) = sub_steps.part() {
+            match self.sub_step(&whole, part) {
+                Ok(made) => {
+                    iterations += made;
+                    sub_steps.accept();
+                }
+                Err(Rejected {
+                    iterations: made,
+                    failure,
+                }) => {
+                    iterations += made;
+                    self.counters.rejected += 1;
+                    self.counters.last_rejection = Some(failure);
+                    if sub_steps.is_first() {
+                        // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
+                        self.keep();
+                    }
+                    if !sub_steps.reject() {
+                        self.retreat();
+                        self.audit = audit_before;
+                        self.counters.failed_steps += 1;
+                        self.counters.iterations += u64::from(iterations);
+                        return StepOutcome::Failed(failure);
+                    }
+                }
+            }
+        }
+        let deepest = sub_steps.deepest();
+        self.unwind();
+        self.view_is_current = false;
+        self.inputs = forcing.end();
+        self.counters.iterations += u64::from(iterations);
+        self.counters.halved_steps += u64::from(deepest > 0);
+        self.counters.deepest_halving = self.counters.deepest_halving.max(deepest);
+        StepOutcome::Advanced {
+            iterations,
+            halvings: deepest,
+        }
+    }
+
+    /// Keeps the present state for [`Stepper::retreat`].
+    fn keep(&mut self) {
+        self.track.keep();
+        self.bit_mark = self.interactions.bit.mark();
+        if let Some(string) = &mut self.string {
+            string.keep();
+        }
+    }
+
+    /// Goes back to the state kept last.
+    fn retreat(&mut self) {
+        self.track.retreat();
+        self.interactions.bit.rewind(self.bit_mark);
+        if let Some(string) = &mut self.string {
+            string.retreat();
+        }
+    }
+
+    /// The sub-step between two parts (0 to 1) of a whole step.
+    fn sub_step(&mut self, whole: &WholeStep, (from, to): (f64, f64)) -> Result<u32, Rejected> {
+        let mut conditions = self.conditions(whole.time + whole.h * to, &whole.forcing.at(to));
+        conditions.drive_angle = whole.drive_angle_at(to);
+        let step = whole.h * (to - from);
+        if let Some(string) = &mut self.string {
+            let [speed_0, speed_1] = whole.forcing.rotary_speed;
+            let speed = speed_0 + (speed_1 - speed_0) * to;
+            let at = string.step(
+                conditions.time,
+                step,
+                speed,
+                conditions.weight_on_bit,
+                conditions.rate_of_penetration,
+            );
+            apply_string(&mut conditions, &at, self.track.state.drive_angle);
+        }
+        let stride = Stride {
+            scheme: self.scheme,
+            h: step,
+            foresight: step,
+            foreseen_part: self.scheme.foreseen_part(),
+            accuracy: Accuracy::Motion,
+            most_iterations: self.tolerances.max_iterations,
+        };
+        let Self {
+            model,
+            chain,
+            stations,
+            interactions,
+            stopwatch,
+            track,
+            string,
+            ..
+        } = self;
+        let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
+        let (iterations, numbered, spans) = if let Some(chain) = chain {
+            // Spans are deflected by the forces at the start of the step.
+            to.deflection.copy_from_slice(&track.energy.deflection);
+            // Pins resist by the forces there, too.
+            chain.set_pin_moments(
+                &model.description.joint.friction,
+                &track.energy.joints,
+                &mut to.pin_moments,
+            );
+            let mut equations = ChainEquations {
+                model,
+                chain,
+                interactions,
+                stopwatch,
+            };
+            let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
+            equations.interactions.keep_bristles(to);
+            equations.energy(energy, to, &conditions);
+            track.measure_displacements();
+            let spans = chain.span_works(&track.moved, &track.energy.spans, &track.trial_energy.spans);
+            (made, chain.model.numbered(model), spans)
+        } else {
+            let stations = Arc::make_mut(stations);
+            stations.set_pin_moments(model, from, &mut to.pin_moments);
+            let mut equations = StationEquations {
+                model,
+                room: stations,
+                interactions,
+                stopwatch,
+            };
+            let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
+            stations.show_torque_of_play(model, interactions, to);
+            interactions.keep_bristles(to);
+            energy.evaluate(model, to, &conditions, &stations.assembler, interactions);
+            track.measure_displacements();
+            (made, Numbered::of(model), SpanWorks::default())
+        };
+        interactions.bit.accept();
+        if let Some(string) = string {
+            string.accept(
+                track.trial.v[numbered.places.top_spin],
+                track.trial.v[numbered.places.guide_top],
+            );
+            track.trial_energy.add_string(string);
+        }
+        let ends = StepEnds {
+            h: step,
+            moved: &track.moved,
+            spans,
+            before: (&track.state, &track.energy),
+            after: (&track.trial, &track.trial_energy),
+        };
+        self.audit.add_step(&numbered, &ends, self.instructions);
+        stopwatch.lap(Phase::Energy);
+        track.take();
+        Ok(iterations)
+    }
+
+    /// Subtracts whole turns from the spins of the pipe.
+    fn unwind(&mut self) {
+        let state = &mut self.track.state;
+        if state.drive_angle.abs() < UNWIND_TURNS * TAU {
+            return;
+        }
+        let turns = UNWIND_TURNS.copysign(state.drive_angle);
+        self.turns += turns;
+        state.drive_angle -= turns * TAU;
+        self.interactions.bit.unwind(turns);
+        let mut unwind = |spin: usize| state.q[spin] -= turns * TAU;
+        if let Some(chain) = &self.chain {
+            chain.spins().for_each(unwind);
+            return;
+        }
+        for station in &self.model.stations {
+            unwind(station.pipe_above + Direction::Psi as usize);
+            if station.pipe_below != station.pipe_above {
+                unwind(station.pipe_below + Direction::Psi as usize);
+            }
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! How the motion begins: from a given state, with the string's end held until then.
+
+use std::sync::Arc;
+
+use super::Stepper;
+use super::advance::apply_string;
+use super::settings::Counters;
+use crate::chain::ChainEquations;
+use crate::dynamics::conditions::{Conditions, TopEnd};
+use crate::dynamics::outcome::EnergyAudit;
+use crate::dynamics::state::State;
+use crate::inputs::Inputs;
+
+/// Stiffness that holds the string's end while the tool comes to rest, in torsion (N m/rad) and along the hole (N/m): that
+/// of some metres of pipe, so that the end moves by micrometres.
+const HELD: [f64; 2] = [1e5, 1e8];
+
+/// Depth of the hole's bottom (m) while the tool comes to rest: far below the bit, which then carries no weight.
+const OFF_BOTTOM: f64 = 10.0;
+
+impl Stepper {
+    /// Takes `state`, in the numbering of the model, as the present one, with the audit starting at zero. The
+    /// accelerations must balance the forces.
+    pub fn start_from(&mut self, state: &State, inputs: &Inputs) {
+        let mut conditions = self.held(self.conditions(state.time, inputs));
+        self.lift_off_bottom();
+        let (to, scratch) = (&mut self.track.state, &mut self.track.trial);
+        if let Some(chain) = &mut self.chain {
+            // The view keeps what the chain has no unknowns for, and never writes: supports' and padding's values.
+            self.view.copy_from(state);
+            chain.take(&self.model, state, to);
+            let mut equations = ChainEquations {
+                model: &self.model,
+                chain,
+                interactions: &mut self.interactions,
+                stopwatch: &mut self.stopwatch,
+            };
+            // The balance over all stations is not quite the balance over the nodes.
+            let at_rest = to.v.iter().all(|&v| v == 0.0);
+            if at_rest {
+                equations.polish_rest(to, scratch, &conditions);
+            }
+            let h = if at_rest { 0.0 } else { self.prepared_for };
+            scratch.copy_from(to);
+            if equations.balance_accelerations(scratch, &conditions, h).is_ok() {
+                to.copy_from(scratch);
+            }
+        } else {
+            to.copy_from(state);
+        }
+        if state.scheme_step == 0.0 {
+            let State { a, lagged, .. } = to;
+            lagged.copy_from_slice(a);
+        }
+        self.begin_string(&mut conditions);
+        self.evaluate(&conditions, self.chain.is_none());
+        self.audit = EnergyAudit::default();
+        self.counters = Counters::default();
+        self.turns = 0.0;
+        self.inputs = *inputs;
+    }
+
+    /// Lifts the bit off the bottom of the hole.
+    pub(in crate::dynamics) fn lift_off_bottom(&mut self) {
+        self.interactions.bit.start(0.0, OFF_BOTTOM);
+    }
+
+    /// Conditions with the string's end held, while the tool comes to rest.
+    pub(in crate::dynamics) fn held(&self, mut conditions: Conditions) -> Conditions {
+        if let Some(string) = &self.string {
+            let axial = string.description().hoist.map(|_| TopEnd::held(HELD[1]));
+            conditions.top = [Some(TopEnd::held(HELD[0])), axial];
+        }
+        conditions
+    }
+
+    /// Begins the string's motion with what its held end carried, and the bit's path where the bit is.
+    fn begin_string(&mut self, conditions: &mut Conditions) {
+        let places = self.places();
+        let (spin, top) = (places.top_spin, places.guide_top);
+        let (bit_spin, guide_end) = (places.bit_spin, places.guide_end);
+        let state = &self.track.state;
+        (self.interactions.bit).start(state.q[bit_spin], state.q[guide_end]);
+        let Some(string) = &mut self.string else { return };
+        // The tool pushes back with what the end's stiffness takes.
+        let (torque, force) = (-HELD[0] * state.q[spin], -HELD[1] * state.q[top]);
+        let (speed, velocity) = (state.v[spin], state.v[top]);
+        string.begin(
+            state.time,
+            speed,
+            torque,
+            if conditions.top[1].is_some() { force } else { 0.0 },
+        );
+        // A string of which no step has been taken: its end is that of the waves it began with.
+        let at = string.present(speed, velocity);
+        apply_string(conditions, &at, state.drive_angle);
+    }
+
+    /// Evaluates forces and energies of the present state, with the axial forces that it holds or, without
+    /// `keep_axial`, those of its displacements.
+    pub(super) fn evaluate(&mut self, conditions: &Conditions, keep_axial: bool) {
+        let Self {
+            model,
+            chain,
+            stations,
+            interactions,
+            stopwatch,
+            track,
+            ..
+        } = self;
+        let (state, energy) = (&mut track.state, &mut track.energy);
+        interactions.begin(state, 0.0);
+        if let Some(chain) = chain {
+            let mut equations = ChainEquations {
+                model,
+                chain,
+                interactions,
+                stopwatch,
+            };
+            equations.evaluate(state, conditions, keep_axial);
+            equations.energy(energy, state, conditions);
+        } else {
+            let stations = Arc::make_mut(stations);
+            stations.assembler.residual(interactions, model, state, conditions);
+            energy.evaluate(model, state, conditions, &stations.assembler, interactions);
+        }
+        if let Some(string) = &self.string {
+            energy.add_string(string);
+        }
+        self.view_is_current = false;
+    }
+}

@@ -1,0 +1,303 @@
+//! Friction that sticks: Coulomb's law on an ellipse, with an elastic slip before it slides.
+//!
+//! The surfaces of a contact are held together by a tangential spring k_t. Over a step the contact slides by (dx_t,
+//! dx_x) (m), so that a force F of the step before becomes F - k_t dx as long as that lies within the ellipse f =
+//! sqrt((T / mu_t)^2 + (A / mu_x)^2) - Fn <= 0. Beyond it the contact slips along the gradient of f (maximum
+//! dissipation), which is the closest point of the ellipse:
+//!
+//! ```text
+//! trial F* = F0 - k_t dx;   f(F*) <= 0: F = F*          (sticks)
+//!                           f(F*) > 0: F_i = F*_i mu_i^2 / (mu_i^2 + lambda), lambda > 0 so that f(F) = 0   (slips)
+//! k_t = 2 (1 - nu) / (2 - nu) k_n                        (Mindlin 1949, J. Appl. Mech. 16)
+//! ```
+//!
+//! With equal coefficients F is F* scaled to the circle. In steady sliding F is the force of [`super::vector`] without
+//! regularisation. The tangent is that of the step (Simo & Hughes 1998, ch. 3): with M_i = mu_i^2 / (mu_i^2 + lambda)
+//! and g_i = M_i F_i / mu_i^2
+//!
+//! ```text
+//! dF = M dF* - g (g.dF* - Fn dFn) / sum(g_i F_i / mu_i^2).
+//! ```
+//!
+//! T acts on the inner body in the sense of positive spin, A down the hole (N). The state is the force F, from which
+//! the elastic slip is - F / k_t; it is zero where the gap is open. Energy |F|^2 / (2 k_t) is stored.
+
+use super::{GapLaw, Sliding, Touch};
+use crate::simd::number::Lane;
+
+/// Normal force below which nothing sticks (N): a billionth of what a step balances.
+const LEAST_NORMAL: f64 = 1e-9;
+/// Part of the normal force by which a slipping friction may miss the ellipse: some roundings.
+const ON_THE_ELLIPSE: f64 = 1e-14;
+/// Most steps towards the ellipse. The equation is nearly linear in the form that is solved; eight have sufficed for
+/// coefficients that differ by a factor of a thousand.
+const MOST_STEPS: usize = 40;
+
+/// Bristles of a layer.
+#[derive(Debug, Clone)]
+pub(super) struct Bristles {
+    /// Force of each gap at the start of the step, around and along (N); zero where it was open.
+    held: Vec<[f64; 2]>,
+    /// Size of the step (s); 0 at rest, where the bristles keep their forces.
+    step: f64,
+}
+
+/// The friction at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Friction {
+    /// Force around and along (N).
+    force: [f64; 2],
+    /// d force / d trial force: around, coupling, along (-).
+    by_trial: [f64; 3],
+    /// d force / d normal force, around and along (-).
+    by_normal: [f64; 2],
+}
+
+impl Friction {
+    const NONE: Self = Self {
+        force: [0.0; 2],
+        by_trial: [0.0; 3],
+        by_normal: [0.0; 2],
+    };
+
+    /// The point of the ellipse of `normal` force (N) and coefficients `mu` that is next to a `trial` force (N).
+    fn next_to(trial: [f64; 2], mu: [f64; 2], normal: f64) -> Self {
+        // Without friction in one direction the ellipse is a line.
+        let sticks = |k: usize| trial[k].abs() <= mu[k] * normal;
+        let line = |k: usize| {
+            if sticks(k) {
+                (trial[k], 1.0, 0.0)
+            } else {
+                let by_normal = mu[k].copysign(trial[k]);
+                (by_normal * normal, 0.0, by_normal)
+            }
+        };
+        match mu.map(|mu| mu > 0.0) {
+            _ if normal < LEAST_NORMAL => Self::NONE,
+            [false, false] => Self::NONE,
+            [true, false] => {
+                let (force, by_trial, by_normal) = line(0);
+                Self {
+                    force: [force, 0.0],
+                    by_trial: [by_trial, 0.0, 0.0],
+                    by_normal: [by_normal, 0.0],
+                }
+            }
+            [false, true] => {
+                let (force, by_trial, by_normal) = line(1);
+                Self {
+                    force: [0.0, force],
+                    by_trial: [0.0, 0.0, by_trial],
+                    by_normal: [0.0, by_normal],
+                }
+            }
+            [true, true] => Self::on_ellipse(trial, mu, normal),
+        }
+    }
+
+    fn on_ellipse(trial: [f64; 2], mu: [f64; 2], normal: f64) -> Self {
+        let square = mu.map(|mu| mu * mu);
+        // Share of the trial force in each direction that remains at lambda, and the length on the unit circle's scale.
+        let parts = |lambda: f64| square.map(|square| square / (square + lambda));
+        let length = |kept: [f64; 2]| {
+            let scaled = [0, 1].map(|k| trial[k] * kept[k] / mu[k]);
+            (scaled[0] * scaled[0] + scaled[1] * scaled[1]).sqrt()
+        };
+        if length([1.0; 2]) <= normal {
+            return Self {
+                force: trial,
+                by_trial: [1.0, 0.0, 1.0],
+                by_normal: [0.0; 2],
+            };
+        }
+        // Newton's method for 1 / length = 1 / normal, which is concave in lambda: from 0 on it never oversteps.
+        let mut lambda = 0.0;
+        for _ in 0..MOST_STEPS {
+            let kept = parts(lambda);
+            let now = length(kept);
+            let excess = now / normal - 1.0;
+            if excess <= ON_THE_ELLIPSE {
+                break;
+            }
+            let fall: f64 = (0..2)
+                .map(|k| {
+                    let scaled = trial[k] * kept[k] / mu[k];
+                    scaled * scaled / (square[k] + lambda)
+                })
+                .sum();
+            lambda += excess * now * now / fall;
+        }
+        let kept = parts(lambda);
+        let force = [0, 1].map(|k| trial[k] * kept[k]);
+        let slope = [0, 1].map(|k| force[k] / square[k]);
+        let gradient = [0, 1].map(|k| kept[k] * slope[k]);
+        let over = 1.0 / (gradient[0] * slope[0] + gradient[1] * slope[1]);
+        Self {
+            force,
+            by_trial: [
+                kept[0] - gradient[0] * gradient[0] * over,
+                -gradient[0] * gradient[1] * over,
+                kept[1] - gradient[1] * gradient[1] * over,
+            ],
+            by_normal: gradient.map(|gradient| gradient * normal * over),
+        }
+    }
+}
+
+impl Bristles {
+    /// Bristles of `stations` gaps, without force.
+    pub(super) fn new(stations: usize) -> Self {
+        Self {
+            held: vec![[0.0; 2]; stations],
+            step: 0.0,
+        }
+    }
+
+    /// Starts a step of size `step` (s) from the forces `held`; with 0 the bristles keep them.
+    pub(super) fn begin(&mut self, held: impl Iterator<Item = [f64; 2]>, step: f64) {
+        self.step = step;
+        self.held.iter_mut().zip(held).for_each(|(to, from)| *to = from);
+    }
+
+    /// Sets the friction of `touches`, the contacts at `stations` lane by lane, which have moved by `travel` since the
+    /// start of the step (m; rotations times radius).
+    #[inline(always)]
+    pub(super) fn rub(
+        &self,
+        law: &GapLaw,
+        stations: impl Iterator<Item = usize>,
+        touches: &mut Touch<Lane>,
+        travel: &[Lane; 8],
+    ) {
+        touches.by_travel = true;
+        let stiffness = law.bristle_stiffness;
+        for (lane, station) in stations.enumerate() {
+            let held = self.held[station];
+            let mut touch = touches.lane(lane);
+            let [x, y, z, psi, phi_y, phi_z, ..] = *travel[lane];
+            let sliding = Sliding::of(&touch, &[x, y, z, psi, phi_y, phi_z]);
+            touch.sliding_by = sliding.by;
+            let trial = [
+                held[0] - stiffness * sliding.around,
+                held[1] - stiffness * sliding.along,
+            ];
+            let friction = if self.step > 0.0 {
+                Friction::next_to(trial, law.friction(), touch.normal)
+            } else {
+                Friction {
+                    force: held,
+                    ..Friction::NONE
+                }
+            };
+            [touch.tangential, touch.axial] = friction.force;
+            // The tangent multiplies these by the normal force.
+            let per_normal = if self.step > 0.0 && touch.normal >= LEAST_NORMAL {
+                stiffness / touch.normal
+            } else {
+                0.0
+            };
+            let [around, coupling, along] = friction.by_trial.map(|x| per_normal * x);
+            touch.coupling = coupling;
+            for (slip, (speed, (slope, share))) in touch.slip.iter_mut().zip(
+                [sliding.around, sliding.along]
+                    .into_iter()
+                    .zip([around, along].into_iter().zip(friction.by_normal)),
+            ) {
+                (slip.speed, slip.slope, slip.friction) = (speed, slope, -share);
+            }
+            // Slip is what the travel leaves after the change of the elastic slip.
+            touch.friction_power = if self.step > 0.0 && stiffness > 0.0 {
+                let slipped = [0, 1].map(|k| friction.force[k] * (trial[k] - friction.force[k]));
+                (slipped[0] + slipped[1]) / (stiffness * self.step)
+            } else {
+                0.0
+            };
+            touches.set_lane(lane, &touch);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::support::Random;
+
+    /// Coefficients that are equal, differ, differ much, and vanish.
+    const COEFFICIENTS: [[f64; 2]; 6] = [
+        [0.3, 0.3],
+        [0.2, 0.4],
+        [0.7, 0.015],
+        [0.3, 0.0],
+        [0.0, 0.3],
+        [1e-3, 1.0],
+    ];
+
+    #[test]
+    fn the_force_is_on_the_ellipse_and_slips_with_most_dissipation() {
+        let mut random = Random(5);
+        for mu in COEFFICIENTS {
+            for _ in 0..2000 {
+                let normal = 1e3 * random.next().abs() + 1e-3;
+                let trial = [0, 1].map(|_| 1e3 * random.next() * random.next().abs());
+                let at = Friction::next_to(trial, mu, normal);
+                let on = |force: [f64; 2]| {
+                    let part = |k: usize| if mu[k] > 0.0 { force[k] / (mu[k] * normal) } else { 0.0 };
+                    part(0) * part(0) + part(1) * part(1)
+                };
+                // Twice what the search leaves, as this is the square.
+                assert!(on(at.force) <= 1.0 + 1e-13, "{mu:?} {trial:?} {at:?}");
+                // Any other admissible force takes no more work from the slip F* - F: that is the closest point.
+                let slip = [trial[0] - at.force[0], trial[1] - at.force[1]];
+                let work = at.force[0] * slip[0] + at.force[1] * slip[1];
+                let size = (trial[0] * trial[0] + trial[1] * trial[1]).max(normal * normal);
+                assert!(work >= -1e-12 * size, "slip gives energy: {work}");
+                for turn in 0..32 {
+                    let angle = 0.2 * f64::from(turn);
+                    let other = [mu[0] * normal * angle.cos(), mu[1] * normal * angle.sin()];
+                    // Directions without friction have no slip that friction knows of.
+                    let other = other[0] * slip[0] + other[1] * slip[1];
+                    assert!(other <= work + 1e-9 * size, "{mu:?}: {other} against {work}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_derivatives_are_those_of_differences() {
+        let mut random = Random(6);
+        let mut slipping = 0;
+        for mu in COEFFICIENTS {
+            for _ in 0..500 {
+                let normal = 1e3 * (0.1 + random.next().abs());
+                let trial = [0, 1].map(|_| 1e3 * random.next());
+                let at = Friction::next_to(trial, mu, normal);
+                slipping += u32::from(at.by_trial != [1.0, 0.0, 1.0]);
+                let h = 1e-4;
+                let difference = |trial_by: [f64; 2], normal_by: f64| {
+                    let side = |sign: f64| {
+                        let moved = [trial[0] + sign * trial_by[0], trial[1] + sign * trial_by[1]];
+                        Friction::next_to(moved, mu, normal + sign * normal_by).force
+                    };
+                    let (high, low) = (side(h), side(-h));
+                    [0, 1].map(|k| (high[k] - low[k]) / (2.0 * h))
+                };
+                let [a, b, c] = at.by_trial;
+                for (got, expected) in [
+                    (difference([1.0, 0.0], 0.0), [a, b]),
+                    (difference([0.0, 1.0], 0.0), [b, c]),
+                    (difference([0.0, 0.0], 1.0), at.by_normal),
+                ] {
+                    for k in 0..2 {
+                        // Forces of 1e3 N round to 1e-13 N over steps of 1e-4 N; the ellipse of coefficients a
+                        // thousandfold apart curves by h / (mu^2 F).
+                        assert!(
+                            (got[k] - expected[k]).abs() < 2e-5,
+                            "{mu:?} {trial:?}: {got:?} {expected:?}"
+                        );
+                    }
+                }
+            }
+        }
+        assert!(slipping > 1000, "{slipping}");
+    }
+}

@@ -1,0 +1,234 @@
+//! The bending preload of a guide whose curvature as made is not that of the path.
+//!
+//! A tube with the free curvature kf is bent into a path of curvature kb. In the section's own axes, which turn by psi
+//! about the tangent, it bends from kf to the curvature of its axis (Antman, Nonlinear Problems of Elasticity, 2nd ed.
+//! 2005, ch. 8). With the curvature of the axis k_y in the plane of the well and k_z out of it, bending stiffness EI alike
+//! about both axes, c = kf cos psi_0 and s = kf sin psi_0, where psi_0 is the angle of the free bend at psi = 0:
+//!
+//! ```text
+//! U = EI/2 int |k|^2 + kf^2 - 2 [ k_y (c cos psi - s sin psi) + k_z (c sin psi + s cos psi) ] ds.
+//! ```
+//!
+//! The elements have U for kf = kb at psi_0 = 0, a tube that is without stress in the path. This file has the rest, to
+//! second order in the displacements, dk = kb - c. For small tilts k_y = kb + phi_y' - kb phi_z^2 / 2 and
+//! k_z = phi_z' + kb phi_y phi_z / 2, primes along the node frames:
+//!
+//! ```text
+//! dU = EI int dk [ phi_y' + phi_z' psi - kb (psi^2 + phi_z^2) / 2 ]
+//!           + s [ kb psi - phi_z' + phi_y' psi - kb phi_y phi_z / 2 ] ds.
+//! ```
+//!
+//! The first term is the load: couples EI dk on both ends of an element, which cancel at inner stations of an arc. The
+//! others are a constant symmetric stiffness. For kf = 0 they cancel the elements' stiffness against psi: a tube that was
+//! straight turns about its axis without resistance. The term in phi_z^2 lets the bent tube swing about its chord as a
+//! rigid body. Third order is left out: for 0 < kf the guide may turn by small angles only, for kf = 0 by any.
+//!
+//! Signs: phi_y = -dw/dx and phi_z = dv/dx; kb > 0 builds towards the high side, against z; psi turns y towards z. SI.
+
+use crate::elements::beam::{ElementMatrix, ElementVector};
+use crate::tool::FreeCurvature;
+
+/// Index of (psi, phi_y, phi_z) of both nodes among an element's twelve values.
+const PSI: [usize; 2] = [3, 9];
+const PHI_Y: [usize; 2] = [4, 10];
+const PHI_Z: [usize; 2] = [5, 11];
+
+/// The preload of one guide element, in the frames of its nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Preload {
+    /// Couples on the nodes (N m).
+    pub force: ElementVector,
+    /// Second derivatives of dU by the rotations (N m/rad).
+    pub stiffness: ElementMatrix,
+    /// Bending stiffness (N m2), length (m), and curvature of the path (1/m).
+    bending: f64,
+    length: f64,
+    path: f64,
+    free: FreeCurvature,
+}
+
+impl Preload {
+    /// Of an element of bending stiffness `bending` (N m2) and length `length` (m, the chord's) between two node frames
+    /// that are turned by `turn` (rad) against each other, positive where the path builds.
+    pub fn of(free: FreeCurvature, bending: f64, length: f64, turn: f64) -> Self {
+        let (sin, cos) = (libm::sin(0.5 * turn), libm::cos(0.5 * turn));
+        // The curvature at which the chord's beam is bent by rotations psi alone as by phi_z: 1/R in an arc.
+        let path = 2.0 * sin / length;
+        let along = free.curvature * libm::cos(free.phase);
+        let across = free.curvature * libm::sin(free.phase);
+        let (excess, turned) = (bending * (path - along), path * length);
+
+        let mut force = ElementVector::zeros();
+        let mut add_force = |at: [usize; 2], values: [f64; 2]| {
+            for (at, value) in at.into_iter().zip(values) {
+                force[at] += value;
+            }
+        };
+        add_force(PHI_Y, [excess, -excess]);
+        let (sideways, half) = (bending * across, 0.5 * bending * across * turned);
+        add_force(PHI_Z, [-sideways, sideways]);
+        add_force(PSI, [-half, -half]);
+
+        let mut stiffness = ElementMatrix::zeros();
+        // The second derivatives of factor x a x b, for two linear forms over the nodes.
+        let mut add = |factor: f64, (at, a): ([usize; 2], [f64; 2]), (by, b): ([usize; 2], [f64; 2])| {
+            for (row, a) in at.into_iter().zip(a) {
+                for (column, b) in by.into_iter().zip(b) {
+                    stiffness[(row, column)] += factor * a * b;
+                    stiffness[(column, row)] += factor * a * b;
+                }
+            }
+        };
+        let (mean, change) = ([0.5, 0.5], [-1.0, 1.0]);
+        add(excess * cos, (PHI_Z, change), (PSI, mean));
+        add(-0.5 * excess * turned, (PSI, mean), (PSI, mean));
+        add(-0.5 * excess * turned, (PHI_Z, mean), (PHI_Z, mean));
+        add(sideways, (PHI_Y, change), (PSI, mean));
+        add(-0.5 * sideways * turned, (PHI_Y, mean), (PHI_Z, mean));
+        Self {
+            force,
+            stiffness,
+            bending,
+            length,
+            path,
+            free,
+        }
+    }
+
+    /// Bending moment (N m, >= 0) in the element: EI |k - kf|, with the curvature k of the axis and that of the tube as
+    /// made, which turns with the guide. `spin` (rad) is the mean of both nodes; `bent` the changes of phi_y and phi_z (rad)
+    /// from the upper to the lower node.
+    pub fn moment(&self, spin: f64, bent: [f64; 2]) -> f64 {
+        let (sin, cos) = libm::sincos(spin + self.free.phase);
+        let in_plane = self.path + bent[0] / self.length - self.free.curvature * cos;
+        let across = bent[1] / self.length - self.free.curvature * sin;
+        self.bending * libm::hypot(in_plane, across)
+    }
+
+    /// dU (J) at the displacements `q` of both nodes.
+    pub fn energy(&self, q: &ElementVector) -> f64 {
+        0.5 * q.dot(&(self.stiffness * q)) - self.force.dot(q)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Rotation3, Vector3};
+
+    use super::*;
+    use crate::elements::beam::Beam;
+    use crate::tool::{Material, SectionProperties, Tube};
+
+    const R: f64 = 3.2;
+    const TURN: f64 = 0.03 / R;
+
+    fn beam() -> Beam {
+        let tube = Tube {
+            outer_diameter: 0.102,
+            inner_diameter: 0.080,
+        };
+        Beam {
+            section: SectionProperties::of(tube, Material::STEEL, 1.0),
+            length: 2.0 * R * (0.5 * TURN).sin(),
+        }
+    }
+
+    fn preload(free: FreeCurvature) -> Preload {
+        let beam = beam();
+        Preload::of(free, beam.section.bending, beam.length, TURN)
+    }
+
+    /// Frame of a node in the chord's. The path builds towards the high side, so that x turns towards -z: about +y.
+    fn node_frame(end: usize) -> Matrix3<f64> {
+        *Rotation3::from_axis_angle(&Vector3::y_axis(), [-0.5, 0.5][end] * TURN).matrix()
+    }
+
+    /// A rotation that a node's frame sees, as the tool has it: R = exp([0, phi_y, phi_z]) Rx(psi).
+    fn rotation(q: &ElementVector, end: usize) -> Matrix3<f64> {
+        let [psi, phi_y, phi_z] = [q[PSI[end]], q[PHI_Y[end]], q[PHI_Z[end]]];
+        *(Rotation3::new(Vector3::new(0.0, phi_y, phi_z)) * Rotation3::new(Vector3::new(psi, 0.0, 0.0))).matrix()
+    }
+
+    /// dU (J) by finite rotations: a round tube that bends from node to node by a curvature that is constant about the tube's axes.
+    fn exact(free: FreeCurvature, q: &ElementVector) -> f64 {
+        let beam = beam();
+        let ends = [0, 1].map(|end| node_frame(end) * rotation(q, end));
+        let bent = Rotation3::from_matrix_unchecked(ends[0].transpose() * ends[1]).scaled_axis();
+        let against = |y: f64, z: f64| (bent.y - y * beam.length).powi(2) + (bent.z - z * beam.length).powi(2);
+        let (y, z) = (free.curvature * free.phase.cos(), free.curvature * free.phase.sin());
+        beam.section.bending / (2.0 * beam.length) * (against(y, z) - against(1.0 / R, 0.0))
+    }
+
+    /// A straight tube in the path has EI / R whatever it turns by; one that is bent straight has nothing; one that was made
+    /// with the curvature of the path has nothing until it turns.
+    #[test]
+    fn the_moment_is_that_of_the_difference_of_curvatures() {
+        let of = |curvature: f64| preload(FreeCurvature { curvature, phase: 0.0 });
+        let bending = beam().section.bending;
+        // The chord's curvature differs from the arc's by the square of half the turn over six.
+        let in_path = bending / R;
+        for spin in [0.0, 0.7, -2.0] {
+            assert!((of(0.0).moment(spin, [0.0; 2]) / in_path - 1.0).abs() < 1e-5);
+        }
+        assert!(of(0.0).moment(0.3, [-TURN, 0.0]) < 1e-4 * in_path);
+        assert!(of(1.0 / R).moment(0.0, [0.0; 2]) < 1e-4 * in_path);
+        assert!((of(1.0 / R).moment(0.1, [0.0; 2]) / (in_path * 2.0 * 0.05_f64.sin()) - 1.0).abs() < 1e-4);
+    }
+
+    /// First and second order of the energy against finite rotations, for straight and bent tubes, with any phase.
+    #[test]
+    fn the_energy_is_that_of_finite_rotations_to_second_order() {
+        let mut generator = crate::support::Random(77);
+        let mut random = || generator.next();
+        // Third order is odd, so that the even part is off by fourth order and the square of the turn of an element.
+        let size = 1e-3;
+        for (curvature, phase) in [(0.0, 0.0), (0.1, 0.0), (0.2, 0.5), (0.1, 2.5), (0.4, -1.2)] {
+            let free = FreeCurvature { curvature, phase };
+            let preload = preload(free);
+            for _ in 0..20 {
+                let mut q = ElementVector::zeros();
+                for k in 3..6 {
+                    // Neighbouring nodes differ as they do in a bent tube, by its turn.
+                    q[k] = size * random();
+                    q[6 + k] = q[k] + size * TURN * random();
+                }
+                let [plus, minus, rest] = [q, -q, ElementVector::zeros()].map(|q| exact(free, &q));
+                let (odd, even) = (0.5 * (plus - minus), 0.5 * (plus + minus) - rest);
+                let first = -preload.force.dot(&q);
+                let second = 0.5 * q.dot(&(preload.stiffness * q));
+                let scale = beam().section.bending / R * TURN * size;
+                assert!((odd - first).abs() < 1e-4 * scale, "{free:?}: {first} for {odd}");
+                assert!(
+                    (even - second).abs() < 1e-3 * scale * size,
+                    "{free:?}: {second} for {even}"
+                );
+                assert!((preload.energy(&q) - first - second).abs() < 1e-15 * scale);
+            }
+        }
+    }
+
+    /// A tube that was straight turns about its axis without resistance: the elements' stiffness and the preload's cancel.
+    #[test]
+    fn a_straight_tube_turns_freely() {
+        let preload = preload(FreeCurvature {
+            curvature: 0.0,
+            phase: 0.0,
+        });
+        let mut gamma = ElementMatrix::zeros();
+        for end in 0..2 {
+            // From the node's axes to the chord's.
+            let turn = node_frame(end);
+            for at in [6 * end, 6 * end + 3] {
+                gamma.fixed_view_mut::<3, 3>(at, at).copy_from(&turn);
+            }
+        }
+        let built = gamma.transpose() * beam().stiffness() * gamma;
+        let mut q = ElementVector::zeros();
+        (q[PSI[0]], q[PSI[1]]) = (1.0, 1.0);
+        let (held, free) = (built * q, (built + preload.stiffness) * q);
+        // Of EI / R x the element's turn, which holds a tube that is without stress in the arc; rounding.
+        let scale = beam().section.bending / R * TURN;
+        assert!((q.dot(&held) / scale - 1.0).abs() < 1e-4, "{}", q.dot(&held));
+        assert!(free.amax() < 1e-9 * scale, "{free}");
+    }
+}

@@ -1,0 +1,133 @@
+//! The rock under the bit: the torque against the rotation and, where the rock holds the bit, the weight.
+//!
+//! Three laws:
+//!
+//! - [`RockLaw::Paper`], Eq. 1: T = eta D W / 3, with the weight W given.
+//! - [`RockLaw::Weakening`]: the same times P(omega) = 1 + (mu_s / mu_k - 1) exp(-|omega| / omega_c), which falls as the bit
+//!   turns faster and so excites torsional vibration.
+//! - [`RockLaw::DepthOfCut`]: cutting and wear flats (Detournay and Defourny, Int. J. Rock Mech. 29, 1992), with the depth of
+//!   cut from the paths of the blades before (Richard, Germay and Detournay, J. Sound Vib. 305, 2007). The weight is then a
+//!   result:
+//!
+//! ```text
+//! d = n [U - max path]+        W = zeta e a d + W_f        T = e a^2 d / 2 + mu_g a W_f / 2 P(omega)
+//! ```
+//!
+//! U is the depth of the bit (m, down), n the number of blades, a the radius. The torque has a smooth sign of the speed, so
+//! that the bit may stick.
+
+mod bit;
+mod groove;
+#[cfg(test)]
+mod tests;
+
+pub use bit::{BitAt, BitLoad, BitMark};
+pub use groove::Groove;
+
+use serde::{Deserialize, Serialize};
+
+/// How the rock answers the bit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum RockLaw {
+    /// Eq. 1: the torque is proportional to the weight.
+    #[default]
+    Paper,
+    /// Eq. 1 with a torque that falls with the speed.
+    Weakening(Weakening),
+    /// Cutting and wear flats: weight and torque follow from the depth of cut.
+    DepthOfCut(DepthOfCut),
+}
+
+/// P(omega) = 1 + (ratio - 1) exp(-|omega| / rate).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Weakening {
+    /// Torque at standstill over that at high speed, mu_s / mu_k, at least 1; 1 is no weakening.
+    pub ratio: f64,
+    /// Speed over which the difference falls to 37 %, omega_c (rad/s).
+    pub rate: f64,
+}
+
+impl Weakening {
+    /// No weakening.
+    pub const NONE: Self = Self { ratio: 1.0, rate: 1.0 };
+
+    /// P and dP/domega (s/rad) at a speed (rad/s).
+    pub fn at(&self, speed: f64) -> (f64, f64) {
+        let more = (self.ratio - 1.0) * libm::exp(-speed.abs() / self.rate);
+        (1.0 + more, -more / self.rate * speed.signum())
+    }
+}
+
+/// Bit and rock of the law with depth of cut.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DepthOfCut {
+    /// Number of blades n.
+    pub blades: u32,
+    /// Energy to cut a volume of rock, e (Pa).
+    pub specific_energy: f64,
+    /// Weight over torque-like force of a sharp cutter, zeta (-).
+    pub cutter_inclination: f64,
+    /// Largest force of the wear flats, sigma l a (N).
+    pub wear_flat_force: f64,
+    /// Friction of the wear flats with the bit's geometry, mu_g (-).
+    pub wear_flat_friction: f64,
+    /// Distance over which the wear flats come to bear (m).
+    pub wear_flat_travel: f64,
+    /// How the friction of the wear flats falls with the speed.
+    pub weakening: Weakening,
+}
+
+/// What the rock does to the bit.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Answer {
+    /// Torque of cutting and of Eq. 1 (N m), before the sign of the speed.
+    pub torque: f64,
+    /// Its derivative by the depth (N) and by the angle (N m/rad).
+    pub torque_by: [f64; 2],
+    /// Torque of friction (N m), before P and the sign of the speed, and its derivative by the depth (N).
+    pub friction: f64,
+    /// Derivative of the friction torque by the depth (N).
+    pub friction_by_depth: f64,
+    /// Weight on the bit (N, compressing).
+    pub weight: f64,
+    /// Its derivative by the depth (N/m) and by the angle (N/rad).
+    pub weight_by: [f64; 2],
+    /// Depth of cut (m per turn).
+    pub depth_of_cut: f64,
+    /// Depth down to which the wear flats press the rock (m).
+    pub pressed: f64,
+}
+
+impl DepthOfCut {
+    /// The answer to a bit of `radius` (m) at a depth (m, down) and an angle (rad) over the paths in `groove`.
+    pub fn answer(&self, radius: f64, depth: f64, angle: f64, groove: &Groove) -> Answer {
+        let (path, slope) = groove.path(angle);
+        let (blades, cutting) = (f64::from(self.blades), self.specific_energy * radius);
+        let cuts = depth > path;
+        let depth_of_cut = if cuts { blades * (depth - path) } else { 0.0 };
+        // The wear flats press elastically over their travel and follow the bit down at their full force.
+        let stiffness = self.wear_flat_force / self.wear_flat_travel;
+        let deepest = depth - self.wear_flat_travel;
+        let pressed = groove.pressed().max(deepest);
+        let compressed = depth - pressed;
+        let bears = compressed > 0.0;
+        let flat = if bears { stiffness * compressed } else { 0.0 };
+        let flat_slope = if bears && pressed > deepest { stiffness } else { 0.0 };
+        let by_depth = if cuts { blades * cutting } else { 0.0 };
+        let by_angle = -by_depth * slope;
+        Answer {
+            torque: 0.5 * cutting * radius * depth_of_cut,
+            torque_by: [0.5 * radius * by_depth, 0.5 * radius * by_angle],
+            friction: 0.5 * self.wear_flat_friction * radius * flat,
+            friction_by_depth: 0.5 * self.wear_flat_friction * radius * flat_slope,
+            weight: self.cutter_inclination * cutting * depth_of_cut + flat,
+            weight_by: [
+                self.cutter_inclination * by_depth + flat_slope,
+                self.cutter_inclination * by_angle,
+            ],
+            depth_of_cut,
+            pressed,
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! What transfer is made from, and its figures.
+
+use crate::dynamics::outcome::EnergyAudit;
+use crate::motion::Severity;
+
+/// The readings of one step. NaN where the tool has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransferSample {
+    /// Torque at surface, kick-off and bit (N m), positive where it drives.
+    pub torque: [f64; 3],
+    /// Weight at surface, kick-off and bit (N), compressing.
+    pub weight: [f64; 3],
+    /// Speed of the tool's top (rad/s).
+    pub speed: f64,
+    /// Power of the advance against the axial friction of the wall on the guide (W): part of what friction takes there.
+    pub feed_power: f64,
+    /// Torque that the friction of the wall takes from the string above (N m).
+    pub string_torque: f64,
+    /// Axial friction on the pipe by the guide, on the guide by the wall, and on the string above (N), positive where it
+    /// pushes up the hole.
+    pub axial_drag: [f64; 3],
+    /// Load on the hook (N).
+    pub hook_load: f64,
+    /// Depth of cut (m per turn).
+    pub depth_of_cut: f64,
+    /// Rate of penetration of the bit (m/s).
+    pub rate_of_penetration: f64,
+    /// Power that friction takes between pipe and guide, between guide and wall, and in the joints (W).
+    pub friction_power: [f64; 3],
+}
+
+pub(super) const VALUES: usize = 18;
+
+impl TransferSample {
+    pub(super) fn values(&self) -> [f64; VALUES] {
+        let [a, b, c] = self.torque;
+        let [d, e, f] = self.weight;
+        let (g, h, i) = (self.speed, self.feed_power, self.string_torque);
+        let [k, l, m] = self.axial_drag;
+        let [n, o, p] = self.friction_power;
+        let (hook, cut, rate) = (self.hook_load, self.depth_of_cut, self.rate_of_penetration);
+        [a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate]
+    }
+
+    pub(super) fn of([a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate]: [f64; VALUES]) -> Self {
+        Self {
+            torque: [a, b, c],
+            weight: [d, e, f],
+            speed: g,
+            feed_power: h,
+            string_torque: i,
+            axial_drag: [k, l, m],
+            hook_load: hook,
+            depth_of_cut: cut,
+            rate_of_penetration: rate,
+            friction_power: [n, o, p],
+        }
+    }
+}
+
+impl Default for TransferSample {
+    /// Nothing is known.
+    fn default() -> Self {
+        Self::of([f64::NAN; VALUES])
+    }
+}
+
+/// Mean and root mean square over the window at surface, kick-off and bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// Means.
+    pub mean: [f64; 3],
+    /// Root mean squares: their squares less those of the means are the squares of the fluctuations.
+    pub rms: [f64; 3],
+}
+
+impl Default for Along {
+    fn default() -> Self {
+        Self {
+            mean: [f64::NAN; 3],
+            rms: [f64::NAN; 3],
+        }
+    }
+}
+
+/// Mean powers over the window by the terms of [`EnergyAudit`] (W), whose signs they have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Powers {
+    /// Of the top drive.
+    pub drive: f64,
+    /// Of the hoist.
+    pub hoist: f64,
+    /// Of the weight on bit where it is given.
+    pub weight_on_bit: f64,
+    /// Of gravity.
+    pub gravity: f64,
+    /// Of the point loads.
+    pub loads: f64,
+    /// Of the advance against the friction of the wall.
+    pub feed: f64,
+    /// Of the pressure.
+    pub pressure: f64,
+    /// Taken by the rock.
+    pub bit: f64,
+    /// Taken by friction in both layers and in the joints.
+    pub friction: f64,
+    /// Taken by the damping of contacts, stops and play.
+    pub contact_damping: f64,
+    /// Taken by Rayleigh damping.
+    pub rayleigh_damping: f64,
+    /// Taken by the time integration.
+    pub numerical_damping: f64,
+    /// Taken by the string above.
+    pub string: f64,
+    /// Of updating the axial force in the geometric stiffness.
+    pub axial_update: f64,
+    /// Stored.
+    pub stored: f64,
+    /// Error of the audit.
+    pub error: f64,
+    /// Taken by the mud that moves with pipe and guide.
+    pub mud: f64,
+}
+
+pub(super) const TERMS: usize = 17;
+
+impl Powers {
+    pub(super) fn of(
+        [
+            drive,
+            hoist,
+            weight_on_bit,
+            gravity,
+            loads,
+            feed,
+            pressure,
+            bit,
+            friction,
+            contact_damping,
+            rayleigh_damping,
+            numerical_damping,
+            string,
+            axial_update,
+            stored,
+            error,
+            mud,
+        ]: [f64; TERMS],
+    ) -> Self {
+        Self {
+            drive,
+            hoist,
+            weight_on_bit,
+            gravity,
+            loads,
+            feed,
+            pressure,
+            bit,
+            friction,
+            contact_damping,
+            rayleigh_damping,
+            numerical_damping,
+            string,
+            axial_update,
+            stored,
+            error,
+            mud,
+        }
+    }
+}
+
+impl Default for Powers {
+    fn default() -> Self {
+        Self::of([f64::NAN; TERMS])
+    }
+}
+
+/// The audit's terms in the order of [`Powers::of`] (J).
+pub(super) fn terms(audit: &EnergyAudit) -> [f64; TERMS] {
+    [
+        audit.drive,
+        audit.hoist,
+        audit.weight_on_bit,
+        audit.gravity,
+        audit.loads,
+        audit.feed,
+        audit.pressure,
+        audit.bit,
+        audit.friction,
+        audit.contact_damping,
+        audit.rayleigh_damping,
+        audit.numerical_damping,
+        audit.string,
+        audit.axial_update,
+        audit.stored,
+        audit.error,
+        audit.mud,
+    ]
+}
+
+/// Transfer over the window. NaN where the tool has no such figure, and before the first tenth of a second.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Transfer {
+    /// Time that the window holds (s): up to the window of the settings.
+    pub duration: f64,
+    /// Torque (N m), positive where it drives.
+    pub torque: Along,
+    /// Weight (N), compressing.
+    pub weight: Along,
+    /// Means of all readings.
+    pub mean: TransferSample,
+    /// Torque of the rotation (N m) that friction takes between pipe and guide, between guide and wall, in the joints and
+    /// along the string above. For the tool the mean power over the mean speed of the tool's top, which counts the whole
+    /// motion of a whirling pipe; NaN while the tool stands.
+    pub friction_torque: [f64; 4],
+    /// Mean torque at the bit over that at the surface, without a string over that at the kick-off; NaN where that is
+    /// near zero.
+    pub torque_efficiency: f64,
+    /// Mean powers by the terms of the audit (W).
+    pub power: Powers,
+}
+
+/// State of a condition on transfer.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct TransferLevel {
+    /// Level.
+    pub severity: Severity,
+    /// Lost share, 0 to 1: the largest since the level was reached, the newest while the level is OK.
+    pub lost: f64,
+    /// Model time of it (s).
+    pub seen: f64,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](crate::motion::ENDED_AFTER) ago.
+    pub ended: Option<f64>,
+}
+
+impl Transfer {
+    /// Before anything is known.
+    pub(super) fn unknown() -> Self {
+        Self {
+            torque_efficiency: f64::NAN,
+            friction_torque: [f64::NAN; 4],
+            ..Self::default()
+        }
+    }
+}

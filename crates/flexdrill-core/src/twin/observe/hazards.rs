@@ -1,0 +1,114 @@
+//! Every hazard's level, with its worst location.
+
+use super::Observer;
+use crate::model::Model;
+use crate::motion::{
+    AlarmThresholds, Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel, ended,
+};
+use crate::tool::Body;
+
+impl Observer {
+    /// Every hazard at model time `time` (s), with its worst location.
+    pub(super) fn hazards(&self, model: &Model, time: f64) -> Hazards {
+        let place = |station: usize, body: Body| {
+            model.stations.get(station).map(|at| ToolLocation {
+                station,
+                body,
+                measured_depth: at.depth,
+                inclination: at.inclination,
+            })
+        };
+        let (shock, chaotic) = (self.shock.level(), self.chaotic_whirl.level());
+        let transfer = |kind: HazardKind, level: TransferLevel, thresholds: &AlarmThresholds| Hazard {
+            severity: level.severity,
+            value: level.lost,
+            threshold: thresholds.of(level.severity),
+            since: level.since,
+            seen: level.seen,
+            ended: level.ended,
+            ..Hazard::calm(kind)
+        };
+        let load = |kind: HazardKind, watch: &Option<LoadWatch>, body: Body| {
+            let Some(watch) = watch else {
+                return Hazard::calm(kind);
+            };
+            let LoadLevel {
+                severity,
+                part,
+                ratio,
+                since,
+                seen,
+                ended,
+            } = watch.level();
+            Hazard {
+                severity,
+                place: place(part, body),
+                value: ratio,
+                threshold: watch.settings().thresholds.of(severity),
+                since,
+                seen,
+                ended,
+                ..Hazard::calm(kind)
+            }
+        };
+        let (joint_load, joint_settings) = (self.joint_load.level(), self.joint_load.settings());
+        let list = HazardKind::ALL.map(|kind| match kind {
+            HazardKind::BackwardWhirl => self.whirl.backward(),
+            HazardKind::ForwardWhirl => self.whirl.forward(),
+            HazardKind::Shock => Hazard {
+                severity: shock.severity,
+                place: place(shock.station, if shock.layer == 0 { Body::Pipe } else { Body::Guide }),
+                value: shock.impulse,
+                threshold: self.shock.settings().thresholds.of(shock.severity),
+                impulse: shock.impulse,
+                since: shock.since,
+                seen: shock.seen,
+                ended: shock.ended,
+                ..Hazard::calm(kind)
+            },
+            HazardKind::StickSlip => {
+                let (severity, (worst, seen)) = (self.stick_slip.severity(), self.stick_slip.worst());
+                Hazard {
+                    severity,
+                    value: worst,
+                    threshold: self.stick_slip.settings().thresholds.of(severity),
+                    since: self.stick_slip.since(),
+                    seen,
+                    ended: ended(severity, self.stick_slip.met(), time),
+                    ..Hazard::calm(kind)
+                }
+            }
+            HazardKind::JointLoad => Hazard {
+                severity: joint_load.severity,
+                place: model
+                    .joint_stations
+                    .get(joint_load.joint)
+                    .and_then(|&station| place(station, Body::Pipe)),
+                value: joint_load.ratio,
+                threshold: joint_settings.thresholds.of(joint_load.severity),
+                since: joint_load.since,
+                seen: joint_load.seen,
+                ended: joint_load.ended,
+                ..Hazard::calm(kind)
+            },
+            HazardKind::ChaoticWhirl => Hazard {
+                severity: chaotic.severity,
+                place: place(chaotic.station, Body::Pipe),
+                value: chaotic.power,
+                threshold: self.chaotic_whirl.settings().thresholds.of(chaotic.severity),
+                since: chaotic.since,
+                seen: chaotic.seen,
+                ended: chaotic.ended,
+                ..Hazard::calm(kind)
+            },
+            HazardKind::WeightTransfer => transfer(kind, self.transfer.weight(time), &self.transfer.settings().weight),
+            HazardKind::TorqueTransfer => transfer(kind, self.transfer.torque(time), &self.transfer.settings().torque),
+            HazardKind::GuidePreload => load(kind, &self.guide_preload, Body::Guide),
+            HazardKind::PressureFolding => load(kind, &self.pressure_folding, Body::Pipe),
+        });
+        Hazards {
+            list,
+            drive: self.whirl.drive(),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The snapshot, made from the state and the statistics.
+
+use super::{Observer, gap_lateral};
+use crate::dynamics::state::{State, inner_lateral, translation};
+use crate::dynamics::stepper::Stepper;
+use crate::elements::gap::gap;
+use crate::model::Model;
+use crate::tool::{Body, Direction};
+use crate::twin::fill::{fill_joints, fill_layer, fill_reactions, new_reactions};
+use crate::twin::snapshot::{Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};
+
+impl Observer {
+    /// A snapshot with all arrays at their size.
+    pub(in crate::twin) fn new_snapshot(&self, model: &Model) -> Snapshot {
+        let joints = || vec![0.0; model.joints.len()];
+        let stations = || vec![0.0; model.stations.len()];
+        let layer = || ContactLayer {
+            gap: stations(),
+            normal: stations(),
+            tangential: stations(),
+            axial: stations(),
+            normal_peak: stations(),
+            normal_rms: stations(),
+            shock: stations(),
+        };
+        let mut out = Snapshot {
+            joints: Joints {
+                measured_depth: model.joint_stations.iter().map(|&s| model.stations[s].depth).collect(),
+                inclination: model
+                    .joint_stations
+                    .iter()
+                    .map(|&s| model.stations[s].inclination)
+                    .collect(),
+                bend_angle: joints(),
+                bend_direction: joints(),
+                limit_angle: model.joints.iter().map(|joint| joint.law.limit).collect(),
+                stop_moment: joints(),
+                lateral_y: joints(),
+                lateral_z: joints(),
+                spin_rate: joints(),
+                axial_force: joints(),
+                shear_force: joints(),
+                torque: joints(),
+            },
+            contacts: Contacts {
+                measured_depth: model.stations.iter().map(|s| s.depth).collect(),
+                inclination: model.stations.iter().map(|s| s.inclination).collect(),
+                state: vec![0; model.stations.len()],
+                pipe_guide: layer(),
+                guide_wall: layer(),
+            },
+            shape: Shape {
+                bore: model.stations.iter().map(|s| s.position.into()).collect(),
+                low_side: model
+                    .stations
+                    .iter()
+                    .map(|s| s.frame.column(2).into_owned().into())
+                    .collect(),
+                pipe: vec![[0.0; 2]; model.stations.len()],
+                guide: vec![[0.0; 2]; model.stations.len()],
+            },
+            reactions: new_reactions(model),
+            ..Snapshot::default()
+        };
+        self.whirl.report(&mut out.whirl);
+        self.ageing.write(&mut out.ageing);
+        out
+    }
+
+    /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
+    pub(in crate::twin) fn fill(&self, stepper: &Stepper, state: &State, out: &mut Snapshot) {
+        let (model, forces) = (stepper.model(), stepper.interactions());
+        fill_joints(model, state, forces, stepper.pressure_at_top(), &mut out.joints);
+        let contacts = &mut out.contacts;
+        fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
+            let station = &model.stations[s];
+            gap(inner_lateral(station, state), station.inner_clearance)
+        });
+        fill_layer(&mut contacts.guide_wall, &forces.outer, &self.outer, |s| {
+            gap(gap_lateral(model, state, s, Body::Guide), model.outer_clearance)
+        });
+        self.shock.write(0, &mut contacts.pipe_guide.shock);
+        self.shock.write(1, &mut contacts.guide_wall.shock);
+        out.shock = self.shock.level();
+        for (s, station) in model.stations.iter().enumerate() {
+            contacts.state[s] = u8::from(forces.inner.get(s).is_some()) + 2 * u8::from(forces.outer.get(s).is_some());
+            let guide = translation(&state.q, station.guide);
+            let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
+            out.shape.pipe[s] = [station.offset.x + pipe.y, station.offset.y + pipe.z];
+            out.shape.guide[s] = [guide.y, guide.z];
+        }
+        let bottom = &model.stations[model.last()];
+        out.bit = Bit {
+            torque: forces.bit.torque,
+            rotary_speed: state.v[bottom.pipe_above + Direction::Psi as usize],
+            weight_on_bit: forces.bit.weight,
+            stick_slip_index: self.stick_slip.index(),
+            tangential_acceleration: self.tangential.value(),
+            axial_acceleration: self.axial.value(),
+            lateral_acceleration: self.lateral.value(),
+            lateral_acceleration_peak: self.lateral.peak(),
+            lateral_impulse: self.lateral.impulse(),
+            stick_slip: self.stick_slip.severity(),
+        };
+        fill_reactions(stepper, &mut out.reactions);
+        out.transfer = *self.transfer.summary();
+        self.whirl.report(&mut out.whirl);
+        out.warning = self.whirl.level();
+        out.hazards = self.hazards(model, out.time);
+        self.ageing.write(&mut out.ageing);
+        out.quality = self.quality();
+    }
+}

@@ -1,0 +1,167 @@
+//! What is taken from every step: contacts, loads, accelerations, samples of the whirl analysis and of the transfer.
+
+use super::{Observer, gap_lateral};
+use crate::dynamics::state::State;
+use crate::dynamics::stepper::Stepper;
+use crate::model::Model;
+use crate::motion::{DriveState, StationSample, TransferSample};
+use crate::tool::{Body, Direction};
+use crate::twin::snapshot::Applied;
+
+impl Observer {
+    pub(in crate::twin) fn after_step(
+        &mut self,
+        stepper: &mut Stepper,
+        applied: &Applied,
+        step: u64,
+        dt: f64,
+        iterations: u32,
+    ) {
+        self.last_iterations = iterations;
+        if self.quality.push(dt, stepper.audit()) {
+            self.update_trust();
+        }
+        let (model, forces) = (stepper.model(), stepper.interactions());
+        let mut rubbing = [Rubbing::default(); 2];
+        for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
+            .into_iter()
+            .enumerate()
+        {
+            for (station, touch) in touches.iter() {
+                statistics.touch(station, dt, touch.normal);
+                self.shock.push(layer, station, dt, touch.normal);
+                if layer == 0 {
+                    self.chaotic_whirl.push(station, touch.dissipation * dt);
+                }
+                self.ageing.rub(layer, station, touch.friction_power * dt);
+                rubbing[layer].drag -= touch.axial;
+                rubbing[layer].power += touch.friction_power;
+            }
+            statistics.advance(dt);
+        }
+        let (time, judged) = (step as f64 * dt, self.whirl.drive() == DriveState::Turning);
+        self.shock.advance(time, dt, judged);
+        for (joint, stop) in forces.joints.stops().enumerate() {
+            self.joint_load.push(joint, dt, stop.moment);
+            self.ageing.stop(joint, dt, stop.moment);
+        }
+        self.joint_load.advance(time, dt, judged);
+        let (taken, share) = (stepper.audit().contact_damping, self.whirl.chaotic_share());
+        self.chaotic_whirl.advance(time, dt, taken, share, judged);
+
+        let mut sample = transfer_sample(stepper, &rubbing);
+        // The rate over the step, not the speed at its end: a bit that chatters on the rock has a mean speed of its path.
+        let depth = stepper.bit_depth();
+        let before = std::mem::replace(&mut self.bit_depth, depth);
+        sample.rate_of_penetration = match (before, depth) {
+            (Some(before), Some(depth)) => (depth - before) / dt,
+            _ => applied.rate_of_penetration,
+        };
+        self.transfer.push(time, dt, &sample, stepper.audit(), judged);
+
+        let bottom = stepper.bottom_motion();
+        let radius = 0.5 * model.description.bit.diameter;
+        self.tangential.push(dt, radius * bottom.spin_acceleration);
+        self.axial.push(dt, bottom.axial_acceleration);
+        self.lateral.push_square(dt, bottom.lateral_square);
+        self.stick_slip
+            .push(time, dt, bottom.spin_rate, applied.rotary_speed, judged);
+
+        let share = 1.0 / self.decimation as f64;
+        for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
+            let touch = match body {
+                Body::Pipe => forces.inner.get(station),
+                Body::Guide => forces.outer.get(station),
+            };
+            if let Some(touch) = touch {
+                sample.normal_force = sample.normal_force.max(touch.normal);
+                sample.contact_share += share;
+                sample.impulse += touch.normal * dt;
+                sample.friction_work += touch.friction_power * dt;
+            }
+        }
+        if step.is_multiple_of(self.decimation) {
+            stepper.refresh_view();
+            let (model, state) = (stepper.model(), stepper.view());
+            for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
+                let lateral = gap_lateral(model, state, station, body);
+                (sample.y, sample.z) = (lateral.x, lateral.y);
+                sample.contact_share = sample.contact_share.min(1.0);
+            }
+            self.whirl.push(time, applied.rotary_speed, &self.samples);
+            self.samples.fill(StationSample::default());
+            let elapsed = self.decimation as f64 * dt;
+            if let Some(watch) = &mut self.guide_preload {
+                watch.push(time, elapsed, guide_moments(model, state), judged);
+            }
+            if let Some(watch) = &mut self.pressure_folding {
+                // Without pressure nothing of the compression is the pressure's.
+                let pushed = judged && stepper.pressure_at_top() > 0.0;
+                watch.push(time, elapsed, state.pipe_axial.iter().map(|tension| -tension), pushed);
+            }
+            self.ageing
+                .sample(self.decimation as f64 * dt, |joint| bending_below(model, state, joint));
+        }
+    }
+}
+
+/// Sums of a layer's friction: drag (N) up the hole on the inner body, power (W).
+#[derive(Debug, Clone, Copy, Default)]
+struct Rubbing {
+    drag: f64,
+    power: f64,
+}
+
+/// What the step that was taken last says about transfer.
+fn transfer_sample(stepper: &Stepper, [inner, outer]: &[Rubbing; 2]) -> TransferSample {
+    let (string, bit) = (stepper.string(), &stepper.interactions().bit);
+    let hoist = string.and_then(|string| string.hoist());
+    let of_string = string.map_or([f64::NAN; 2], |string| string.drag());
+    TransferSample {
+        torque: [
+            string.map_or(f64::NAN, |_| stepper.drive_torque()),
+            stepper.torque_at_kickoff(),
+            bit.torque,
+        ],
+        weight: [
+            hoist.map_or(f64::NAN, |hoist| hoist.weight),
+            stepper.weight_at_kickoff().unwrap_or(f64::NAN),
+            bit.weight,
+        ],
+        speed: stepper.top_speed(),
+        feed_power: outer.drag * stepper.advance_of_frame(),
+        string_torque: of_string[0],
+        axial_drag: [inner.drag, outer.drag, hoist.map_or(f64::NAN, |_| of_string[1])],
+        hook_load: string.map_or(f64::NAN, |string| string.hook_load()),
+        depth_of_cut: if bit.holds() { bit.depth_of_cut } else { f64::NAN },
+        rate_of_penetration: f64::NAN,
+        friction_power: [inner.power, outer.power, stepper.joint_friction().iter().sum()],
+    }
+}
+
+/// Bending moment of each element of a preloaded guide (N m).
+fn guide_moments<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = f64> + 'a {
+    model.preloads().map(|(preload, [above, below])| {
+        let of = |node: usize, direction: Direction| state.q[node + direction as usize];
+        let spin = 0.5 * (of(above, Direction::Psi) + of(below, Direction::Psi));
+        let bent = [Direction::PhiY, Direction::PhiZ].map(|about| of(below, about) - of(above, about));
+        preload.moment(spin, bent)
+    })
+}
+
+/// Bending moment (N m) in the middle of the link below a joint, from its curvature, about two transverse axes that
+/// turn with the pipe: the load history of a material point.
+fn bending_below(model: &Model, state: &State, joint: usize) -> [f64; 2] {
+    let per_link = model.description.elements_per_link;
+    let upper = model.joint_stations[joint] + (per_link - 1) / 2;
+    let beam = &model.pipe[upper].beam;
+    let (from, to) = (model.stations[upper].pipe_below, model.stations[upper + 1].pipe_above);
+    let per_curvature = beam.section.bending / beam.length;
+    let about = |direction: Direction| {
+        let direction = direction as usize;
+        per_curvature * (state.q[to + direction] - state.q[from + direction])
+    };
+    let (about_y, about_z) = (about(Direction::PhiY), about(Direction::PhiZ));
+    let (sin, cos) = libm::sincos(state.q[from + Direction::Psi as usize]);
+    [about_y * cos + about_z * sin, about_z * cos - about_y * sin]
+}

@@ -1,0 +1,148 @@
+//! Sliding along the hole and sticking: advance round the arc, a push on a guide that sticks, a block on a slope.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::bench::Bench;
+use super::{Row, VerifyError};
+use flexdrill_core::tool::{Body, Direction, SectionProperties};
+
+/// Rate of penetration of these cases (m/s).
+pub const ADVANCE: f64 = 0.010;
+
+/// Axial force on the guide at the kick-off (N), averaged over the last tenth of a run at [`ADVANCE`].
+///
+/// # Errors
+/// When a step fails, or the guide is not held at the kick-off.
+pub fn weight_at_kickoff(case: &'static str, bench: &mut Bench) -> Result<f64, VerifyError> {
+    let missing = |what| VerifyError::Missing { case, what };
+    let duration = bench.config.run.duration.ok_or(missing("the end of the run"))?;
+    bench.set_rate_of_penetration(ADVANCE);
+    bench.run_to(0.9 * duration)?;
+    let (mut sum, mut steps) = (0.0, 0_u32);
+    while bench.time() < duration {
+        bench.step()?;
+        let weight = bench.simulation.weight_at_kickoff();
+        sum += weight.ok_or(missing("the support of the guide at the kick-off"))?;
+        steps += 1;
+    }
+    Ok(sum / f64::from(steps))
+}
+
+pub(super) fn capstan() -> Result<Vec<Row>, VerifyError> {
+    let case = "capstan";
+    let mut bench = Bench::new(case)?;
+    let got = weight_at_kickoff(case, &mut bench)?;
+    let weight = bench.config.simulation().initial_inputs.weight_on_bit;
+    let expected = (bench.config.tool().outer.friction_axial * FRAC_PI_2).exp();
+    // The regularisation takes 2.4e-5, chords instead of the arc (mu l / R)^2 / 12.
+    Ok(vec![Row::relative(
+        case,
+        "force at the kick-off over weight, e^(mu pi / 2)",
+        expected,
+        got / weight,
+        1e-3,
+    )])
+}
+
+/// Weight (N/m in mud) of pipe and guide, friction coefficient, radius (m) and weight on bit (N) of a case.
+struct Heavy {
+    pipe: f64,
+    guide: f64,
+    friction: f64,
+    radius: f64,
+    weight_on_bit: f64,
+}
+
+impl Heavy {
+    fn of(bench: &Bench) -> Self {
+        let tool = bench.config.tool();
+        let weight = |tube| tool.gravity * SectionProperties::of(tube, tool.material, 1.0).mass;
+        Self {
+            pipe: weight(tool.pipe_sections[0]),
+            guide: weight(tool.guide_section),
+            friction: tool.outer.friction_axial,
+            radius: bench.config.well.length() / FRAC_PI_2,
+            weight_on_bit: bench.config.simulation().initial_inputs.weight_on_bit,
+        }
+    }
+
+    /// Force at the kick-off (N): the guide's weight, and with `chain` that of the pipe in it, which hangs from its own
+    /// top.
+    fn at_kickoff(&self, chain: bool) -> f64 {
+        let mu = self.friction;
+        let e = (-mu * FRAC_PI_2).exp();
+        let (c, s) = ((e + mu) / (1.0 + mu * mu), (1.0 - mu * e) / (1.0 + mu * mu));
+        let pipe = if chain {
+            self.pipe * (2.0 * c - (1.0 - e) / mu)
+        } else {
+            0.0
+        };
+        (self.weight_on_bit + self.radius * (mu * (self.guide * c + pipe) - self.guide * s)) / e
+    }
+}
+
+pub(super) fn capstan_weight() -> Result<Vec<Row>, VerifyError> {
+    heavy("capstan_weight", false)
+}
+
+pub(super) fn capstan_chain() -> Result<Vec<Row>, VerifyError> {
+    heavy("capstan_chain", true)
+}
+
+fn heavy(case: &'static str, chain: bool) -> Result<Vec<Row>, VerifyError> {
+    let mut bench = Bench::new(case)?;
+    let got = weight_at_kickoff(case, &mut bench)?;
+    let expected = Heavy::of(&bench).at_kickoff(chain);
+    // As the case `capstan`. The weight of half a chord or a link at the ends of the tool is 0.1 % of the force.
+    Ok(vec![Row::relative(
+        case,
+        "force at the kick-off (N)",
+        expected,
+        got,
+        1e-3,
+    )])
+}
+
+pub(super) fn stuck_guide() -> Result<Vec<Row>, VerifyError> {
+    let case = "stuck_guide";
+    // A station holds 0.7 N: Newton's limits, which are for forces of kilonewtons, are too wide.
+    let mut bench = Bench::within(case, 1e-3, Ok)?;
+    let tool = bench.config.tool();
+    let section = SectionProperties::of(tool.guide_section, tool.material, 1.0);
+    let friction = tool.outer.friction_axial * tool.gravity * section.mass;
+    let push = 70.0;
+    let end = |bench: &Bench| -bench.displacement(bench.last(), Body::Guide, Direction::U);
+    bench.run_to(3.2)?;
+    let pushed = end(&bench);
+    // The push reaches up to where the guide has moved by the part 1e-4 of its end; it falls with the square of the
+    // distance from there, so that this is 1e-2 of the length short.
+    let length = bench.config.well.length();
+    let stations: Vec<_> = bench.simulation.stations().map(|at| at.measured_depth).collect();
+    let moved = (0..stations.len()).find(|&s| -bench.displacement(s, Body::Guide, Direction::U) > 1e-4 * pushed);
+    let reach = moved.map_or(f64::NAN, |s| length - stations[s]);
+    bench.run_to(6.4)?;
+    let expected = push * push / (2.0 * section.axial * friction);
+    Ok(vec![
+        Row::relative(case, "movement F^2 / (2 EA mu w) (m)", expected, pushed, 1e-3),
+        Row::relative(case, "half of it stays (m)", 0.5 * expected, end(&bench), 1e-3),
+        Row::relative(case, "reach F / (mu w) (m)", push / friction, reach, 0.02),
+    ])
+}
+
+pub(super) fn block_on_slope() -> Result<Vec<Row>, VerifyError> {
+    let case = "block_on_slope";
+    let mut bench = Bench::new(case)?;
+    let travelled = |bench: &Bench| bench.displacement(0, Body::Pipe, Direction::U);
+    bench.run_to(10.0)?;
+    let rested = travelled(&bench);
+    bench.run_to(1e3)?;
+    let crept = travelled(&bench) - rested;
+    let axial = bench.simulation.axial_friction(0, Body::Pipe).unwrap_or(f64::NAN);
+    let tool = bench.config.tool();
+    let mass = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0).mass * bench.config.well.length();
+    let down = 0.5 * mass * tool.gravity * bench.config.well.start_inclination_deg.to_radians().cos();
+    Ok(vec![
+        Row::scaled(case, "creep in 10^3 s (m)", 0.0, crept, 1e-10, 1.0),
+        Row::relative(case, "friction m g sin 30 deg / 2 per station (N)", -down, axial, 1e-6),
+    ])
+}

@@ -1,0 +1,442 @@
+//! Runs members on threads and gathers what they bring, in the order of their numbers.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+
+use super::chance::{Band, Chance};
+use super::goal::{Candidate, Goal, MOST_RUN_UP};
+use super::member::{DISTURBANCE, Ended, Figure, Member, Watched};
+use crate::alarms::AlarmId;
+use flexdrill_alarms::Priority;
+use flexdrill_config::Config;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::twin::{BuildError, QualityLevel, Run, RunInputs, Simulation};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+
+/// Why no member can begin.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The tool cannot be built, or the state is not one of it.
+    #[error("the state to look ahead from: {0}")]
+    Build(#[from] BuildError),
+}
+
+/// The state that all members begin from.
+pub struct Start {
+    config: Arc<Config>,
+    run: Run,
+}
+
+impl Start {
+    /// From a simulation of the configuration's tool: its present state, under what acts on it.
+    pub fn new(config: Arc<Config>, simulation: Simulation, applied: &RunInputs) -> Self {
+        Self {
+            run: Run::resumed(simulation, applied),
+            config,
+        }
+    }
+
+    /// From the bytes of a checkpoint. `tool` is a simulation of the configuration's tool in any state.
+    ///
+    /// # Errors
+    /// When the checkpoint is one of another tool, or damaged.
+    pub fn restored(
+        config: Arc<Config>,
+        tool: &Simulation,
+        checkpoint: &[u8],
+        applied: &RunInputs,
+    ) -> Result<Self, StartError> {
+        let mut simulation = tool.fork();
+        simulation.restore(checkpoint).map_err(BuildError::from)?;
+        Ok(Self::new(config, simulation, applied))
+    }
+
+    /// The configuration of the tool.
+    pub fn config(&self) -> &Arc<Config> {
+        &self.config
+    }
+
+    /// What acts on the model now.
+    pub fn applied(&self) -> RunInputs {
+        self.run.applied()
+    }
+
+    /// What acts from here on under a candidate.
+    fn target(&self, candidate: &Candidate) -> RunInputs {
+        let applied = self.run.applied();
+        let mut slew = applied.slew;
+        if candidate.speed_ramp > 0.0 {
+            slew[0] = rpm_to_rad_per_s(candidate.speed_ramp);
+        }
+        if candidate.weight_ramp > 0.0 {
+            slew[1] = kn_to_n(candidate.weight_ramp);
+        }
+        RunInputs {
+            inputs: Inputs {
+                rotary_speed: rpm_to_rad_per_s(candidate.rotary_speed),
+                weight_on_bit: kn_to_n(candidate.weight_on_bit),
+                ..applied.inputs
+            },
+            slew,
+            ..applied
+        }
+    }
+}
+
+/// The chance of one alarm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AlarmChance {
+    /// Which.
+    pub id: AlarmId,
+    /// Of this priority or a higher one.
+    pub priority: Priority,
+    /// How often.
+    pub chance: Chance,
+    /// Median over the members that saw it of the time to the first of it (s); NaN where none did.
+    pub first: f64,
+}
+
+/// The answer on one candidate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CandidateAnswer {
+    /// Which.
+    pub candidate: Candidate,
+    /// Time of the run-up (s); NaN where it failed.
+    pub run_up: f64,
+    /// Members that count: those up to the first number at which every alarm is decided.
+    pub members: u32,
+    /// Members that failed among them: what would have come is unknown.
+    pub failed: u32,
+    /// Why the first of these failed; empty where none did.
+    pub failure: String,
+    /// Whether the test decided every alarm.
+    pub decided: bool,
+    /// Alarms that a member saw, by [`AlarmId::ALL`] and from the lowest priority.
+    pub alarms: Vec<AlarmChance>,
+    /// Chance that a member saw any alarm of the tool.
+    pub any_alarm: Chance,
+    /// By [`Figure::ALL`].
+    pub figures: [Band; Figure::ALL.len()],
+    /// Members by the worst quality of their motion: good, degraded, poor.
+    pub quality: [u32; 3],
+}
+
+impl CandidateAnswer {
+    /// Members that saw an alarm, of any priority.
+    pub fn seen(&self, id: AlarmId) -> u32 {
+        let of = self.alarms.iter().filter(|alarm| alarm.id == id);
+        of.map(|alarm| alarm.chance.seen).max().unwrap_or(0)
+    }
+}
+
+/// The answer on all candidates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// In the order of the goal.
+    pub candidates: Vec<CandidateAnswer>,
+    /// Whether it was stopped: then only the members that had ended count.
+    pub stopped: bool,
+}
+
+/// How far a look-ahead is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// Members that ended.
+    pub done: u32,
+    /// Members that may have to run yet.
+    pub remaining: u32,
+    /// What they say so far.
+    pub answer: Answer,
+}
+
+/// A member's end, on its way to the gatherer.
+struct Report {
+    candidate: usize,
+    member: u32,
+    result: Result<Member, Ended>,
+}
+
+/// What is known of one candidate.
+struct Gathered {
+    /// The run at the candidate's speed and weight, or why there is none, and the time to get there (s).
+    run_up: Result<f64, Ended>,
+    /// Members by number.
+    members: BTreeMap<u32, Result<Member, Ended>>,
+    /// Members that count, once that is decided.
+    enough: Option<u32>,
+}
+
+/// Answers a goal that was checked ([`Goal::check`]) from `start`, on `threads` threads. `progress` hears of every member
+/// that ends. Once `stop` is set the call returns within the computing time of a tenth of a second of model time.
+///
+/// The same goal from the same start gives the same answer, with any number of threads.
+pub fn look_ahead(
+    start: &Start,
+    goal: &Goal,
+    threads: usize,
+    stop: &AtomicBool,
+    progress: impl FnMut(Progress),
+) -> Answer {
+    let enough = if goal.run_all { Enough::All } else { Enough::Decided };
+    run_goal(start, goal, enough, threads, stop, progress)
+}
+
+/// When a candidate has run enough members.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Enough<'a> {
+    /// When all have run.
+    All,
+    /// When the test decides every alarm.
+    Decided,
+    /// When more than `most` members show `alarm`, or another that is not `standing`.
+    Against {
+        alarm: AlarmId,
+        standing: &'a [AlarmId],
+        most: u32,
+    },
+}
+
+impl Enough<'_> {
+    /// Whether `of` members do, by the number that saw each alarm.
+    fn reached(&self, seen: &[u32], of: u32) -> bool {
+        match self {
+            Self::All => false,
+            Self::Decided => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
+            Self::Against { alarm, standing, most } => AlarmId::ALL
+                .into_iter()
+                .filter(|id| id == alarm || !standing.contains(id))
+                .any(|id| seen[id as usize] > *most),
+        }
+    }
+}
+
+/// [`look_ahead`] with a rule for when a candidate has run enough members.
+pub(super) fn run_goal(
+    start: &Start,
+    goal: &Goal,
+    rule: Enough<'_>,
+    threads: usize,
+    stop: &AtomicBool,
+    mut progress: impl FnMut(Progress),
+) -> Answer {
+    let candidates = goal.candidates.len();
+    // All first members come before all second ones, so that every candidate has a first answer early.
+    let tasks: Vec<(usize, u32)> = (0..goal.members)
+        .flat_map(|member| (0..candidates).map(move |candidate| (candidate, member)))
+        .collect();
+    let run_ups = run_ups(start, goal, threads, stop);
+    let mut gathered: Vec<Gathered> = run_ups
+        .iter()
+        .map(|run_up| Gathered {
+            run_up: run_up.as_ref().map(|(_, time)| *time).map_err(Clone::clone),
+            members: BTreeMap::new(),
+            enough: run_up.is_err().then_some(0),
+        })
+        .collect();
+    let decided: Vec<AtomicBool> = gathered
+        .iter()
+        .map(|candidate| AtomicBool::new(candidate.enough.is_some()))
+        .collect();
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        let (sender, reports) = channel();
+        for _ in 0..threads.clamp(1, tasks.len().max(1)) {
+            let sender = sender.clone();
+            scope.spawn(|| work(start, goal, &run_ups, &tasks, &next, &decided, stop, sender));
+        }
+        drop(sender);
+        for report in reports {
+            if stop.load(Ordering::Relaxed) {
+                continue;
+            }
+            let of = &mut gathered[report.candidate];
+            of.members.insert(report.member, report.result);
+            if of.enough.is_none() {
+                of.enough = enough(&of.members, goal, rule);
+                decided[report.candidate].store(of.enough.is_some(), Ordering::Relaxed);
+            }
+            progress(told(goal, &gathered));
+        }
+    });
+    answer(goal, &gathered, stop.load(Ordering::Relaxed))
+}
+
+/// The run at a candidate's speed and weight with the time (s) to get there, or why there is none.
+type RunUp = Result<(Run, f64), Ended>;
+
+/// The run-up to each candidate, in the order of the goal.
+fn run_ups(start: &Start, goal: &Goal, threads: usize, stop: &AtomicBool) -> Vec<RunUp> {
+    let next = AtomicUsize::new(0);
+    let mut found: Vec<(usize, RunUp)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads.clamp(1, goal.candidates.len()))
+            .map(|_| {
+                scope.spawn(|| {
+                    yield_to_others();
+                    let mut own = Vec::new();
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(candidate) = goal.candidates.get(index) else {
+                            return own;
+                        };
+                        let watched = Watched::new(start.run.fork(), &start.config, stop);
+                        own.push((index, watched.run_up(&start.target(candidate), MOST_RUN_UP)));
+                    }
+                })
+            })
+            .collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    });
+    found.sort_by_key(|(index, _)| *index);
+    found.into_iter().map(|(_, run_up)| run_up).collect()
+}
+
+/// Takes tasks until none is left.
+#[expect(clippy::too_many_arguments, reason = "what all workers share, by reference")]
+fn work(
+    start: &Start,
+    goal: &Goal,
+    run_ups: &[RunUp],
+    tasks: &[(usize, u32)],
+    next: &AtomicUsize,
+    decided: &[AtomicBool],
+    stop: &AtomicBool,
+    reports: Sender<Report>,
+) {
+    yield_to_others();
+    while !stop.load(Ordering::Relaxed) {
+        let Some(&(candidate, member)) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) else {
+            return;
+        };
+        let Ok((run, _)) = &run_ups[candidate] else { continue };
+        if decided[candidate].load(Ordering::Relaxed) {
+            continue;
+        }
+        let mut fork = run.fork();
+        let mut random = fastrand::Rng::with_seed(seed(goal.seed, candidate, member));
+        fork.disturb(|| DISTURBANCE * (2.0 * random.f64() - 1.0));
+        let result = Watched::new(fork, &start.config, stop).judge(goal.horizon);
+        let report = Report {
+            candidate,
+            member,
+            result,
+        };
+        if reports.send(report).is_err() {
+            return;
+        }
+    }
+}
+
+/// The seed of a member: neighbours differ in all bits once the generator has mixed them.
+fn seed(seed: u64, candidate: usize, member: u32) -> u64 {
+    fastrand::Rng::with_seed(seed ^ ((candidate as u64) << 32 | u64::from(member))).u64(..)
+}
+
+/// Lowers the priority of this thread: the look-ahead takes what the live run leaves. It is a hint; without it the answer is
+/// the same.
+fn yield_to_others() {
+    let _ = rustix::process::nice(19);
+}
+
+/// The number of members that are enough, if the first ones that ended are; all of them where all ended.
+fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal, rule: Enough<'_>) -> Option<u32> {
+    let mut seen = vec![0; AlarmId::ALL.len()];
+    let mut of = 0;
+    for (number, (member, result)) in (0..goal.members).zip(members) {
+        if number != *member {
+            return None;
+        }
+        if let Ok(result) = result {
+            of += 1;
+            for (seen, called) in seen.iter_mut().zip(&result.alarms) {
+                *seen += u32::from(called.worst.is_some());
+            }
+        }
+        if number + 1 == goal.members || rule.reached(&seen, of) {
+            return Some(number + 1);
+        }
+    }
+    None
+}
+
+fn told(goal: &Goal, gathered: &[Gathered]) -> Progress {
+    let done = gathered.iter().map(|candidate| candidate.members.len() as u32).sum();
+    let remaining = gathered
+        .iter()
+        .filter(|candidate| candidate.enough.is_none())
+        .map(|candidate| goal.members.saturating_sub(candidate.members.len() as u32))
+        .sum();
+    Progress {
+        done,
+        remaining,
+        answer: answer(goal, gathered, false),
+    }
+}
+
+fn answer(goal: &Goal, gathered: &[Gathered], stopped: bool) -> Answer {
+    Answer {
+        candidates: goal.candidates.iter().zip(gathered).map(summed).collect(),
+        stopped,
+    }
+}
+
+fn summed((candidate, gathered): (&Candidate, &Gathered)) -> CandidateAnswer {
+    let counted = gathered.enough.map_or(gathered.members.len(), |enough| enough as usize);
+    let results: Vec<&Result<Member, Ended>> = gathered.members.values().take(counted).collect();
+    let members: Vec<&Member> = results.iter().filter_map(|result| result.as_ref().ok()).collect();
+    let of = members.len() as u32;
+    let failures = results.iter().filter_map(|result| result.as_ref().err());
+    let failure = gathered.run_up.as_ref().err().or_else(|| failures.clone().next());
+    let mut alarms = Vec::new();
+    for id in AlarmId::ALL {
+        for priority in [Priority::Low, Priority::Medium, Priority::High] {
+            let called = members.iter().map(|member| member.alarms[id as usize]);
+            let firsts: Vec<f64> = called
+                .filter(|called| called.worst >= Some(priority))
+                .map(|called| called.first)
+                .collect();
+            if !firsts.is_empty() {
+                alarms.push(AlarmChance {
+                    id,
+                    priority,
+                    chance: Chance::new(firsts.len() as u32, of),
+                    first: Band::of(firsts.into_iter()).quantiles[1],
+                });
+            }
+        }
+    }
+    let any = |member: &&&Member| member.alarms.iter().any(|called| called.worst.is_some());
+    let of_quality = |level: QualityLevel| members.iter().filter(|member| member.quality == level).count() as u32;
+    let mut seen = vec![0; AlarmId::ALL.len()];
+    for member in &members {
+        for (seen, called) in seen.iter_mut().zip(&member.alarms) {
+            *seen += u32::from(called.worst.is_some());
+        }
+    }
+    CandidateAnswer {
+        candidate: *candidate,
+        run_up: *gathered.run_up.as_ref().unwrap_or(&f64::NAN),
+        members: counted as u32,
+        failed: failures.count() as u32,
+        failure: failure.map_or(String::new(), sentence),
+        decided: seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
+        alarms,
+        any_alarm: Chance::new(members.iter().filter(any).count() as u32, of),
+        figures: Figure::ALL.map(|figure| Band::of(members.iter().map(|member| member.figures[figure as usize]))),
+        quality: [QualityLevel::Good, QualityLevel::Degraded, QualityLevel::Poor].map(of_quality),
+    }
+}
+
+fn sentence(ended: &Ended) -> String {
+    match ended {
+        Ended::Failed(failure) => format!("a step failed, so that the rest is unknown: {failure}"),
+        Ended::NotReached => format!(
+            "speed or weight did not reach the candidate's within {MOST_RUN_UP} s; give a faster ramp or a nearer candidate"
+        ),
+        Ended::Stopped => "stopped".to_owned(),
+    }
+}

@@ -1,0 +1,296 @@
+//! One future: a run of one candidate, judged as the node judges the live run.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::alarms::{AlarmBook, AlarmId};
+use flexdrill_alarms::{Priority, span};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::{StepFailure, StepOutcome};
+use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
+use flexdrill_core::twin::{QualityLevel, Run, RunInputs, Snapshot};
+use flexdrill_core::units::rad_per_s_to_rpm;
+
+/// Largest lateral velocity (m/s) by which members differ at the beginning. It is a ten-thousandth of the velocities that
+/// the pipe has in drilling, and no instrument in a well resolves it; a turn later the places of the pipe differ by
+/// millimetres (test `a_small_disturbance_parts_forks_within_a_turn`).
+pub const DISTURBANCE: f64 = 1e-5;
+
+/// Time between two looks at a run (s): as often as alarms are observed in the node.
+const LOOK: f64 = 0.1;
+
+/// A figure of a member over its horizon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Figure {
+    /// Mean of (max - min) / (2 mean) of the bit's speed.
+    Ripple,
+    /// Largest normal force of pipe and guide at a station (N).
+    PipeGuideForce,
+    /// Largest normal force of guide and wall at a station (N).
+    GuideWallForce,
+    /// Largest moment of a joint's stop (N m).
+    StopMoment,
+    /// Bending cycles per hour of the link that whirl bends most often, in the mean.
+    BendingCycles,
+    /// Damage per hour of the joint that ages fastest, by its stop or the link below it.
+    Damage,
+    /// Mean torque at the bit over that at the surface, or at the kick-off without a string; NaN where there is none.
+    TorqueTransfer,
+    /// Mean weight at the bit over that at the surface, or at the kick-off without a hoist; NaN where there is none.
+    WeightTransfer,
+}
+
+impl Figure {
+    /// All figures, in the order of a member's.
+    pub const ALL: [Self; 8] = [
+        Self::Ripple,
+        Self::PipeGuideForce,
+        Self::GuideWallForce,
+        Self::StopMoment,
+        Self::BendingCycles,
+        Self::Damage,
+        Self::TorqueTransfer,
+        Self::WeightTransfer,
+    ];
+
+    /// Name and unit, as in messages.
+    pub const fn name_and_unit(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Ripple => ("bit_speed_ripple", ""),
+            Self::PipeGuideForce => ("pipe_guide_force", "N"),
+            Self::GuideWallForce => ("guide_wall_force", "N"),
+            Self::StopMoment => ("stop_moment", "N m"),
+            Self::BendingCycles => ("bending_cycles", "1/h"),
+            Self::Damage => ("damage", "1/h"),
+            Self::TorqueTransfer => ("torque_transfer", ""),
+            Self::WeightTransfer => ("weight_transfer", ""),
+        }
+    }
+}
+
+/// What one alarm did in a member.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Called {
+    /// Highest priority with which it was raised, or stood beyond half of the horizon; none where it did neither.
+    pub worst: Option<Priority>,
+    /// Time from the beginning of the horizon to the first of it (s).
+    pub first: f64,
+}
+
+/// What a member brought.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Member {
+    /// By [`AlarmId::ALL`].
+    pub alarms: Vec<Called>,
+    /// By [`Figure::ALL`].
+    pub figures: [f64; Figure::ALL.len()],
+    /// The worst quality of its motion.
+    pub quality: QualityLevel,
+}
+
+/// Why a member ended early.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Ended {
+    /// A step failed: what would have come is unknown.
+    Failed(StepFailure),
+    /// The speed or the weight did not reach the candidate's.
+    NotReached,
+    /// It was told to stop.
+    Stopped,
+}
+
+/// A run that is being looked at.
+pub(super) struct Watched<'a> {
+    run: Run,
+    config: &'a Arc<Config>,
+    stop: &'a AtomicBool,
+    snapshot: Snapshot,
+    /// Model steps between two looks at the refinement that the motion asks for.
+    period: u64,
+    /// Periods per look.
+    periods: u64,
+}
+
+impl<'a> Watched<'a> {
+    pub(super) fn new(run: Run, config: &'a Arc<Config>, stop: &'a AtomicBool) -> Self {
+        let snapshot = run.simulation().new_snapshot();
+        let step = config.solver.time_step;
+        // The live loop chooses the refinement every 5 ms; so does this one.
+        let period = ((5e-3 / step).round() as u64).max(1);
+        let periods = ((LOOK / (period as f64 * step)).round() as u64).max(1);
+        Self {
+            run,
+            config,
+            stop,
+            snapshot,
+            period,
+            periods,
+        }
+    }
+
+    /// Advances by one look.
+    fn advance(&mut self) -> Result<(), Ended> {
+        for _ in 0..self.periods {
+            let applied = self.run.applied();
+            let refinement = self.run.wanted_refinement();
+            if refinement != applied.refinement {
+                self.run.apply(&RunInputs { refinement, ..applied });
+            }
+            for _ in 0..self.period {
+                if let StepOutcome::Failed(failure) = self.run.advance() {
+                    return Err(Ended::Failed(failure));
+                }
+            }
+        }
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Ended::Stopped);
+        }
+        self.run.look(&mut self.snapshot);
+        Ok(())
+    }
+
+    /// Changes speed and weight to those of `target`, for at most `most` (s). Returns the run and the time it took.
+    pub(super) fn run_up(mut self, target: &RunInputs, most: f64) -> Result<(Run, f64), Ended> {
+        self.run.apply(target);
+        let begun = self.run.simulation().time();
+        loop {
+            let applied = self.run.simulation().applied();
+            let gone = self.run.simulation().time() - begun;
+            if applied.rotary_speed == target.inputs.rotary_speed && applied.weight_set == target.inputs.weight_on_bit {
+                return Ok((self.run, gone));
+            }
+            if gone > most {
+                return Err(Ended::NotReached);
+            }
+            self.advance()?;
+        }
+    }
+
+    /// Runs for `horizon` (s) and judges it.
+    pub(super) fn judge(mut self, horizon: f64) -> Result<Member, Ended> {
+        // What the state before brings is up within `SETTLING`. It counts only if it lasts or returns.
+        self.run.look(&mut self.snapshot);
+        let begun = self.snapshot.time;
+        let stamp = |snapshot: &Snapshot| span(snapshot.time);
+        let mut book = AlarmBook::fresh(Arc::clone(self.config), stamp(&self.snapshot));
+        let damage_before = damage(&self.snapshot);
+        let mut alarms = vec![Called::default(); AlarmId::ALL.len()];
+        let mut stood = vec![true; AlarmId::ALL.len()];
+        let mut tally = Tally::default();
+        let mut quality = QualityLevel::Good;
+        let looks = (horizon / (self.periods as f64 * self.period as f64 * self.config.solver.time_step)).ceil() as u64;
+        for look in 0..looks {
+            self.advance()?;
+            let snapshot = &self.snapshot;
+            book.observe_tool(snapshot, stamp(snapshot));
+            book.forget_events();
+            let lasts = 2 * (look + 1) >= looks;
+            for ((id, called), stood) in AlarmId::ALL.into_iter().zip(&mut alarms).zip(&mut stood) {
+                let active = book.active(id);
+                // An alarm needs its delay before it stands; what the beginning brought is up by then.
+                if snapshot.time - begun < SETTLING {
+                    *stood = active.is_some();
+                } else if let Some(priority) = active
+                    && (!*stood || lasts)
+                {
+                    if called.worst.is_none() {
+                        called.first = snapshot.time - begun;
+                    }
+                    called.worst = called.worst.max(Some(priority));
+                } else if active.is_none() {
+                    *stood = false;
+                }
+            }
+            tally.add(snapshot);
+            quality = quality.max(snapshot.quality.level);
+        }
+        let hours = (self.snapshot.time - begun) / 3600.0;
+        let figures = tally.figures((damage(&self.snapshot) - damage_before) / hours);
+        Ok(Member {
+            alarms,
+            figures,
+            quality,
+        })
+    }
+}
+
+/// Time (s) within which an alarm that was called for by the motion before stands: the longest delay of an alarm that
+/// the motion calls.
+const SETTLING: f64 = 5.0;
+
+/// Damage of the joint that has aged most.
+fn damage(snapshot: &Snapshot) -> f64 {
+    let ageing = &snapshot.ageing;
+    let damages = ageing.stop_damage.iter().zip(&ageing.bending_damage);
+    damages.map(|(stop, bending)| stop.max(*bending)).fold(0.0, f64::max)
+}
+
+/// Sums and maxima over the looks of a member.
+#[derive(Default)]
+struct Tally {
+    ripple: Mean,
+    cycles: Mean,
+    torque: Mean,
+    weight: Mean,
+    forces: [f64; 2],
+    stop: f64,
+}
+
+#[derive(Default)]
+struct Mean {
+    sum: f64,
+    count: f64,
+}
+
+impl Mean {
+    fn add(&mut self, value: f64) {
+        if value.is_finite() {
+            self.sum += value;
+            self.count += 1.0;
+        }
+    }
+
+    fn value(&self) -> f64 {
+        self.sum / self.count
+    }
+}
+
+impl Tally {
+    fn add(&mut self, snapshot: &Snapshot) {
+        let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        self.ripple.add(snapshot.bit.stick_slip_index);
+        let turns_per_hour = 60.0 * rad_per_s_to_rpm(snapshot.applied.rotary_speed).abs();
+        self.cycles.add(most(&snapshot.whirl.bending_cycles) * turns_per_hour);
+        let layers = [&snapshot.contacts.pipe_guide, &snapshot.contacts.guide_wall];
+        for (force, layer) in self.forces.iter_mut().zip(layers) {
+            *force = force.max(most(&layer.normal_peak));
+        }
+        self.stop = self.stop.max(most(&snapshot.joints.stop_moment));
+        let transfer = &snapshot.transfer;
+        self.torque.add(transfer.torque_efficiency);
+        let weight = &transfer.weight.mean;
+        let above = if weight[SURFACE].is_finite() {
+            weight[SURFACE]
+        } else {
+            weight[KICK_OFF]
+        };
+        if above > 0.0 {
+            self.weight.add(weight[BIT] / above);
+        }
+    }
+
+    /// With the damage per hour.
+    fn figures(&self, damage: f64) -> [f64; Figure::ALL.len()] {
+        Figure::ALL.map(|figure| match figure {
+            Figure::Ripple => self.ripple.value(),
+            Figure::PipeGuideForce => self.forces[0],
+            Figure::GuideWallForce => self.forces[1],
+            Figure::StopMoment => self.stop,
+            Figure::BendingCycles => self.cycles.value(),
+            Figure::Damage => damage,
+            Figure::TorqueTransfer => self.torque.value(),
+            Figure::WeightTransfer => self.weight.value(),
+        })
+    }
+}

@@ -1,0 +1,30 @@
+//! Looking ahead: what the tool would do under other speeds and weights, from forks of the present state.
+//!
+//! # Layout
+//! - [`Goal`]: candidates, horizon, members; checked against the configuration before anything runs.
+//! - [`Start`]: the state from which all members begin.
+//! - `member`: one run of one candidate, judged by the alarms that the node itself uses.
+//! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
+//! - [`look_ahead`]: runs the members on some threads and gathers an [`Answer`].
+//! - [`search`]: the smallest change of speed or weight that ends an alarm.
+//!
+//! # Choices
+//! - **Same bytes.** A member is determined by start, candidate, seed and its number. Results count in the order of these
+//!   numbers, and a candidate ends at the first number at which its test is decided, so that threads and their timing
+//!   change nothing.
+//! - **Unknown is not safe.** A member whose step fails counts as failed; it is in no probability, and the answer says how
+//!   many failed and why.
+//! - **Run-up once.** The way from the present speed and weight to the candidate's is run once; the members part there, by
+//!   lateral velocities of [`DISTURBANCE`].
+
+mod advice;
+mod chance;
+mod engine;
+mod goal;
+mod member;
+
+pub use advice::search;
+pub use chance::{Band, Chance};
+pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, look_ahead};
+pub use goal::{Candidate, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
+pub use member::{DISTURBANCE, Figure};

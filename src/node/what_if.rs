@@ -1,0 +1,450 @@
+//! The action `~/what_if`: what the tool would do under other speeds and weights, from the present state of the live run.
+//!
+//! One goal runs at a time, on threads of low priority; up to [`MOST_WAITING`] wait. ROS 2 has no words for a goal that is
+//! not accepted, so that one that cannot be answered is accepted and ends at once as aborted, with the reason in its result.
+
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use tokio::sync::watch;
+
+use super::NodeError;
+use super::advisor::Advisor;
+use super::clocks::Clocks;
+use super::control::Control;
+use super::states::SavedRun;
+use crate::ahead::{Answer, Candidate, CandidateAnswer, Figure, Goal, Progress, Start, look_ahead, search};
+use flexdrill_alarms::Priority;
+use flexdrill_config::Config;
+use flexdrill_core::twin::{RunInputs, Simulation};
+use flexdrill_messages::action_msgs::{CancelGoalRequest, GoalStatus};
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::unique_identifier_msgs::UUID;
+use flexdrill_messages::{
+    Alarm, AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage,
+    WhatIfGetResultRequest, WhatIfGetResultResponse, WhatIfGoal, WhatIfResult, WhatIfSendGoalRequest,
+    WhatIfSendGoalResponse, to_cdr_body,
+};
+use flexdrill_realtime::link::Gauges;
+use flexdrill_ros2::action::{Accepted, ActionEnds, Begun, GoalId, Goals};
+use flexdrill_ros2::args::ArgsError;
+use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
+use flexdrill_ros2::service::{ServiceMapping, Task, asked_by, at_once};
+
+/// Goals that may wait while one runs.
+const MOST_WAITING: usize = 4;
+/// Clients that may wait for results at the same time.
+const MOST_CLIENTS: usize = 32;
+/// Least time between two feedbacks.
+const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
+
+/// Longest wait for a goal before advice is looked for.
+const IDLE: Duration = Duration::from_millis(200);
+/// Seed of the look-aheads for advice.
+const ADVICE_SEED: u64 = 1;
+
+/// What the thread that looks ahead does next.
+enum Next {
+    Goal(Begun<WhatIfGoal>),
+    Nothing,
+    /// The node ends, and no goal waits.
+    End,
+}
+
+type Book = Goals<WhatIfGoal, WhatIfResult>;
+
+/// The goals, and who waits for them.
+pub struct WhatIf {
+    goals: Mutex<Book>,
+    /// A goal was accepted, or the node ends.
+    work: Condvar,
+    /// Counts changes of the goals, for those who wait for a result.
+    changed: watch::Sender<u64>,
+    ending: Mutex<bool>,
+    feedback: TopicPublisher,
+    status: TopicPublisher,
+    clocks: Clocks,
+    advisor: Arc<Advisor>,
+}
+
+impl WhatIf {
+    fn goals(&self) -> MutexGuard<'_, Book> {
+        self.goals.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Changes the goals and tells everybody.
+    fn change<T>(&self, change: impl FnOnce(&mut Book) -> T) -> T {
+        let (result, states) = {
+            let mut goals = self.goals();
+            (change(&mut goals), goals.states())
+        };
+        publish(&self.status, &states);
+        self.changed.send_modify(|count| *count += 1);
+        self.work.notify_all();
+        result
+    }
+
+    fn accept(&self, request: WhatIfSendGoalRequest) -> WhatIfSendGoalResponse {
+        let stamp = Time::from_nanoseconds(self.clocks.rig_time());
+        let id = request.goal_id.uuid;
+        // A question of a person comes before the search for advice.
+        self.advisor.interrupt();
+        let accepted = self.change(|goals| goals.accept(id, stamp.clone(), request.goal));
+        match accepted {
+            Accepted::Waits(before) => {
+                tracing::info!("what if: a goal is accepted, {before} before it{}", asked_by());
+            }
+            Accepted::Full => tracing::warn!(
+                "what if: a goal is refused, since one runs and {MOST_WAITING} wait; cancel one or try again later{}",
+                asked_by()
+            ),
+            Accepted::Known => tracing::warn!(
+                "what if: a goal is refused, since its identifier is in use{}",
+                asked_by()
+            ),
+        }
+        WhatIfSendGoalResponse {
+            accepted: matches!(accepted, Accepted::Waits(_)),
+            stamp,
+        }
+    }
+
+    async fn result(self: Arc<Self>, id: GoalId) -> WhatIfGetResultResponse {
+        let mut changed = self.changed.subscribe();
+        loop {
+            let result = self.goals().result(id);
+            if let Some((status, result)) = result {
+                return WhatIfGetResultResponse {
+                    status,
+                    result: result.unwrap_or_else(|| WhatIfResult {
+                        message: "no such goal; results are kept for 15 min".to_owned(),
+                        ..WhatIfResult::default()
+                    }),
+                };
+            }
+            if changed.changed().await.is_err() {
+                return WhatIfGetResultResponse::default();
+            }
+        }
+    }
+
+    /// Stops what runs and what waits, as the node ends.
+    pub fn end(&self) {
+        *self.ending.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        self.advisor.interrupt();
+        self.change(Goals::cancel_all);
+    }
+
+    fn is_ending(&self) -> bool {
+        *self.ending.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What is to be done next; waits a moment for it.
+    fn next(&self) -> Next {
+        let mut goals = self.goals();
+        if let Some(begun) = goals.begin() {
+            return Next::Goal(begun);
+        }
+        if self.is_ending() {
+            return Next::End;
+        }
+        let (mut goals, _) = self
+            .work
+            .wait_timeout(goals, IDLE)
+            .unwrap_or_else(PoisonError::into_inner);
+        goals.begin().map_or(Next::Nothing, Next::Goal)
+    }
+}
+
+fn publish(to: &TopicPublisher, message: &impl serde::Serialize) {
+    match to_cdr_body(message) {
+        Ok(body) => to.publish(body),
+        Err(error) => tracing::error!("what if: a message could not be encoded: {error}"),
+    }
+}
+
+/// Creates the endpoints of `~/what_if`; `name` makes a private name absolute.
+///
+/// # Errors
+/// When a remapped name is not allowed.
+pub fn serve(
+    port: &mut PortBuilder,
+    mapping: ServiceMapping,
+    clocks: &Clocks,
+    advisor: &Arc<Advisor>,
+    name: impl Fn(&str) -> Result<String, ArgsError>,
+) -> Result<(Arc<WhatIf>, Vec<Task>), NodeError> {
+    let ends = ActionEnds::new(port, &name("~/what_if")?, "flexdrill/action/WhatIf", mapping);
+    let what_if = Arc::new(WhatIf {
+        goals: Mutex::new(Goals::new(MOST_WAITING)),
+        work: Condvar::new(),
+        changed: watch::Sender::new(0),
+        ending: Mutex::new(false),
+        feedback: ends.feedback,
+        status: ends.status,
+        clocks: clocks.clone(),
+        advisor: Arc::clone(advisor),
+    });
+    let (accepting, cancelling, asking) = (Arc::clone(&what_if), Arc::clone(&what_if), Arc::clone(&what_if));
+    let tasks: Vec<Task> = vec![
+        Box::pin(
+            ends.send_goal
+                .serve(at_once(move |request: WhatIfSendGoalRequest| accepting.accept(request))),
+        ),
+        Box::pin(ends.cancel_goal.serve(at_once(move |request: CancelGoalRequest| {
+            tracing::info!("what if: goals are cancelled{}", asked_by());
+            cancelling.change(|goals| goals.cancel(&request))
+        }))),
+        Box::pin(
+            ends.get_result
+                .serve_each(MOST_CLIENTS, move |request: WhatIfGetResultRequest| {
+                    Arc::clone(&asking).result(request.goal_id.uuid)
+                }),
+        ),
+    ];
+    Ok((what_if, tasks))
+}
+
+/// What the thread that answers goals works with.
+pub struct Answering {
+    /// The goals.
+    pub what_if: Arc<WhatIf>,
+    /// Who has the present state.
+    pub control: Arc<Control>,
+    /// Where the run is in time.
+    pub gauges: Arc<Gauges>,
+    /// Who asks for advice on alarms.
+    pub advisor: Arc<Advisor>,
+}
+
+impl Answering {
+    /// Answers goals until the node ends.
+    pub fn run(self) {
+        // The tool is built once, when the first goal comes.
+        let mut tool = None;
+        loop {
+            let begun = match self.what_if.next() {
+                Next::Goal(begun) => begun,
+                Next::Nothing => {
+                    self.advise(&mut tool);
+                    continue;
+                }
+                Next::End => return,
+            };
+            self.what_if.change(|_| ());
+            let began = Instant::now();
+            let (status, result) = match self.answer(&begun, &mut tool) {
+                Ok(result) => (GoalStatus::STATUS_SUCCEEDED, result),
+                Err(message) => {
+                    tracing::warn!("what if: {message}");
+                    let result = WhatIfResult {
+                        message,
+                        ..WhatIfResult::default()
+                    };
+                    (GoalStatus::STATUS_ABORTED, result)
+                }
+            };
+            tracing::info!(
+                "what if: answered after {:.1} s: {}",
+                began.elapsed().as_secs_f64(),
+                result.message
+            );
+            self.what_if.change(|goals| goals.end(begun.id, status, result));
+        }
+    }
+
+    fn answer(&self, begun: &Begun<WhatIfGoal>, tool: &mut Option<Simulation>) -> Result<WhatIfResult, String> {
+        let config = self.control.config();
+        let goal = goal(&begun.goal);
+        goal.check(&config).map_err(|error| error.to_string())?;
+        let (start, applied, ticks) = self.start(&config, tool)?;
+        let mut told = Instant::now();
+        let mut first = true;
+        let threads = config.look_ahead.threads as usize;
+        let answer = look_ahead(&start, &goal, threads, &begun.stop, |progress| {
+            if first || told.elapsed() >= FEEDBACK_INTERVAL {
+                (first, told) = (false, Instant::now());
+                publish(&self.what_if.feedback, &feedback(begun.id, &progress));
+            }
+        });
+        Ok(WhatIfResult {
+            from_stamp: self.stamp(ticks, &config),
+            from_step: applied.step,
+            complete: !answer.stopped,
+            message: sentence(&answer),
+            answers: answer.candidates.iter().map(of_candidate).collect(),
+        })
+    }
+
+    /// The present state of the live run, what acts on it, and its ticks.
+    fn start(&self, config: &Arc<Config>, tool: &mut Option<Simulation>) -> Result<(Start, RunInputs, u64), String> {
+        let SavedRun {
+            checkpoint,
+            applied,
+            ticks,
+        } = self.control.state().map_err(|error| error.to_string())?;
+        let tool = match tool {
+            Some(tool) => tool,
+            // What may change while the node runs is in the checkpoint; the tool itself stays as it was built.
+            None => {
+                let first = self.control.first_config();
+                let built = Simulation::new(&first.tool(), &first.simulation()).map_err(|error| error.to_string())?;
+                tool.insert(built)
+            }
+        };
+        let start =
+            Start::restored(Arc::clone(config), tool, &checkpoint, &applied).map_err(|error| error.to_string())?;
+        Ok((start, applied, ticks))
+    }
+
+    /// Looks for the smallest change that ends the alarm that leads, if that is asked for.
+    fn advise(&self, tool: &mut Option<Simulation>) {
+        let Some((asked, stop)) = self.advisor.due() else {
+            return;
+        };
+        let config = self.control.config();
+        let start = match self.start(&config, tool) {
+            Ok((start, ..)) => start,
+            Err(message) => {
+                tracing::warn!("advice on {}: {message}", asked.alarm.name());
+                return self.advisor.answer(asked, None);
+            }
+        };
+        let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
+        let tested = search(&start, asked.alarm, &asked.standing, ADVICE_SEED, threads, &stop);
+        if stop.load(Ordering::Relaxed) {
+            return;
+        }
+        tracing::info!(
+            "advice on {} after {:.1} s: {}",
+            asked.alarm.name(),
+            began.elapsed().as_secs_f64(),
+            tested.map_or_else(
+                || "no change of speed or weight within the limits ends it in 9 of 10 look-aheads".to_owned(),
+                |tested| tested.to_string()
+            )
+        );
+        self.advisor.answer(asked, tested);
+    }
+
+    /// The instant after so many ticks on the rig's clock.
+    fn stamp(&self, ticks: u64, config: &Config) -> Time {
+        let begin = self.gauges.start().unwrap_or_default();
+        let passed = (ticks as f64 * config.solver.time_step * 1e9).round() as i64;
+        Time::from_nanoseconds(begin.saturating_add(passed))
+    }
+}
+
+fn goal(asked: &WhatIfGoal) -> Goal {
+    Goal {
+        candidates: asked.candidates.iter().map(candidate).collect(),
+        horizon: asked.horizon,
+        members: asked.members,
+        run_all: asked.run_all,
+        seed: asked.seed,
+    }
+}
+
+fn candidate(asked: &WhatIfCandidate) -> Candidate {
+    Candidate {
+        rotary_speed: asked.rotary_speed,
+        weight_on_bit: asked.weight_on_bit,
+        speed_ramp: asked.speed_ramp,
+        weight_ramp: asked.weight_ramp,
+    }
+}
+
+fn feedback(id: GoalId, progress: &Progress) -> WhatIfFeedbackMessage {
+    WhatIfFeedbackMessage {
+        goal_id: UUID { uuid: id },
+        feedback: WhatIfFeedback {
+            done: progress.done,
+            remaining: progress.remaining,
+            answers: progress.answer.candidates.iter().map(of_candidate).collect(),
+        },
+    }
+}
+
+/// What was found, per candidate in the order of the goal.
+fn sentence(answer: &Answer) -> String {
+    let each = answer.candidates.iter().map(|of| {
+        let (rpm, kn) = (of.candidate.rotary_speed, of.candidate.weight_on_bit);
+        let found = match (of.any_alarm.of, of.any_alarm.seen) {
+            (0, _) if of.failure.is_empty() => "no member ended".to_owned(),
+            (0, _) => format!("unknown: {}", of.failure),
+            (members, 0) => format!("no alarm in {members} look-aheads"),
+            (members, seen) => format!("alarms in {seen} of {members} look-aheads"),
+        };
+        format!("{rpm} r/min and {kn} kN: {found}")
+    });
+    let each = each.collect::<Vec<_>>().join("; ");
+    if answer.stopped {
+        format!("cancelled; until then: {each}")
+    } else {
+        each
+    }
+}
+
+fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
+    let Candidate {
+        rotary_speed,
+        weight_on_bit,
+        speed_ramp,
+        weight_ramp,
+    } = of.candidate;
+    let [good, degraded, poor] = of.quality;
+    WhatIfAnswer {
+        candidate: WhatIfCandidate {
+            rotary_speed,
+            weight_on_bit,
+            speed_ramp,
+            weight_ramp,
+        },
+        run_up: of.run_up,
+        members: of.members,
+        failed: of.failed,
+        failure: of.failure.clone(),
+        decided: of.decided,
+        any_alarm: of.any_alarm.probability,
+        any_alarm_lower: of.any_alarm.interval[0],
+        any_alarm_upper: of.any_alarm.interval[1],
+        alarms: of.alarms.iter().map(of_alarm).collect(),
+        figures: Figure::ALL
+            .iter()
+            .zip(&of.figures)
+            .map(|(figure, band)| {
+                let (name, unit) = figure.name_and_unit();
+                let [p5, p50, p95] = band.quantiles;
+                FigureBand {
+                    name: name.to_owned(),
+                    unit: unit.to_owned(),
+                    p5,
+                    p50,
+                    p95,
+                }
+            })
+            .collect(),
+        quality_good: good,
+        quality_degraded: degraded,
+        quality_poor: poor,
+    }
+}
+
+fn of_alarm(of: &crate::ahead::AlarmChance) -> AlarmChance {
+    AlarmChance {
+        id: of.id.id().to_owned(),
+        name: of.id.name().to_owned(),
+        priority: match of.priority {
+            Priority::Low => Alarm::LOW,
+            Priority::Medium => Alarm::MEDIUM,
+            Priority::High => Alarm::HIGH,
+        },
+        seen: of.chance.seen,
+        members: of.chance.of,
+        probability: of.chance.probability,
+        lower: of.chance.interval[0],
+        upper: of.chance.interval[1],
+        time_to_first: of.first,
+    }
+}

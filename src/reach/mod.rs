@@ -1,0 +1,113 @@
+//! Reach: torque and weight at the bit against the length of the hole.
+//!
+//! The configuration's tool and hole are lengthened by links in a straight part. Every point, a length with a friction
+//! coefficient, with or without rotation, is a run of the twin until its means are steady ([`point`]). Beside it are the
+//! closed form of a soft string ([`soft_string`]) and the depth from which the tool is compressed beyond buckling. A run
+//! that fails or does not become steady is unknown, with its cause.
+
+pub mod picture;
+pub mod point;
+pub mod soft_string;
+pub mod table;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+use flexdrill_config::{Config, ConfigError};
+
+pub use point::{Found, Load, Point};
+use soft_string::SoftString;
+
+/// What is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Numbers of links, rising.
+    pub links: Vec<usize>,
+    /// Friction coefficients of both layers, rising.
+    pub frictions: Vec<f64>,
+    /// Speed, weight and duration of every run.
+    pub load: Load,
+    /// Threads.
+    pub jobs: usize,
+}
+
+/// A point with its result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Length of the hole from the kick-off (m).
+    pub length: f64,
+    /// Links.
+    pub links: usize,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Whether the tool rotates.
+    pub rotates: bool,
+    /// Closed form of a soft string.
+    pub soft: SoftString,
+    /// The twin's figures, or why there are none.
+    pub found: Result<Found, String>,
+}
+
+/// Runs all points, on as many threads as the plan has. The rows are in the order of lengths, with rotation first, then
+/// of friction; they do not depend on the number of threads. At most one tool per thread is in memory. `progress` gets
+/// the share of the work that is done, 0 to 1.
+///
+/// # Errors
+/// When the configuration cannot be lengthened or loaded as the plan says.
+pub fn study(config: &Config, plan: &Plan, mut progress: impl FnMut(f64)) -> Result<Vec<Row>, ConfigError> {
+    let mut points = Vec::new();
+    for &links in &plan.links {
+        for rotates in [true, false] {
+            for &friction in &plan.frictions {
+                points.push(Point::new(config, links, friction, rotates, &plan.load)?);
+            }
+        }
+    }
+    // The cost of a step grows with the links. The most expensive points come first, so that no thread waits for one.
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by_key(|&index| std::cmp::Reverse(points[index].links));
+    let whole: usize = points.iter().map(|point| point.links).sum();
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new(vec![None; points.len()]);
+    std::thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel::<f64>();
+        for _ in 0..plan.jobs.clamp(1, points.len().max(1)) {
+            let (sender, points, order, next, found) = (sender.clone(), &points, &order, &next, &found);
+            scope.spawn(move || {
+                while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let point = &points[index];
+                    let mut reported = 0.0;
+                    let mut report = |share: f64| {
+                        // The receiver outlives all threads of this scope.
+                        let _ = sender.send((share - reported) * point.links as f64);
+                        reported = share;
+                    };
+                    let result = point.run(&plan.load, &mut report);
+                    report(1.0);
+                    let mut found = found.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                    found[index] = Some(result);
+                }
+            });
+        }
+        drop(sender);
+        let mut done = 0.0;
+        for part in receiver {
+            done += part;
+            progress((done / whole as f64).min(1.0));
+        }
+    });
+    let found = found.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    Ok(points
+        .iter()
+        .zip(found)
+        .map(|(point, found)| Row {
+            length: point.config.well.length(),
+            links: point.links,
+            friction: point.friction,
+            rotates: point.rotates,
+            soft: SoftString::of(&point.config.tool(), &plan.load, point.rotates),
+            found: found.unwrap_or_else(|| Err("the run did not take place".to_owned())),
+        })
+        .collect())
+}

@@ -1,0 +1,100 @@
+//! The closed form that the field uses: a string without bending stiffness that follows the hole (Johancsik, Friesen and
+//! Dawson, J. Pet. Tech. 36 (6), 1984), here for the guide on the wall and the pipe in the guide.
+//!
+//! With the compression N of the guide, the curvature kappa and the inclination i of the hole, the weights per length
+//! w_g and w_p of guide and pipe in mud and the axial friction coefficient mu_x, down the hole:
+//!
+//!     dN/ds = w_g cos i - mu_x f |N kappa + (w_g + w_p) sin i|,      f = v / sqrt(v^2 + u^2).
+//!
+//! The guide is not driven: it slides along the hole only, u = 0 and f = 1, whether the pipe rotates or not. Without
+//! weight this is e^(-mu_x theta) in an arc and - mu_x w L in a level hole. Once N is zero, no weight is passed on.
+//!
+//! The pipe hangs from its top and turns in the guide, where its sliding along the axis is negligible (f = 0). With its
+//! tension T = integral of w_p cos i from the bit up, its friction takes the torque
+//!
+//!     M = mu_t r integral |w_p sin i - T kappa| ds.
+
+use flexdrill_core::tool::{RockLaw, SectionProperties, ToolDescription, Weakening, WellPath};
+
+use super::Load;
+
+/// Pieces into which the hole is divided: 1.5 cm of 60 m.
+const PIECES: usize = 4000;
+
+/// Weight and torque by the closed form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoftString {
+    /// Weight at the bit (N).
+    pub weight_at_bit: f64,
+    /// Torque at the bit under this weight (N m); zero without rotation.
+    pub torque_at_bit: f64,
+    /// Torque at the tool's top (N m); zero without rotation.
+    pub torque_at_top: f64,
+}
+
+impl SoftString {
+    /// For a tool that is pushed at its top by the weight of `load`.
+    pub fn of(tool: &ToolDescription, load: &Load, rotates: bool) -> Self {
+        let [guide, pipe] = weights(tool);
+        let path = WellPath::new(&tool.well);
+        let length = path.length() / PIECES as f64;
+        let middle = |piece: usize| (piece as f64 + 0.5) * length;
+        // Weight of the pipe above a piece, from the top down; the rest hangs on it.
+        let along = |piece: usize| pipe * libm::cos(path.inclination(middle(piece))) * length;
+        let mut tension: f64 = (0..PIECES).map(along).sum();
+        let (mut weight, mut friction_torque) = (load.weight, 0.0);
+        for piece in 0..PIECES {
+            let (inclination, curvature) = (path.inclination(middle(piece)), path.curvature(middle(piece)));
+            let (sin, cos) = libm::sincos(inclination);
+            let contact = (weight * curvature + (guide + pipe) * sin).abs();
+            weight = (weight + (guide * cos - tool.outer.friction_axial * contact) * length).max(0.0);
+            let inner = (pipe * sin - tension * curvature).abs();
+            friction_torque += tool.inner.friction_tangential * radius(tool) * inner * length;
+            tension -= along(piece);
+        }
+        let torque = if rotates {
+            bit_torque(tool, weight, load.speed)
+        } else {
+            0.0
+        };
+        Self {
+            weight_at_bit: weight,
+            torque_at_bit: torque,
+            torque_at_top: if rotates { torque + friction_torque } else { 0.0 },
+        }
+    }
+}
+
+/// Weight per length of guide and pipe (N/m), in mud.
+pub(super) fn weights(tool: &ToolDescription) -> [f64; 2] {
+    let mass = |tube| SectionProperties::of(tube, tool.material, 1.0).mass;
+    let pipe = tool.pipe_sections.iter().map(|&tube| mass(tube)).sum::<f64>() / tool.pipe_sections.len() as f64;
+    [tool.gravity * mass(tool.guide_section), tool.gravity * pipe]
+}
+
+/// Radius at which the pipe touches the guide (m).
+fn radius(tool: &ToolDescription) -> f64 {
+    tool.pipe_contact_diameters
+        .iter()
+        .chain(tool.pipe_sections.iter().map(|tube| &tube.outer_diameter))
+        .fold(0.0_f64, |widest, &diameter| widest.max(diameter))
+        / 2.0
+}
+
+/// Torque of the rock (N m) at a steady weight (N) and speed (rad/s).
+fn bit_torque(tool: &ToolDescription, weight: f64, speed: f64) -> f64 {
+    let by_weight = tool.bit.friction_factor * tool.bit.diameter / 3.0 * weight;
+    let factor = |falls: &Weakening| 1.0 + (falls.ratio - 1.0) * libm::exp(-speed.abs() / falls.rate);
+    match &tool.rock {
+        RockLaw::Weakening(falls) => by_weight * factor(falls),
+        RockLaw::DepthOfCut(cut) => {
+            let radius = tool.bit.diameter / 2.0;
+            let flats = weight.min(cut.wear_flat_force);
+            let depth = (weight - flats) / (cut.cutter_inclination * cut.specific_energy * radius);
+            0.5 * cut.specific_energy * radius * radius * depth
+                + 0.5 * cut.wear_flat_friction * radius * flats * factor(&cut.weakening)
+        }
+        // The paper's Eq. 1.
+        _ => by_weight,
+    }
+}

@@ -1,0 +1,135 @@
+//! `flexdrill reach` on a short tool: table, picture and words agree, the number of threads does not matter, and what
+//! cannot be computed is refused or unknown with its cause.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn reach(out: &Path, more: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["reach", "tests/data/reach.yaml", "--wob", "2", "--out"])
+        .arg(out)
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+const SMALL: [&str; 4] = ["--lengths", "0.6,1.2", "--friction", "0.2,0.4"];
+
+#[test]
+fn table_picture_and_words_agree_with_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let (first, second) = (folder.path().join("a"), folder.path().join("b"));
+    let one = reach(&first, &[&SMALL[..], &["--jobs", "1"]].concat());
+    assert!(one.status.success(), "{}", text(&one.stderr));
+    let two = reach(&second, &[&SMALL[..], &["--jobs", "2"]].concat());
+    assert!(two.status.success(), "{}", text(&two.stderr));
+    for name in ["reach.csv", "reach.svg"] {
+        let [a, b] = [&first, &second].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(!a.is_empty() && a == b, "{name}");
+    }
+    // No temporary file stays.
+    assert_eq!(std::fs::read_dir(&first).unwrap().count(), 2);
+    let mut table = csv::Reader::from_path(first.join("reach.csv")).unwrap();
+    let header = table.headers().unwrap().clone();
+    let column = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 8);
+    let number = |row: &csv::StringRecord, name: &str| row[column(name)].parse::<f64>().unwrap();
+    for row in &rows {
+        assert_eq!(&row[column("state")], "steady", "{row:?}");
+        // What is put in arrives at the kick-off, and not more than it at the bit but for the weight of the guide.
+        assert!((number(row, "weight_at_kickoff_kn") - 2.0).abs() < 0.06, "{row:?}");
+        assert!(number(row, "weight_at_bit_kn") < 2.3, "{row:?}");
+        assert!(number(row, "model_time_s") <= 60.0);
+        let turns = &row[column("rotates")] == "true";
+        assert_eq!(number(row, "torque_at_bit_nm") > 1.0, turns, "{row:?}");
+        if turns {
+            // Eq. 1 at the weight that arrives.
+            let by_weight = 0.235 * 0.1021 / 3.0 * 1e3 * number(row, "weight_at_bit_kn");
+            assert!(
+                (number(row, "torque_at_bit_nm") / by_weight - 1.0).abs() < 0.01,
+                "{row:?}"
+            );
+            assert!(
+                number(row, "torque_at_kickoff_nm") > number(row, "torque_at_bit_nm"),
+                "{row:?}"
+            );
+        }
+    }
+    // The longer hole and the greater friction let less arrive.
+    let at = |length: f64, friction: &str| {
+        let row = rows.iter().find(|row| {
+            (number(row, "length_m") - length).abs() < 0.1
+                && &row[column("friction")] == friction
+                && &row[column("rotates")] == "false"
+        });
+        number(row.unwrap(), "weight_at_bit_kn")
+    };
+    assert!(at(1.2, "0.4") < at(1.2, "0.2"), "{rows:?}");
+    let words = text(&one.stdout);
+    let shown = words.lines().filter(|line| line.contains("torque at the bit")).count();
+    assert_eq!(shown, 2, "{words}");
+    let torque = format!("{:.2}", number(&rows[1], "torque_at_bit_nm"));
+    assert!(words.contains(&torque), "{torque}: {words}");
+    let svg = std::fs::read_to_string(first.join("reach.svg")).unwrap();
+    for part in [
+        "<svg",
+        "Weight at the bit",
+        "Torque with rotation",
+        "soft string",
+        "</svg>",
+    ] {
+        assert!(svg.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn a_run_that_is_not_steady_is_unknown_with_its_cause() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = reach(
+        folder.path(),
+        &["--lengths", "0.6", "--friction", "0.3", "--seconds", "4"],
+    );
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("no run became steady"));
+    let words = text(&output.stdout);
+    assert!(
+        words.contains("Unknown at") && words.contains("not steady after"),
+        "{words}"
+    );
+    let table = std::fs::read_to_string(folder.path().join("reach.csv")).unwrap();
+    assert_eq!(table.matches(",unknown,,,,,,,").count(), 2, "{table}");
+}
+
+#[test]
+fn bad_arguments_are_refused_with_value_bound_and_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, expected) in [
+        (&["--lengths", "0"][..], "from 0.1 to 1000 m"),
+        (&["--lengths", "5,x"], "from 0.1 to 1000 m"),
+        (&["--lengths", "900"], "500 links"),
+        (&["--friction", "-0.1"], "from 0 to 2"),
+        (&["--friction", "nan"], "from 0 to 2"),
+        (&["--rpm", "0"], "from 1 to 5000 r/min"),
+        (&["--rpm", "4000"], "inputs.rotary_speed.max_rpm, 120 r/min"),
+        (&["--jobs", "0"], "1..=256"),
+        (&["--advance", "0"], "from 0.01 to 100 m/h"),
+        (&["--seconds", "-1"], "from 0.001"),
+    ] {
+        let arguments: Vec<String> = arguments
+            .chunks(2)
+            .map(|pair| format!("{}={}", pair[0], pair[1]))
+            .collect();
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let output = reach(&folder.path().join("none"), &arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+    assert!(!folder.path().join("none").exists());
+}

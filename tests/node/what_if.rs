@@ -1,0 +1,200 @@
+//! The action `~/what_if` over DDS, as the action clients of ROS 2 use it: a goal, its feedback, its state and its result;
+//! goals that cannot be answered, that wait, and that are cancelled.
+
+use std::time::Instant;
+
+use crate::common::{Network, Peer, Program};
+use flexdrill::messages::action_msgs::GoalStatus;
+use serde_json::{Value, json};
+
+const ACTION: &str = "/flexdrill/what_if/_action";
+const TYPE: &str = "flexdrill/action/WhatIf";
+
+fn candidate(rpm: f64, kn: f64) -> Value {
+    json!({"rotary_speed": rpm, "weight_on_bit": kn})
+}
+
+fn id(number: u8) -> Value {
+    json!({"uuid": vec![number; 16]})
+}
+
+/// Sends a goal; whether it was accepted.
+fn send(peer: &mut Peer, number: u8, goal: Value) -> bool {
+    let request = json!({"goal_id": id(number), "goal": goal});
+    let reply = peer.call(&format!("{ACTION}/send_goal"), &format!("{TYPE}_SendGoal"), request);
+    reply["accepted"].as_bool().unwrap()
+}
+
+/// Waits for the end of a goal; its state and result.
+fn result(peer: &mut Peer, number: u8) -> (i64, Value) {
+    let reply = peer.command(json!({
+        "do": "call",
+        "service": format!("{ACTION}/get_result"),
+        "type": format!("{TYPE}_GetResult"),
+        "request": {"goal_id": id(number)},
+        "seconds": 50.0,
+    }))["reply"]
+        .clone();
+    (reply["status"].as_i64().unwrap(), reply["result"].clone())
+}
+
+fn cancel(peer: &mut Peer, number: u8) -> (i64, usize) {
+    let request = json!({"goal_info": {"goal_id": id(number)}});
+    let reply = peer.call(&format!("{ACTION}/cancel_goal"), "action_msgs/srv/CancelGoal", request);
+    (
+        reply["return_code"].as_i64().unwrap(),
+        reply["goals_canceling"].as_array().unwrap().len(),
+    )
+}
+
+#[test]
+fn a_goal_is_answered_while_the_live_run_goes_on() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    let feedback = format!("{ACTION}/feedback");
+    peer.subscribe(&feedback, &format!("{TYPE}_FeedbackMessage"), "reliable");
+    peer.send("/rig/rotary_speed_rpm", json!(60.0));
+    peer.send("/rig/weight_on_bit_kn", json!(5.0));
+
+    let goal = json!({
+        "candidates": [candidate(60.0, 5.0), candidate(90.0, 8.0)], "horizon": 10.0, "members": 3, "run_all": true, "seed": 5,
+    });
+    assert!(send(&mut peer, 1, goal.clone()));
+    assert!(!send(&mut peer, 1, goal), "an identifier is used once");
+    let (status, answer) = result(&mut peer, 1);
+    assert_eq!(status, i64::from(GoalStatus::STATUS_SUCCEEDED), "{answer}");
+    assert_eq!(answer["complete"], true);
+    let answers = answer["answers"].as_array().unwrap();
+    assert_eq!(answers.len(), 2);
+    for (of, rpm) in answers.iter().zip([60.0, 90.0]) {
+        assert_eq!(of["candidate"]["rotary_speed"], rpm);
+        assert_eq!((&of["members"], &of["failed"]), (&json!(3), &json!(0)), "{of}");
+        let chance = of["any_alarm"].as_f64().unwrap();
+        assert!(of["any_alarm_lower"].as_f64().unwrap() <= chance && chance <= of["any_alarm_upper"].as_f64().unwrap());
+        let force = &of["figures"][1];
+        assert_eq!(
+            (&force["name"], &force["unit"]),
+            (&json!("pipe_guide_force"), &json!("N"))
+        );
+        assert!(force["p50"].as_f64().unwrap() > 0.0, "{force}");
+    }
+    assert!(
+        answer["message"].as_str().unwrap().contains("60 r/min and 5 kN"),
+        "{answer}"
+    );
+    assert!(answer["from_step"].as_u64().unwrap() > 0 && answer["from_stamp"]["sec"].as_i64().unwrap() > 0);
+    let heard = peer.take(&feedback, 1, 5.0);
+    let first = heard.first().expect("feedback");
+    assert_eq!(first["goal_id"], id(1));
+    assert!(first["feedback"]["done"].as_u64().unwrap() >= 1, "{first}");
+
+    // The states are latched: who comes late sees them, the newest last.
+    let states = format!("{ACTION}/status");
+    peer.subscribe(&states, "action_msgs/msg/GoalStatusArray", "latched");
+    let seen = peer.take(&states, 10, 2.0);
+    let last = &seen.last().expect("states")["status_list"][0];
+    assert_eq!(
+        (&last["goal_info"]["goal_id"], &last["status"]),
+        (&id(1), &json!(GoalStatus::STATUS_SUCCEEDED))
+    );
+    // The result stays for those who ask again, and no other goal has one.
+    assert_eq!(result(&mut peer, 1).0, i64::from(GoalStatus::STATUS_SUCCEEDED));
+    let (status, unknown) = result(&mut peer, 77);
+    assert_eq!(status, i64::from(GoalStatus::STATUS_UNKNOWN));
+    assert!(unknown["message"].as_str().unwrap().contains("no such goal"));
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+}
+
+#[test]
+fn goals_out_of_bounds_are_told_why_and_cancelled_ones_end_at_once() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    let asked = |horizon: f64, rpm: f64| json!({"candidates": [candidate(rpm, 5.0)], "horizon": horizon, "members": 200, "run_all": true, "seed": 5});
+    for (number, goal, words) in [
+        (1, asked(1e9, 60.0), "give 10 to 600 s"),
+        (2, asked(30.0, 1e6), "inputs.rotary_speed"),
+        (3, json!({"horizon": 30.0, "members": 1}), "1 to 16"),
+    ] {
+        assert!(send(&mut peer, number, goal));
+        let (status, answer) = result(&mut peer, number);
+        assert_eq!(status, i64::from(GoalStatus::STATUS_ABORTED), "{answer}");
+        assert!(answer["message"].as_str().unwrap().contains(words), "{answer}");
+    }
+
+    // One runs, four wait, the sixth is refused; all are cancelled at once.
+    for number in 10..15 {
+        assert!(send(&mut peer, number, asked(300.0, 60.0)), "{number}");
+    }
+    assert!(!send(&mut peer, 15, asked(300.0, 60.0)));
+    let told = Instant::now();
+    assert_eq!(cancel(&mut peer, 10), (0, 1));
+    let (status, answer) = result(&mut peer, 10);
+    assert_eq!(status, i64::from(GoalStatus::STATUS_CANCELED), "{answer}");
+    assert!(answer["complete"] == false && answer["message"].as_str().unwrap().starts_with("cancelled"));
+    // A busy machine gets ten times the half second that clients are promised.
+    assert!(told.elapsed().as_secs_f64() < 5.0);
+    assert_eq!(cancel(&mut peer, 99), (2, 0));
+    let request = json!({"goal_info": {}});
+    let all = peer.call(&format!("{ACTION}/cancel_goal"), "action_msgs/srv/CancelGoal", request);
+    assert_eq!(all["goals_canceling"].as_array().unwrap().len(), 4, "{all}");
+    for number in 11..15 {
+        assert_eq!(result(&mut peer, number).0, i64::from(GoalStatus::STATUS_CANCELED));
+    }
+    // A goal that runs does not hold up the end of the node.
+    assert!(send(&mut peer, 20, asked(300.0, 60.0)));
+    let told = Instant::now();
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+    assert!(told.elapsed().as_secs_f64() < 15.0);
+}
+
+/// Deadlines of the live run of the whole tool while goals are answered all the time, on one core and on two:
+///
+///     cargo test --release --test node what_if::deadlines -- --ignored --nocapture
+#[test]
+#[ignore = "measures for two minutes; run it alone"]
+fn deadlines_while_looking_ahead() {
+    for cores in ["0", "0,1"] {
+        let Some(network) = Network::new() else { return };
+        let Some(mut peer) = network.peer() else { return };
+        let mut command = network.command("taskset");
+        command.args([
+            "-c",
+            cores,
+            env!("CARGO_BIN_EXE_flexdrill"),
+            "run",
+            "--config",
+            "config/default.yaml",
+        ]);
+        let mut twin = Program::start(command);
+        twin.wait_for("model time runs");
+        peer.subscribe("/twin/status", "flexdrill/msg/TwinStatus", "latched");
+        let mut misses = Vec::new();
+        let mut members = 0;
+        for number in 1..=8 {
+            peer.send("/rig/rotary_speed_rpm", json!(60.0));
+            peer.send("/rig/weight_on_bit_kn", json!(10.0));
+            let goal = json!({
+                "candidates": [candidate(60.0, 10.0)], "horizon": 10.0, "members": 6, "run_all": true, "seed": number,
+            });
+            assert!(send(&mut peer, number, goal));
+            let begun = Instant::now();
+            let (_, answer) = result(&mut peer, number);
+            members += answer["answers"][0]["members"].as_u64().unwrap();
+            let status = peer.status_with("/twin/status", |status| status["deadline_misses"].is_u64());
+            misses.push((
+                status["deadline_misses"].as_u64().unwrap(),
+                status["steps_skipped"].as_u64().unwrap(),
+                begun.elapsed().as_secs_f64(),
+            ));
+        }
+        println!("cores {cores}: {members} members of 10 s; (missed deadlines, skipped steps, seconds): {misses:.1?}");
+        twin.signal("TERM");
+        assert_eq!(twin.end(), Some(0));
+    }
+}
