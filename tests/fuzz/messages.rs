@@ -226,7 +226,11 @@ fn filled() -> Vec<Vec<u8>> {
             transforms: vec![geometry_msgs::TransformStamped::default(); 2],
         }),
         // A time in the other byte order: 7 s and 9 ns.
-        [&[number::<builtin_interfaces::Time>(), 0, 0, 0, 0][..], &[0, 0, 0, 7, 0, 0, 0, 9]].concat(),
+        [
+            &[number::<builtin_interfaces::Time>(), 0, 0, 0, 0][..],
+            &[0, 0, 0, 7, 0, 0, 0, 9],
+        ]
+        .concat(),
     ]
 }
 
