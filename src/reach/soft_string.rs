@@ -4,7 +4,9 @@
 //! With the compression N of the guide, the curvature kappa and the inclination i of the hole, the weights per length
 //! w_g and w_p of guide and pipe in mud and the axial friction coefficient mu_x, down the hole:
 //!
-//!     dN/ds = w_g cos i - mu_x f |N kappa + (w_g + w_p) sin i|,      f = v / sqrt(v^2 + u^2).
+//! ```text
+//! dN/ds = w_g cos i - mu_x f |N kappa + (w_g + w_p) sin i|,      f = v / sqrt(v^2 + u^2).
+//! ```
 //!
 //! The guide is not driven: it slides along the hole only, u = 0 and f = 1, whether the pipe rotates or not. Without
 //! weight this is e^(-mu_x theta) in an arc and - mu_x w L in a level hole. Once N is zero, no weight is passed on.
@@ -12,7 +14,9 @@
 //! The pipe hangs from its top and turns in the guide, where its sliding along the axis is negligible (f = 0). With its
 //! tension T = integral of w_p cos i from the bit up, its friction takes the torque
 //!
-//!     M = mu_t r integral |w_p sin i - T kappa| ds.
+//! ```text
+//! M = mu_t r integral |w_p sin i - T kappa| ds.
+//! ```
 
 use flexdrill_core::tool::{RockLaw, SectionProperties, ToolDescription, Weakening, WellPath};
 
