@@ -7,8 +7,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use flexdrill_messages::{
-    Ageing, Alarm, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
-    RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
+    Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, FigureBand,
+    JointDeflections, Message, Reactions, RigInputs, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate,
+    WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
@@ -157,6 +158,10 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<RigInputs>(&mut maker),
         reference::<SessionInfo>(&mut maker),
         reference::<Transfer>(&mut maker),
+        reference::<AlarmChance>(&mut maker),
+        reference::<FigureBand>(&mut maker),
+        reference::<WhatIfAnswer>(&mut maker),
+        reference::<WhatIfCandidate>(&mut maker),
         reference::<TwinStatus>(&mut maker),
         reference::<WhirlState>(&mut maker),
         reference::<WhirlWarning>(&mut maker),
