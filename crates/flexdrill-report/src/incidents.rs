@@ -131,6 +131,11 @@ impl Incidents {
         self.log.groups().values()
     }
 
+    /// The same with the alarms' ids, in their order.
+    pub(crate) fn by_id(&self) -> impl Iterator<Item = (&str, &Group)> {
+        self.log.groups().iter().map(|(id, group)| (id.as_str(), group))
+    }
+
     /// The input alarms that stand when the recording ends: the log or the rig had ended before, which says nothing
     /// about the drilling. They begin with the alarm, some seconds after the last sample.
     pub(crate) fn inputs_at_the_end(&self) -> impl Iterator<Item = &Incident> {

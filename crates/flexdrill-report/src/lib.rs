@@ -6,10 +6,12 @@
 //! # Layout
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
-//!   `transfer` (torque, weight and power from the surface to the bit), `incidents` (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model,
-//!   recording).
+//!   `transfer` (torque, weight and power from the surface to the bit), `incidents` (alarms), `shares` (of time),
+//!   `locations` (the worst ones and their orbits), `health` (pace, model, recording).
+//! - `compare`: two summaries next to each other, a [`Comparison`].
 //! - `plots`: the figures. `page`: the HTML, with everything in one file.
 
+mod compare;
 mod drive;
 mod envelope;
 mod error;
@@ -26,8 +28,10 @@ mod transfer;
 
 use std::path::{Path, PathBuf};
 
+pub use compare::Comparison;
 pub use error::ReportError;
 pub use incidents::INPUT_ALARMS;
+pub use page::comparison::html as comparison_html;
 pub use page::html;
 pub use reading::{Summary, read};
 
@@ -42,12 +46,28 @@ fn is_quantity(value: f64) -> bool {
     value.abs() < MOST
 }
 
-/// Writes the page into `folder`, which is created if necessary; an older page is replaced.
+/// Writes the page of a recording into `folder`, which is created if necessary; an older page is replaced.
 ///
 /// # Errors
 /// When a figure cannot be drawn, or the page cannot be written.
 pub fn write(summary: &Summary, folder: &Path) -> Result<PathBuf, ReportError> {
-    let page = html(summary)?;
+    write_page(&html(summary)?, folder)
+}
+
+/// Writes the page of two recordings into `folder`, as [`write`] does. `tolerance` is the share of a value up to which a
+/// difference is not marked.
+///
+/// # Errors
+/// When a figure cannot be drawn, or the page cannot be written.
+pub fn write_comparison(
+    comparison: &Comparison<'_>,
+    tolerance: Option<f64>,
+    folder: &Path,
+) -> Result<PathBuf, ReportError> {
+    write_page(&comparison_html(comparison, tolerance)?, folder)
+}
+
+fn write_page(page: &str, folder: &Path) -> Result<PathBuf, ReportError> {
     let path = folder.join(FILE);
     let failed = |source| ReportError::Write {
         path: path.clone(),

@@ -12,10 +12,10 @@ use flexdrill_plot::{Figure, Legend, Line, Panel};
 /// Samples per turn from which they are joined by a line; with fewer, the line would show a path that is not known.
 const LINE_FROM: f64 = 8.0;
 /// Height of a row of panels, for a width of 1080.
-const ROW: u32 = 300;
+pub(crate) const ROW: u32 = 300;
 
 /// A time axis in seconds, minutes or hours, depending on the recording's length.
-struct Axis {
+pub(crate) struct Axis {
     label: &'static str,
     unit: f64,
     end: f64,
@@ -23,7 +23,11 @@ struct Axis {
 
 impl Axis {
     fn of(summary: &Summary) -> Self {
-        let length = summary.seconds();
+        Self::over(summary.seconds())
+    }
+
+    /// An axis of `length` seconds.
+    pub(crate) fn over(length: f64) -> Self {
         let (label, unit) = match length {
             ..300.0 => ("time (s)", 1.0),
             ..10_800.0 => ("time (min)", 60.0),
@@ -36,7 +40,7 @@ impl Axis {
         }
     }
 
-    fn panel(&self, title: &str, y: &str) -> Panel {
+    pub(crate) fn panel(&self, title: &str, y: &str) -> Panel {
         Panel::new(title, self.label, y).over(0.0, self.end)
     }
 
@@ -45,7 +49,7 @@ impl Axis {
     }
 
     /// Adds a history as a band between its extremes, and its mean.
-    fn draw(&self, mut panel: Panel, name: &str, color: usize, history: &History, factor: f64) -> Panel {
+    pub(crate) fn draw(&self, mut panel: Panel, name: &str, color: usize, history: &History, factor: f64) -> Panel {
         for (index, Segment { mean, outline }) in history.segments(factor).into_iter().enumerate() {
             let name = if index == 0 { name } else { "" };
             panel = panel
@@ -61,7 +65,7 @@ fn has_lines(panel: &Panel) -> bool {
 }
 
 /// A figure of the panels that have lines; `None` without any.
-fn figure(name: &'static str, columns: usize, height: u32, panels: Vec<Panel>) -> Option<Figure> {
+pub(crate) fn figure(name: &'static str, columns: usize, height: u32, panels: Vec<Panel>) -> Option<Figure> {
     let panels: Vec<Panel> = panels.into_iter().filter(has_lines).collect();
     (!panels.is_empty()).then(|| Figure {
         name,
@@ -73,11 +77,11 @@ fn figure(name: &'static str, columns: usize, height: u32, panels: Vec<Panel>) -
     })
 }
 
-fn rpm() -> f64 {
+pub(crate) fn rpm() -> f64 {
     rad_per_s_to_rpm(1.0)
 }
 
-fn kn() -> f64 {
+pub(crate) fn kn() -> f64 {
     n_to_kn(1.0)
 }
 
@@ -286,6 +290,11 @@ pub(crate) fn worst_orbits(summary: &Summary) -> Vec<OrbitOf<'_>> {
 
 /// The orbits, with the lateral clearance of the pipe in the bore.
 pub(crate) fn orbits(summary: &Summary) -> Option<Figure> {
+    named_orbits(summary, "orbits")
+}
+
+/// The orbits, in a figure of this name.
+pub(crate) fn named_orbits(summary: &Summary, name: &'static str) -> Option<Figure> {
     let clearance = summary
         .config
         .as_ref()
@@ -332,7 +341,7 @@ pub(crate) fn orbits(summary: &Summary) -> Option<Figure> {
             panel
         })
         .collect();
-    figure("orbits", 3, 350, panels)
+    figure(name, 3, 350, panels)
 }
 
 /// Pace of the model.

@@ -1,6 +1,7 @@
 //! The page: one HTML file that contains its figures and style.
 
 mod alarms;
+pub(crate) mod comparison;
 mod drive;
 mod health;
 mod locations;
@@ -29,6 +30,29 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
         .file_name()
         .unwrap_or(summary.path.as_os_str())
         .to_string_lossy();
+    let body = html! {
+        header {
+            h1 { "Drilling report" }
+            p.of { (name) }
+            (facts(summary))
+        }
+        (tiles(summary))
+        (missing(summary))
+        (drive::inputs(summary)?)
+        (alarms::section(summary))
+        (locations::worst(summary)?)
+        (locations::envelopes(summary)?)
+        (drive::torque(summary)?)
+        (transfer::section(summary)?)
+        (health::section(summary)?)
+        (limits())
+        (configuration(summary))
+    };
+    Ok(document(&format!("Drilling report: {name}"), &body))
+}
+
+/// A page in one file: head, style and the body.
+pub(crate) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -36,30 +60,13 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="generator" content={ "flexdrill " (env!("CARGO_PKG_VERSION")) };
-                title { "Drilling report: " (name) }
+                title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
-            body {
-                header {
-                    h1 { "Drilling report" }
-                    p.of { (name) }
-                    (facts(summary))
-                }
-                (tiles(summary))
-                (missing(summary))
-                (drive::inputs(summary)?)
-                (alarms::section(summary))
-                (locations::worst(summary)?)
-                (locations::envelopes(summary)?)
-                (drive::torque(summary)?)
-                (transfer::section(summary)?)
-                (health::section(summary)?)
-                (limits())
-                (configuration(summary))
-            }
+            body { (body) }
         }
     };
-    Ok(page.into_string())
+    page.into_string()
 }
 
 /// Time, twin and tool of the recording.
@@ -206,7 +213,7 @@ fn configuration(summary: &Summary) -> Markup {
 }
 
 /// A figure with its caption; empty when there is nothing to draw.
-fn drawn(figure: Option<Figure>, caption: &str) -> Result<Markup, ReportError> {
+pub(super) fn drawn(figure: Option<Figure>, caption: &str) -> Result<Markup, ReportError> {
     let Some(figure) = figure else {
         return Ok(html! {});
     };
@@ -230,12 +237,12 @@ fn priority_class(priority: u8) -> &'static str {
 
 impl Summary {
     /// Length of the recording in the model's time (s).
-    pub(super) fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         self.end.saturating_sub(self.start) as f64 * 1e-9
     }
 
     /// Whether the bag has messages about alarms.
-    fn has_alarms(&self) -> bool {
+    pub(crate) fn has_alarms(&self) -> bool {
         self.incidents.newest.is_some() || self.incidents.groups().next().is_some()
     }
 

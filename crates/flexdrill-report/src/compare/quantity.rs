@@ -1,0 +1,153 @@
+//! Quantities over time in both runs.
+
+use super::{Figures, Pair, relative};
+use crate::history::History;
+use crate::reading::Summary;
+use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, pa_to_mpa, rad_per_s_to_rpm};
+
+/// Speeds below this differ by rounding and start-up only (rad/s): 0.01 r/min.
+const SPEED: f64 = 1e-3;
+/// The same of forces (N), as the resolution of a rig's weight indicator is coarser.
+const FORCE: f64 = 1.0;
+/// The same of torques (N m).
+const TORQUE: f64 = 0.1;
+/// The same of powers (W).
+const POWER: f64 = 0.1;
+
+/// The unit in which a quantity is shown, the factor from SI, and the size (SI) below which two values count as equal
+/// under a tolerance: a relative difference of two numbers near zero says nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Unit {
+    pub shown: &'static str,
+    pub factor: f64,
+    pub small: f64,
+}
+
+const fn unit(shown: &'static str, factor: f64, small: f64) -> Unit {
+    Unit { shown, factor, small }
+}
+
+/// What is compared: a name, its unit and how a summary holds it.
+struct Known<'a> {
+    name: String,
+    unit: Unit,
+    histories: [&'a History; 2],
+}
+
+/// The comparison of one quantity over time. Values in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Quantity {
+    pub name: String,
+    pub unit: Unit,
+    pub runs: Pair<Option<Figures>>,
+}
+
+impl Quantity {
+    /// Difference of the means relative to the larger one (0 to 2); `None` if a run does not have the quantity.
+    pub(crate) fn difference(&self) -> Option<f64> {
+        let [a, b] = [self.runs.a.as_ref()?, self.runs.b.as_ref()?];
+        Some(relative(a.mean, b.mean, self.unit.small))
+    }
+
+    /// Whether the runs agree. Without any tolerance least and largest values must be the same too.
+    pub(crate) fn agrees(&self, tolerance: f64) -> bool {
+        match (&self.runs.a, &self.runs.b) {
+            (Some(a), Some(b)) if tolerance == 0.0 => a == b,
+            (Some(_), Some(_)) => self.difference().is_some_and(|difference| difference <= tolerance),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Means are taken over the time in which both runs have the quantity.
+fn figures(histories: [&History; 2]) -> Pair<Option<Figures>> {
+    let common = match histories.map(History::span) {
+        [Some([from, to]), Some([begin, end])] => Some([from.max(begin), to.min(end)]),
+        _ => None,
+    };
+    let of = |history: &History| {
+        let range = history.range()?;
+        let mean = common.and_then(|[from, to]| history.mean_between(from, to));
+        Some(Figures {
+            min: range.min,
+            mean: mean.unwrap_or(range.mean),
+            max: range.max,
+        })
+    };
+    let [a, b] = histories.map(of);
+    Pair { a, b }
+}
+
+/// All quantities that at least one run has and that are not zero throughout in both.
+pub(crate) fn all(a: &Summary, b: &Summary) -> Vec<Quantity> {
+    let acts = |figures: &Option<Figures>| figures.as_ref().is_some_and(|f| f.min != 0.0 || f.max != 0.0);
+    known(a, b)
+        .into_iter()
+        .map(|known| Quantity {
+            name: known.name,
+            unit: known.unit,
+            runs: figures(known.histories),
+        })
+        .filter(|quantity| acts(&quantity.runs.a) || acts(&quantity.runs.b))
+        .collect()
+}
+
+fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
+    let speed = unit("r/min", rad_per_s_to_rpm(1.0), SPEED);
+    let force = unit("kN", n_to_kn(1.0), FORCE);
+    let torque = unit("N m", 1.0, TORQUE);
+    let power = unit("W", 1.0, POWER);
+    let advance = unit("m/h", m_per_s_to_m_per_h(1.0), 1e-6);
+    let pressure = unit("MPa", pa_to_mpa(1.0), 1e3);
+    let mut all = Vec::new();
+    let mut add = |name: &str, unit: Unit, of: fn(&Summary) -> &History| {
+        all.push(Known {
+            name: name.to_owned(),
+            unit,
+            histories: [of(a), of(b)],
+        });
+    };
+    add("rotary speed, received", speed, |s| &s.drive.received.rotary_speed);
+    add("rotary speed, accepted", speed, |s| &s.drive.accepted.rotary_speed);
+    add("rotary speed of the bit", speed, |s| &s.drive.bit.rotary_speed);
+    add("weight on bit, received", force, |s| &s.drive.received.weight_on_bit);
+    add("weight on bit, accepted", force, |s| &s.drive.accepted.weight_on_bit);
+    add("weight on bit, at the bit", force, |s| &s.drive.bit.weight_on_bit);
+    add("rate of penetration, accepted", advance, |s| {
+        &s.drive.rate_of_penetration.accepted
+    });
+    add("standpipe pressure, accepted", pressure, |s| {
+        &s.drive.standpipe_pressure.accepted
+    });
+    add("torque at the uppermost joint", torque, |s| &s.drive.top_torque);
+    add("torque of the rock on the bit", torque, |s| &s.drive.bit_torque);
+    add("stick-slip index", unit("", 1.0, 0.01), |s| &s.drive.stick_slip);
+    add(
+        "lateral acceleration above the bit, largest",
+        unit("m/s²", 1.0, 0.1),
+        |s| &s.drive.lateral_acceleration,
+    );
+    add("depth of cut", unit("mm/turn", 1e3, 1e-6), |s| &s.transfer.depth_of_cut);
+    add("rate of penetration of the bit", advance, |s| {
+        &s.transfer.rate_of_penetration
+    });
+    let groups = [
+        (&a.transfer.torque, &b.transfer.torque, "", torque),
+        (&a.transfer.friction, &b.transfer.friction, "torque: ", torque),
+        (&a.transfer.weight, &b.transfer.weight, "", force),
+        (&a.transfer.drag, &b.transfer.drag, "", force),
+        (&a.transfer.put_in, &b.transfer.put_in, "power put in: ", power),
+        (&a.transfer.taken, &b.transfer.taken, "power taken: ", power),
+    ];
+    for (a, b, before, unit) in groups {
+        for (a, b) in a.quantities.iter().zip(&b.quantities) {
+            all.push(Known {
+                name: format!("{before}{}", a.name),
+                unit,
+                histories: [&a.history, &b.history],
+            });
+        }
+    }
+    all
+}
