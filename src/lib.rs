@@ -9,6 +9,7 @@
 //! - [`cli`]: the subcommands, a file or folder each.
 //! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
+//! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
@@ -22,6 +23,7 @@ pub mod ahead;
 pub mod alarms;
 pub mod cli;
 pub mod health;
+pub mod map;
 pub mod node;
 pub mod reach;
 pub mod rig_inputs;

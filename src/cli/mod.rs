@@ -5,6 +5,7 @@ mod built_in;
 mod check;
 mod dashboard;
 mod first_start;
+mod map;
 mod numbers;
 mod output;
 mod paper;
@@ -19,6 +20,7 @@ mod run;
 mod shell;
 mod signals;
 mod source;
+mod sweep;
 mod verify;
 mod watch;
 
@@ -55,6 +57,8 @@ enum Command {
     Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
     Reach(reach::ReachArgs),
+    Map(Box<map::MapArgs>),
+    Sweep(sweep::SweepArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
 }
@@ -229,6 +233,8 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Reach(args) => reach::run(&args),
+        Command::Map(args) => map::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
         Command::Completions(args) => {
             shell::completions(&args);
             Ok(())

@@ -22,6 +22,7 @@ mod engine;
 mod messages;
 mod mutator;
 mod states;
+mod sweeps;
 mod texts;
 
 use std::path::PathBuf;

@@ -21,6 +21,7 @@ mod json_schema;
 pub mod lines;
 mod loads;
 mod look_ahead;
+mod motion;
 mod mud;
 mod network;
 mod outputs;
@@ -412,15 +413,18 @@ impl Config {
     /// SHA-256, in hex, over all values in the schema's order: equal for files that differ only in layout, comments or
     /// written-out defaults.
     pub fn hash(&self) -> String {
-        let mut hasher = Sha256::new();
         // Serializing plain numbers, strings and lists cannot fail; if it did, hashes would coincide.
-        hasher.update(serde_json::to_vec(&self.schema).unwrap_or_default());
-        hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        hex_of(&serde_json::to_vec(&self.schema).unwrap_or_default())
     }
 
     fn mesh(&self) -> Mesh {
         self.schema.mesh()
     }
+}
+
+/// SHA-256 in hex.
+fn hex_of(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The JSON pointer of a dotted key.

@@ -194,6 +194,12 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
                 let corners: Vec<_> = points().collect();
                 chart.draw_series(std::iter::once(Polygon::new(corners, color.filled())))?;
             }
+            Mark::Cells | Mark::PaleCells => {
+                let [across, up] = line.half;
+                chart.draw_series(
+                    points().map(|(x, y)| Rectangle::new([(x - across, y - up), (x + across, y + up)], color.filled())),
+                )?;
+            }
             Mark::Bars => {
                 let bars = |lines: &[Line]| lines.iter().filter(|line| line.mark == Mark::Bars).count() as f64;
                 let (place, count) = (bars(&panel.lines[..index]), bars(&panel.lines));
@@ -233,6 +239,8 @@ fn color(index: usize, line: &Line) -> RGBAColor {
     color.mix(match line.mark {
         Mark::Wide => 0.45,
         Mark::Area => 0.25,
+        Mark::Cells => 0.6,
+        Mark::PaleCells => 0.25,
         _ => 1.0,
     })
 }
@@ -258,7 +266,7 @@ fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result
                 area.draw(&PathElement::new([(x, y), (x + s(9), y)], style))?;
                 area.draw(&PathElement::new([(x + s(14), y), (x + s(23), y)], style))?;
             }
-            Mark::Area | Mark::Bars => {
+            Mark::Area | Mark::Bars | Mark::Cells | Mark::PaleCells => {
                 area.draw(&Rectangle::new([(x, y - s(6)), (x + s(22), y + s(6))], color.filled()))?
             }
             Mark::Dots => area.draw(&Circle::new((x + s(11), y), 3 * SCALE, color.filled()))?,
@@ -284,7 +292,13 @@ fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result
 
 /// Ranges of both axes: the data's with some room, or of equal scale for a plot whose width over height is `aspect`.
 fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
-    let points = || panel.lines.iter().flat_map(|line| line.points.iter());
+    // Cells reach beyond their points.
+    let corners = |line: &Line| {
+        let [across, up] = line.half;
+        let around = |(x, y): (f64, f64)| [(x - across, y - up), (x + across, y + up)];
+        line.points.iter().copied().flat_map(around).collect::<Vec<_>>()
+    };
+    let points = || panel.lines.iter().flat_map(corners);
     let range = |values: &mut dyn Iterator<Item = f64>| {
         values
             .filter(|value| value.is_finite())

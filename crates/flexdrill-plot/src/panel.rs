@@ -11,6 +11,8 @@ pub struct Line {
     pub mark: Mark,
     /// Place in the palette; the line's number in the panel if not given.
     pub color: Option<usize>,
+    /// Half the width and half the height of [`Mark::Cells`].
+    pub half: [f64; 2],
 }
 
 /// How a curve is drawn.
@@ -31,6 +33,10 @@ pub enum Mark {
     Diamond,
     /// What the points enclose, pale.
     Area,
+    /// A rectangle around each point.
+    Cells,
+    /// The same, pale.
+    PaleCells,
     /// A bar from zero per point, with its value. Bars of several lines at one x stand side by side in its unit of x.
     Bars,
 }
@@ -191,6 +197,20 @@ impl Line {
     #[must_use]
     pub fn area(self) -> Self {
         self.marked(Mark::Area)
+    }
+
+    /// A rectangle around each point, so far to its sides and up and down.
+    #[must_use]
+    pub fn cells(mut self, half: [f64; 2]) -> Self {
+        self.half = half;
+        self.marked(Mark::Cells)
+    }
+
+    /// The same, pale.
+    #[must_use]
+    pub fn pale_cells(mut self, half: [f64; 2]) -> Self {
+        self.half = half;
+        self.marked(Mark::PaleCells)
     }
 
     /// As bars.

@@ -9,6 +9,7 @@
 //!   `transfer` (torque, weight and power from the surface to the bit), `incidents` (alarms), `shares` (of time),
 //!   `locations` (the worst ones and their orbits), `health` (pace, model, recording).
 //! - `compare`: two summaries next to each other, a [`Comparison`].
+//! - [`map`]: a page of another kind, of a safe window.
 //! - `plots`: the figures. `page`: the HTML, with everything in one file.
 
 mod compare;
@@ -19,6 +20,7 @@ mod health;
 mod history;
 mod incidents;
 mod locations;
+pub mod map;
 mod page;
 mod plots;
 mod reading;

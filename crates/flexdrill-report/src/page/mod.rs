@@ -18,7 +18,8 @@ use flexdrill_messages::{Alarm, TwinStatus, words};
 use flexdrill_plot::{Figure, svg};
 use flexdrill_text::date_time;
 
-const STYLE: &str = include_str!("style.css");
+/// The style of all pages.
+pub(crate) const STYLE: &str = include_str!("style.css");
 
 /// The whole page.
 ///

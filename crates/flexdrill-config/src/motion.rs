@@ -1,0 +1,117 @@
+//! The part of a configuration that determines the tool's motion and the alarms called by it.
+
+use serde_json::{Map, Value};
+
+use super::{Config, hex_of};
+
+/// Sections that determine the motion or its levels.
+const SECTIONS: &[&str] = &[
+    "well",
+    "tool",
+    "contact",
+    "environment",
+    "boundary",
+    "rock",
+    "string",
+    "loads",
+    "masses",
+    "start",
+    "initial",
+    "solver",
+    "whirl",
+    "stick_slip",
+    "shock",
+    "joint_load",
+    "chaotic_whirl",
+    "transfer",
+    "guide_preload",
+    "pressure_folding",
+];
+
+/// Alarms of the motion: their delays and whether they are in service.
+const ALARMS: &[&str] = &[
+    "backward_whirl",
+    "forward_whirl",
+    "shock",
+    "stick_slip",
+    "joint_load",
+    "chaotic_whirl",
+    "weight_transfer",
+    "torque_transfer",
+    "guide_preload",
+    "pressure_folding",
+    "model_quality",
+];
+
+impl Config {
+    /// SHA-256, in hex, over what determines the tool's motion and the alarms called by it. Title, inputs, network,
+    /// outputs, look-ahead, advice and the alarms of the node are left out: a result that was computed for one
+    /// configuration holds for every other of the same motion.
+    pub fn motion_hash(&self) -> String {
+        let tree = self.to_tree();
+        let of = |value: &Value, keys: &[&str]| -> Map<String, Value> {
+            let present = keys
+                .iter()
+                .filter_map(|key| Some(((*key).to_owned(), value.get(key)?.clone())));
+            present.collect()
+        };
+        let mut motion = of(&tree, SECTIONS);
+        let alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
+        motion.insert("alarms".to_owned(), Value::Object(alarms));
+        // As for `hash`: plain numbers, strings and lists can be serialised.
+        hex_of(&serde_json::to_vec(&motion).unwrap_or_default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sections that change neither the motion nor its levels.
+    const OTHERS: &[&str] = &["run", "inputs", "network", "alarms", "look_ahead", "outputs"];
+
+    fn config() -> Config {
+        Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/coarse.yaml")).unwrap()
+    }
+
+    #[test]
+    fn every_section_is_in_one_of_the_two_lists() {
+        let tree = config().to_tree();
+        for section in tree.as_object().unwrap().keys() {
+            let known = SECTIONS.contains(&section.as_str()) || OTHERS.contains(&section.as_str());
+            assert!(
+                known,
+                "does `{section}` determine the motion? Add it to SECTIONS or to OTHERS"
+            );
+        }
+        for section in SECTIONS {
+            assert!(tree.get(section).is_some(), "{section}");
+        }
+        for alarm in ALARMS {
+            assert!(tree["alarms"].get(alarm).is_some(), "{alarm}");
+        }
+    }
+
+    #[test]
+    fn the_tool_changes_it_and_the_outputs_do_not() {
+        let config = config();
+        let other = |key: &str, value: Value| config.with_value(key, value).unwrap();
+        let hash = config.motion_hash();
+        assert_eq!(hash.len(), 64);
+        for (key, value) in [
+            ("run.title", Value::from("another")),
+            ("inputs.rotary_speed.max_rpm", Value::from(100.0)),
+            ("alarms.longest_shelving", Value::from(60.0)),
+        ] {
+            assert_eq!(other(key, value).motion_hash(), hash, "{key}");
+        }
+        for (key, value) in [
+            ("well.hole_diameter", Value::from(0.12)),
+            ("contact.inner.friction_tangential", Value::from(0.31)),
+            ("alarms.shock.on_delay", Value::from(3.0)),
+            ("stick_slip.gate_speed_rpm", Value::from(12.0)),
+        ] {
+            assert_ne!(other(key, value).motion_hash(), hash, "{key}");
+        }
+    }
+}

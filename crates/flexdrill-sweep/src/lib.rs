@@ -1,0 +1,33 @@
+//! Sweeps of runs as a directory of content-addressed points, and maps of two quantities made from them. No run is made
+//! here: the program computes a point, this crate keeps it.
+//!
+//! # Layout
+//! - [`spec`]: what a person writes (YAML). [`plan`]: what follows from it, `sweep.json`.
+//! - [`directory`]: the plan and a file per result. [`outcome`]: that file.
+//! - [`work`]: computes what has no result yet. [`collect`]: all results as one table.
+//! - [`map`]: the map that `flexdrill map` writes (`map.json`), with a reader that bounds it.
+//! - [`choice`]: which runs of a map to make next, by a Gaussian process ([`gauss`]). [`envelope`]: the clear part of a map.
+//!
+//! # Choices
+//! - **No broker.** Whatever starts programs on machines that share a directory can share a sweep: a point's file is
+//!   there or not, its name follows from what it is, and its bytes do not depend on who computed it.
+//! - **Left alone.** What is damaged, of another version or of another plan is named and not touched.
+
+pub mod choice;
+pub mod collect;
+pub mod directory;
+pub mod envelope;
+mod error;
+pub mod gauss;
+pub mod map;
+pub mod outcome;
+pub mod plan;
+pub mod spec;
+pub mod work;
+
+pub use directory::{Directory, Found, Status};
+pub use error::SweepError;
+pub use outcome::Outcome;
+pub use plan::{Plan, Point};
+pub use spec::Spec;
+pub use work::{Chunk, Progress, Worked};

@@ -1,0 +1,264 @@
+//! Whether a map that was read makes sense.
+
+use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, Start, State, Verdict};
+
+/// Longest text of a map (bytes).
+const MOST_TEXT: usize = 4096;
+/// Most alarms and priorities, and most figures, of a cell.
+const MOST_ENTRIES: usize = 256;
+/// Most members of a cell.
+const MOST_MEMBERS: u32 = 10_000;
+
+/// A value that is wrong, before the file is known.
+struct Wrong {
+    what: String,
+    value: String,
+    bound: String,
+}
+
+type Checked = Result<(), Wrong>;
+
+fn ensure(holds: bool, what: impl Into<String>, value: impl ToString, bound: impl Into<String>) -> Checked {
+    if holds {
+        Ok(())
+    } else {
+        Err(Wrong {
+            what: what.into(),
+            value: value.to_string(),
+            bound: bound.into(),
+        })
+    }
+}
+
+impl Map {
+    /// # Errors
+    /// With the first value that is out of its bounds or contradicts another.
+    pub(super) fn check(&self, file: &str) -> Result<(), MapError> {
+        self.whole().map_err(|Wrong { what, value, bound }| MapError::Damaged {
+            file: file.to_owned(),
+            what,
+            value,
+            bound,
+        })
+    }
+
+    fn whole(&self) -> Checked {
+        for (what, text) in [("program", &self.program), ("title", &self.title)] {
+            short(what, text)?;
+        }
+        for (what, hash) in [("configuration", &self.configuration), ("motion", &self.motion)] {
+            let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
+            ensure(is_hash, what, hash.escape_debug(), "64 hexadecimal digits")?;
+        }
+        ensure((0.0..1.0).contains(&self.limit), "limit", self.limit, "0 to below 1")?;
+        axis("x", &self.x)?;
+        axis("y", &self.y)?;
+        ensure(self.x.key != self.y.key, "y.key", &self.y.key, "another than x.key")?;
+        ensure(
+            self.horizon > 0.0 && self.horizon.is_finite(),
+            "horizon",
+            self.horizon,
+            "above 0 s",
+        )?;
+        let members = (1..=MOST_MEMBERS).contains(&self.members);
+        ensure(members, "members", self.members, format!("1 to {MOST_MEMBERS}"))?;
+        let starts = &self.starts;
+        let are_starts = !starts.is_empty() && starts.is_sorted_by(|a, b| a < b);
+        ensure(
+            are_starts,
+            "starts",
+            format!("{starts:?}"),
+            "`rest`, `running` or both, each once",
+        )?;
+        let expected = self.x.values.len() * self.y.values.len();
+        ensure(
+            expected <= MOST_CELLS,
+            "cells",
+            expected,
+            format!("at most {MOST_CELLS}"),
+        )?;
+        ensure(
+            self.cells.len() == expected,
+            "cells",
+            self.cells.len(),
+            format!("{expected}, as the axes have"),
+        )?;
+        let rows = self
+            .y
+            .values
+            .iter()
+            .flat_map(|y| self.x.values.iter().map(move |x| (*x, *y)));
+        let mut runs = 0;
+        for ((number, cell), at) in self.cells.iter().enumerate().zip(rows) {
+            let place = format!("cells.{number}");
+            let found = (cell.x, cell.y);
+            ensure(
+                found == at,
+                &place,
+                format!("{found:?}"),
+                format!("at {at:?}, as the axes say"),
+            )?;
+            runs += self.cell_is_whole(&place, cell)?;
+        }
+        ensure(
+            self.runs == runs,
+            "runs",
+            self.runs,
+            format!("{runs}, as the cells say"),
+        )
+    }
+
+    /// Returns the runs of the cell.
+    fn cell_is_whole(&self, place: &str, cell: &Cell) -> Result<u32, Wrong> {
+        let count = self.starts.len();
+        let what = format!("{place}.starts");
+        ensure(
+            cell.starts.len() == count,
+            what,
+            cell.starts.len(),
+            format!("{count}, as `starts` has"),
+        )?;
+        let mut runs = 0;
+        for (of, start) in cell.starts.iter().zip(&self.starts) {
+            let place = format!("{place}.{}", Start::name(*start));
+            of.check(&place, self)?;
+            runs += u32::from(of.state != State::Inferred);
+        }
+        let said = Verdict::of(&cell.starts);
+        let what = format!("{place}.verdict");
+        ensure(
+            cell.verdict == said,
+            what,
+            cell.verdict.name(),
+            format!("{}, as its starts say", said.name()),
+        )?;
+        Ok(runs)
+    }
+}
+
+impl OfStart {
+    fn check(&self, place: &str, map: &Map) -> Checked {
+        let members = map.members;
+        let at = |what: &str| format!("{place}.{what}");
+        short(&at("alarm"), &self.alarm)?;
+        short(&at("failure"), &self.failure)?;
+        interval(&at("interval"), self.interval)?;
+        let chance = self.chance.unwrap_or(0.0);
+        ensure((0.0..=1.0).contains(&chance), at("chance"), chance, "0 to 1")?;
+        let known = self.state == State::Known;
+        ensure(
+            self.chance.is_some() == known,
+            at("chance"),
+            chance,
+            "given exactly where the state is known",
+        )?;
+        let said = chance > map.limit;
+        let judged = match self.state {
+            State::Known => self.expected == said,
+            State::Unknown => !self.expected,
+            State::Inferred => true,
+        };
+        ensure(
+            judged,
+            at("expected"),
+            self.expected,
+            "what the chance and `limit` say, false where unknown",
+        )?;
+        let confident = (0.5..=1.0).contains(&self.confidence);
+        ensure(confident, at("confidence"), self.confidence, "0.5 to 1")?;
+        ensure(
+            self.members <= members,
+            at("members"),
+            self.members,
+            format!("at most {members}"),
+        )?;
+        ensure(
+            self.failed <= self.members,
+            at("failed"),
+            self.failed,
+            format!("at most {}", self.members),
+        )?;
+        let ran = self.members > 0;
+        let inferred = self.state == State::Inferred;
+        ensure(!(inferred && ran), at("members"), self.members, "0 where inferred")?;
+        let ended = self.members - self.failed;
+        ensure(
+            known == (ended > 0),
+            at("state"),
+            format!("{:?}", self.state),
+            "known exactly where a member ended",
+        )?;
+        let entries = self.alarms.len().max(self.figures.len());
+        ensure(
+            entries <= MOST_ENTRIES,
+            at("alarms"),
+            entries,
+            format!("at most {MOST_ENTRIES}"),
+        )?;
+        for (number, alarm) in self.alarms.iter().enumerate() {
+            let place = at(&format!("alarms.{number}"));
+            short(&format!("{place}.alarm"), &alarm.alarm)?;
+            ensure(
+                alarm.of == ended,
+                format!("{place}.of"),
+                alarm.of,
+                format!("{ended}, the members that ended"),
+            )?;
+            let seen = (1..=ended).contains(&alarm.seen);
+            ensure(seen, format!("{place}.seen"), alarm.seen, format!("1 to {ended}"))?;
+            interval(&format!("{place}.interval"), alarm.interval)?;
+            let first = alarm.first.unwrap_or(0.0);
+            ensure(
+                first >= 0.0 && first.is_finite(),
+                format!("{place}.first"),
+                first,
+                "0 s or more",
+            )?;
+        }
+        for (number, figure) in self.figures.iter().enumerate() {
+            let place = at(&format!("figures.{number}"));
+            short(&format!("{place}.name"), &figure.name)?;
+            short(&format!("{place}.unit"), &figure.unit)?;
+            if let Some(quantiles) = figure.quantiles {
+                let rising = quantiles.is_sorted() && quantiles.iter().all(|value| value.is_finite());
+                ensure(
+                    rising,
+                    format!("{place}.quantiles"),
+                    format!("{quantiles:?}"),
+                    "finite and rising",
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn axis(place: &str, axis: &Axis) -> Checked {
+    for (what, text) in [("key", &axis.key), ("name", &axis.name), ("unit", &axis.unit)] {
+        short(&format!("{place}.{what}"), text)?;
+    }
+    let what = format!("{place}.values");
+    let count = axis.values.len();
+    ensure(
+        (2..=MOST_VALUES).contains(&count),
+        &what,
+        format!("{count} values"),
+        format!("2 to {MOST_VALUES}"),
+    )?;
+    let rising = axis.values.is_sorted_by(|a, b| a < b) && axis.values.iter().all(|value| value.is_finite());
+    ensure(rising, what, format!("{:?}", axis.values), "finite and rising")
+}
+
+fn interval(what: &str, [low, high]: [f64; 2]) -> Checked {
+    let holds = low >= 0.0 && low <= high && high <= 1.0;
+    ensure(holds, what, format!("{low} to {high}"), "an interval within 0 and 1")
+}
+
+fn short(what: &str, text: &str) -> Checked {
+    ensure(
+        text.len() <= MOST_TEXT,
+        what,
+        format!("{} bytes", text.len()),
+        format!("at most {MOST_TEXT} bytes"),
+    )
+}

@@ -1,0 +1,265 @@
+//! A sweep's plan (`sweep.json`): everything that determines its points.
+
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use crate::map::Start;
+
+/// The format of plans and points that this build writes and reads.
+pub const FORMAT: u32 = 1;
+/// Most points of a plan: 256 folders of them hold fewer than 800 files each.
+pub const MOST_POINTS: usize = 200_000;
+/// Most keys that a plan changes.
+pub const MOST_KEYS: usize = 32;
+/// Most members per point.
+pub const MOST_MEMBERS: u32 = 200;
+/// Longest horizon (s), and the shortest: the delays of the alarms and the windows of the analysis have to pass.
+pub const HORIZONS: [f64; 2] = [10.0, 600.0];
+/// Most model time of a whole plan (s): ten years of one core at ten times real time.
+pub const MOST_MODEL_TIME: f64 = 3e9;
+
+/// What is computed, and with what.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// [`FORMAT`].
+    pub format: u32,
+    /// How the runs are made.
+    pub runs: Runs,
+    /// Dotted keys of the configuration that change.
+    pub keys: Vec<String>,
+    /// Values of these keys, a row each.
+    pub rows: Vec<Vec<Value>>,
+    /// Ways to the values.
+    pub starts: Vec<Start>,
+    /// Seeds of the disturbances: a point per seed.
+    pub seeds: Vec<u64>,
+    /// The map that the rows are the cells of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<Grid>,
+}
+
+/// What all points of a plan share.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Runs {
+    /// The program that computes, with its version.
+    pub program: String,
+    /// Its arithmetic, on which the last bits depend: `fused` (AVX2 or AVX-512) or `portable`.
+    pub arithmetic: String,
+    /// The configuration that the rows change (YAML, complete).
+    pub configuration: String,
+    /// Its hash.
+    pub hash: String,
+    /// Model time that each member is judged over (s).
+    pub horizon: f64,
+    /// Members per point, at most.
+    pub members: u32,
+    /// The state that [`Start::Running`] comes from.
+    pub running: Running,
+    /// Alarms that a point counts, by identifier.
+    pub alarms: Vec<String>,
+    /// Figures of a point: name and unit.
+    pub figures: Vec<(String, String)>,
+}
+
+/// The state that a start from running comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Running {
+    /// Rotary speed (r/min).
+    pub rpm: f64,
+    /// Model time at this speed (s).
+    pub time: f64,
+}
+
+/// A grid of rows: x within y.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// Values of the first key.
+    pub columns: usize,
+    /// Values of the second key.
+    pub rows: usize,
+}
+
+/// One point of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Number in the plan.
+    pub number: usize,
+    /// Number of the row of values.
+    pub row: usize,
+    /// Way to the values.
+    pub start: Start,
+    /// Seed of the disturbances.
+    pub seed: u64,
+    /// Name that follows from the content: 32 hexadecimal digits.
+    pub id: String,
+}
+
+impl Plan {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.rows.len() * self.starts.len() * self.seeds.len()
+    }
+
+    /// Whether there are none; a checked plan has some.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of the point of a row, a start and a seed, each by its number.
+    pub fn number(&self, row: usize, start: usize, seed: usize) -> usize {
+        (row * self.starts.len() + start) * self.seeds.len() + seed
+    }
+
+    /// The points, in the order of their numbers.
+    pub fn points(&self) -> Vec<Point> {
+        // What all points share is hashed once.
+        let mut shared = Sha256::new();
+        let runs = &self.runs;
+        for text in [&runs.program, &runs.arithmetic, &runs.hash] {
+            hash_text(&mut shared, text);
+        }
+        hash_text(&mut shared, &format!("{FORMAT} {} {}", runs.horizon, runs.members));
+        let keys: Vec<&String> = self.keys.iter().collect();
+        hash_text(&mut shared, &serde_json::to_string(&keys).unwrap_or_default());
+        let mut points = Vec::with_capacity(self.len());
+        for (row, values) in self.rows.iter().enumerate() {
+            let mut of_row = shared.clone();
+            // Plain numbers, words and truth values can be serialised.
+            hash_text(&mut of_row, &serde_json::to_string(values).unwrap_or_default());
+            for &start in &self.starts {
+                for &seed in &self.seeds {
+                    let mut of_point = of_row.clone();
+                    let way = match start {
+                        Start::Rest => String::new(),
+                        Start::Running => format!("{} {}", runs.running.rpm, runs.running.time),
+                    };
+                    hash_text(&mut of_point, start.name());
+                    hash_text(&mut of_point, &way);
+                    hash_text(&mut of_point, &seed.to_string());
+                    points.push(Point {
+                        number: points.len(),
+                        row,
+                        start,
+                        seed,
+                        id: hex(&of_point.finalize()[..16]),
+                    });
+                }
+            }
+        }
+        points
+    }
+
+    /// The values of a row by their keys.
+    pub fn values(&self, row: usize) -> impl Iterator<Item = (&String, &Value)> {
+        self.keys.iter().zip(self.rows.get(row).into_iter().flatten())
+    }
+
+    /// The first problem of the plan's own numbers, if any. The values of its rows are the configuration's to check.
+    pub fn problem(&self) -> Option<Problem> {
+        let runs = &self.runs;
+        let [least, most] = HORIZONS;
+        let problem = |what: &str, value: &dyn ToString, bound: String| {
+            Some(Problem {
+                what: what.to_owned(),
+                value: value.to_string(),
+                bound,
+            })
+        };
+        if !(least..=most).contains(&runs.horizon) {
+            return problem("horizon", &runs.horizon, format!("{least} to {most} s"));
+        }
+        if !(1..=MOST_MEMBERS).contains(&runs.members) {
+            return problem("members", &runs.members, format!("1 to {MOST_MEMBERS}"));
+        }
+        if !(0.0..=most).contains(&runs.running.time) {
+            return problem("running.time", &runs.running.time, format!("0 to {most} s"));
+        }
+        if !(runs.running.rpm > 0.0 && runs.running.rpm.is_finite()) {
+            return problem("running.rpm", &runs.running.rpm, "above 0 r/min".to_owned());
+        }
+        if !(1..=MOST_KEYS).contains(&self.keys.len()) {
+            return problem("keys", &self.keys.len(), format!("1 to {MOST_KEYS}"));
+        }
+        for (number, key) in self.keys.iter().enumerate() {
+            if self.keys[..number].contains(key) {
+                return problem("keys", key, "given once".to_owned());
+            }
+        }
+        let ragged = self.rows.iter().find(|row| row.len() != self.keys.len());
+        if let Some(row) = ragged {
+            return problem(
+                "rows",
+                &row.len(),
+                format!("{} values each, one per key", self.keys.len()),
+            );
+        }
+        if self.starts.is_empty() || !self.starts.is_sorted_by(|a, b| a < b) {
+            return problem(
+                "starts",
+                &format!("{:?}", self.starts),
+                "rest, running or both".to_owned(),
+            );
+        }
+        if self.seeds.is_empty() || !self.seeds.is_sorted_by(|a, b| a < b) {
+            return problem("seeds", &format!("{:?}", self.seeds), "rising, at least one".to_owned());
+        }
+        let points = (self.rows.len() as u128) * (self.starts.len() as u128) * (self.seeds.len() as u128);
+        if !(1..=MOST_POINTS as u128).contains(&points) {
+            return problem(
+                "points",
+                &points,
+                format!("1 to {MOST_POINTS}, rows times starts times seeds"),
+            );
+        }
+        let time = points as f64 * f64::from(runs.members) * runs.horizon;
+        if time > MOST_MODEL_TIME {
+            let bound = format!("at most {MOST_MODEL_TIME} s; fewer points or members, or a shorter horizon");
+            return problem("model time of all members", &time, bound);
+        }
+        if let Some(grid) = self.map
+            && (self.keys.len() != 2 || grid.columns.checked_mul(grid.rows) != Some(self.rows.len()))
+        {
+            return problem(
+                "map",
+                &format!("{grid:?}"),
+                format!("a grid of {} rows, two keys", self.rows.len()),
+            );
+        }
+        None
+    }
+}
+
+/// A number of a plan that is out of its bounds.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{what} = {value}: must be {bound}")]
+pub struct Problem {
+    /// Which.
+    pub what: String,
+    /// As given.
+    pub value: String,
+    /// What it must be.
+    pub bound: String,
+}
+
+/// Adds a text with its length, so that no two sequences of texts are the same bytes.
+fn hash_text(hasher: &mut Sha256, text: &str) {
+    hasher.update((text.len() as u64).to_le_bytes());
+    hasher.update(text.as_bytes());
+}
+
+/// Bytes in hexadecimal digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(2 * bytes.len());
+    for byte in bytes {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+    }
+    text
+}

@@ -1,0 +1,484 @@
+//! The specification of a sweep (YAML), as a person writes it.
+
+use std::path::{Path, PathBuf};
+
+use flexdrill_config::checker::{Bound, Checker};
+use flexdrill_config::{Config, ConfigError, reading};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::error::SweepError;
+use crate::map::{ROTARY_SPEED, Start};
+use crate::plan::{FORMAT, HORIZONS, MOST_KEYS, MOST_MEMBERS, MOST_POINTS, Plan, Running, Runs};
+
+/// A sweep as a person writes it. Exactly one of `grid`, `list` and `latin_hypercube` gives the values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spec {
+    /// The configuration that the points change; a relative path begins at the specification's folder. Required.
+    pub configuration: PathBuf,
+    /// Model time that each member is judged over (s). Default 60.
+    #[serde(default = "horizon")]
+    pub horizon: f64,
+    /// Members per point, at most. Default 3.
+    #[serde(default = "members")]
+    pub members: u32,
+    /// Ways to the values, `rest` and `running`. Default both.
+    #[serde(default = "starts")]
+    pub starts: Vec<Start>,
+    /// Seeds of the members' disturbances, a point per seed. Default 1.
+    #[serde(default = "seeds")]
+    pub seeds: Vec<u64>,
+    /// The state that the start `running` comes from.
+    #[serde(default)]
+    pub running: RunningSpec,
+    /// Values per key; every combination is a point. The first key changes slowest. A list of values, or `{from, to,
+    /// count}`.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub grid: Map<String, Value>,
+    /// Points by their values. All have the same keys.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub list: Vec<Map<String, Value>>,
+    /// Points that fill the space between bounds evenly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub latin_hypercube: Option<LatinHypercube>,
+}
+
+/// `running`: the state that the start `running` comes from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RunningSpec {
+    /// Rotary speed (r/min). Default the highest of the points, or the highest that the inputs accept if no point sets it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rpm: Option<f64>,
+    /// Model time at this speed (s). Default 10.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+}
+
+/// `latin_hypercube`: every bound is cut into as many equal parts as there are points, and each part has one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LatinHypercube {
+    /// Number of points. Required.
+    pub points: usize,
+    /// Seed of the arrangement. Default 1.
+    #[serde(default = "seed")]
+    pub seed: u64,
+    /// Lower and upper bound per key. Required.
+    pub ranges: Map<String, Value>,
+}
+
+/// Model time of the start `running` at its speed (s), unless the specification has one: as the look-ahead's shortest
+/// horizon, the windows of the analysis.
+pub const RUNNING_TIME: f64 = 10.0;
+
+fn horizon() -> f64 {
+    60.0
+}
+fn members() -> u32 {
+    3
+}
+fn starts() -> Vec<Start> {
+    Start::ALL.to_vec()
+}
+fn seeds() -> Vec<u64> {
+    vec![1]
+}
+fn seed() -> u64 {
+    1
+}
+
+/// What the program says of itself in a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Program {
+    /// Name and version.
+    pub name: String,
+    /// See [`Runs::arithmetic`].
+    pub arithmetic: String,
+    /// Alarms that it counts.
+    pub alarms: Vec<String>,
+    /// Figures that it computes, with units.
+    pub figures: Vec<(String, String)>,
+}
+
+impl Spec {
+    /// Reads a specification, with the folder that relative paths begin at.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not YAML of a specification, or a value is out of bounds.
+    pub fn load(path: &Path) -> Result<Self, SweepError> {
+        let (name, text) = reading::read(path)?;
+        Ok(Self::from_text(&name, &text)?)
+    }
+
+    /// Reads a text; `name` stands for the file in errors.
+    ///
+    /// # Errors
+    /// As [`Spec::load`].
+    pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
+        let required = ["configuration", "latin_hypercube.points", "latin_hypercube.ranges"];
+        reading::checked(name, text, &required, Self::check)
+    }
+
+    fn check(&self, c: &mut Checker) {
+        let [least, most] = HORIZONS;
+        let delays = "the delays of the alarms have to pass; chaotic motion says nothing beyond minutes";
+        c.number("horizon", self.horizon, Bound::within(least, most), "s", delays);
+        let bound = Bound::within(1.0, f64::from(MOST_MEMBERS));
+        c.count("members", self.members as usize, bound, "more says little more");
+        if let Some(time) = self.running.time {
+            c.number(
+                "running.time",
+                time,
+                Bound::within(0.0, most),
+                "s",
+                "it only brings the tool to its motion",
+            );
+        }
+        if let Some(rpm) = self.running.rpm {
+            c.number(
+                "running.rpm",
+                rpm,
+                Bound::within(0.1, 5000.0),
+                "r/min",
+                "the tool must run",
+            );
+        }
+        let given = [
+            !self.grid.is_empty(),
+            !self.list.is_empty(),
+            self.latin_hypercube.is_some(),
+        ];
+        if given.iter().filter(|given| **given).count() != 1 {
+            c.wrong(
+                "grid",
+                "",
+                "",
+                "given, or `list`, or `latin_hypercube`",
+                "exactly one of them gives the values",
+            );
+        }
+        for (key, values) in &self.grid {
+            if let Err(why) = along(values) {
+                c.wrong(
+                    &format!("grid.{key}"),
+                    values,
+                    "",
+                    why,
+                    "a list, or `{from: 20, to: 120, count: 11}`",
+                );
+            }
+        }
+        let keys = self
+            .list
+            .first()
+            .map(|point| point.keys().collect::<Vec<_>>())
+            .unwrap_or_default();
+        for (number, point) in self.list.iter().enumerate() {
+            if !keys.iter().all(|key| point.contains_key(*key)) || point.len() != keys.len() {
+                let key = format!("list.{number}");
+                c.wrong(
+                    &key,
+                    point.len(),
+                    "",
+                    "of the same keys as the first point",
+                    "a table has no holes",
+                );
+            }
+            for (key, value) in point {
+                if !is_scalar(value) {
+                    c.wrong(
+                        &format!("list.{number}.{key}"),
+                        value,
+                        "",
+                        "one value",
+                        "a number, a word, true or false",
+                    );
+                }
+            }
+        }
+        if let Some(cube) = &self.latin_hypercube {
+            let bound = Bound::within(1.0, MOST_POINTS as f64);
+            c.count(
+                "latin_hypercube.points",
+                cube.points,
+                bound,
+                "more does not fit into a directory",
+            );
+            for (key, range) in &cube.ranges {
+                if ends(range).is_none() {
+                    let key = format!("latin_hypercube.ranges.{key}");
+                    c.wrong(&key, range, "", "two numbers, the smaller first", "`[0.1, 0.4]`");
+                }
+            }
+        }
+        let (keys, points) = self.size();
+        if !(1..=MOST_KEYS).contains(&keys) {
+            c.wrong(
+                "grid",
+                keys,
+                "keys",
+                format!("1 to {MOST_KEYS}"),
+                "a point changes something",
+            );
+        }
+        if points > MOST_POINTS as f64 {
+            c.wrong(
+                "grid",
+                points,
+                "points",
+                format!("at most {MOST_POINTS}"),
+                "with all starts and seeds",
+            );
+        }
+    }
+
+    /// Keys, and points without starts and seeds; nothing is built.
+    fn size(&self) -> (usize, f64) {
+        if let Some(cube) = &self.latin_hypercube {
+            return (cube.ranges.len(), cube.points as f64);
+        }
+        if let Some(first) = self.list.first() {
+            return (first.len(), self.list.len() as f64);
+        }
+        let counts = self.grid.values().map(|values| match values {
+            Value::Array(values) => values.len() as f64,
+            values => values.get("count").and_then(Value::as_f64).unwrap_or(1.0),
+        });
+        (self.grid.len(), counts.product())
+    }
+
+    /// The plan of the specification that was read from `path`. Every row of values is checked by the configuration.
+    ///
+    /// # Errors
+    /// When the configuration, one of its rows or a number of the plan is refused.
+    pub fn plan(&self, path: &Path, program: &Program) -> Result<Plan, SweepError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let config = Config::load(folder.join(&self.configuration))?;
+        self.plan_for(&path.display().to_string(), &config, program)
+    }
+
+    /// The same for a configuration that was read; `name` stands for the specification in errors.
+    ///
+    /// # Errors
+    /// As [`Spec::plan`].
+    pub fn plan_for(&self, name: &str, config: &Config, program: &Program) -> Result<Plan, SweepError> {
+        let (keys, rows) = self.rows(config);
+        let speed = keys.iter().position(|key| key == ROTARY_SPEED);
+        let highest = speed.and_then(|at| {
+            let speeds = rows.iter().filter_map(|row| row.get(at)?.as_f64());
+            speeds.reduce(f64::max).filter(|rpm| *rpm > 0.0)
+        });
+        let mut seeds = self.seeds.clone();
+        seeds.sort_unstable();
+        seeds.dedup();
+        let mut starts = self.starts.clone();
+        starts.sort_unstable();
+        starts.dedup();
+        let plan = Plan {
+            format: FORMAT,
+            runs: Runs {
+                program: program.name.clone(),
+                arithmetic: program.arithmetic.clone(),
+                configuration: config.to_yaml().map_err(|error| SweepError::Damaged {
+                    path: self.configuration.clone(),
+                    reason: error.to_string(),
+                })?,
+                hash: config.hash(),
+                horizon: self.horizon,
+                members: self.members,
+                running: Running {
+                    rpm: self
+                        .running
+                        .rpm
+                        .or(highest)
+                        .unwrap_or(config.inputs.rotary_speed.max_rpm),
+                    time: self.running.time.unwrap_or(RUNNING_TIME),
+                },
+                alarms: program.alarms.clone(),
+                figures: program.figures.clone(),
+            },
+            keys,
+            rows,
+            starts,
+            seeds,
+            map: None,
+        };
+        plan.check_rows(name, config)?;
+        Ok(plan)
+    }
+
+    /// Keys and rows of values.
+    fn rows(&self, config: &Config) -> (Vec<String>, Vec<Vec<Value>>) {
+        if let Some(cube) = &self.latin_hypercube {
+            return (cube.ranges.keys().cloned().collect(), cube.rows(config));
+        }
+        if let Some(first) = self.list.first() {
+            let keys: Vec<String> = first.keys().cloned().collect();
+            let row = |point: &Map<String, Value>| keys.iter().filter_map(|key| point.get(key).cloned()).collect();
+            let rows = self.list.iter().map(row).collect();
+            return (keys, rows);
+        }
+        let mut rows: Vec<Vec<Value>> = vec![Vec::new()];
+        for values in self.grid.values() {
+            let values = along(values).unwrap_or_default();
+            rows = rows
+                .iter()
+                .flat_map(|row| values.iter().map(|value| [row.as_slice(), &[value.clone()]].concat()))
+                .collect();
+        }
+        (self.grid.keys().cloned().collect(), rows)
+    }
+}
+
+impl Plan {
+    /// Checks every row by the configuration, and the plan's own numbers.
+    ///
+    /// # Errors
+    /// With the first that is refused.
+    pub fn check_rows(&self, name: &str, config: &Config) -> Result<(), SweepError> {
+        if let Some(problem) = self.problem() {
+            let name = name.to_owned();
+            return Err(SweepError::Plan { name, problem });
+        }
+        for row in 0..self.rows.len() {
+            let changed = config.with_values(name, self.values(row).map(|(key, value)| (key, value.clone())));
+            let changed = changed.map_err(|reason| SweepError::Row {
+                name: name.to_owned(),
+                row: row + 1,
+                reason,
+            })?;
+            let (rpm, limits) = (self.runs.running.rpm, &changed.inputs.rotary_speed);
+            if self.starts.contains(&Start::Running) && !(limits.min_rpm..=limits.max_rpm).contains(&rpm) {
+                return Err(SweepError::Plan {
+                    name: name.to_owned(),
+                    problem: crate::plan::Problem {
+                        what: "running.rpm".to_owned(),
+                        value: rpm.to_string(),
+                        bound: format!(
+                            "within inputs.rotary_speed, {} to {} r/min",
+                            limits.min_rpm, limits.max_rpm
+                        ),
+                    },
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The configuration of a row.
+    ///
+    /// # Errors
+    /// When the plan's configuration or the row is refused, which those of a checked plan are not.
+    pub fn config(&self, base: &Config, row: usize) -> Result<Config, ConfigError> {
+        base.with_values("sweep", self.values(row).map(|(key, value)| (key, value.clone())))
+    }
+
+    /// The first thing in which another plan differs.
+    pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
+        let (a, b) = (&self.runs, &other.runs);
+        let parts = [
+            (
+                "the program or its arithmetic",
+                a.program == b.program && a.arithmetic == b.arithmetic,
+            ),
+            ("the configuration", a.hash == b.hash),
+            ("horizon, members, alarms or figures", a == b),
+            ("the keys", self.keys == other.keys),
+            // As text: a number may have been rounded to its last bit when it was read.
+            ("the values", same_text(&self.rows, &other.rows)),
+            ("the starts", self.starts == other.starts),
+            ("the seeds", self.seeds == other.seeds),
+            ("the grid of the map", self.map == other.map),
+        ];
+        parts.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
+    }
+}
+
+/// Whether two tables are equal once the second is written and read as the first was.
+fn same_text(read: &[Vec<Value>], given: &[Vec<Value>]) -> bool {
+    let written = serde_json::to_string(given).and_then(|text| serde_json::from_str::<Vec<Vec<Value>>>(&text));
+    written.is_ok_and(|again| again == read)
+}
+
+impl LatinHypercube {
+    fn rows(&self, config: &Config) -> Vec<Vec<Value>> {
+        let tree = config.to_tree();
+        let mut random = fastrand::Rng::with_seed(self.seed);
+        let columns: Vec<Vec<Value>> = self
+            .ranges
+            .iter()
+            .filter_map(|(key, range)| {
+                let [low, high] = ends(range)?;
+                let is_whole = tree
+                    .pointer(&format!("/{}", key.replace('.', "/")))
+                    .is_some_and(Value::is_u64);
+                let mut parts: Vec<usize> = (0..self.points).collect();
+                random.shuffle(&mut parts);
+                let value = |part: usize, random: &mut fastrand::Rng| {
+                    let value = low + (high - low) * (part as f64 + random.f64()) / self.points as f64;
+                    if is_whole {
+                        Value::from(value.round() as u64)
+                    } else {
+                        Value::from(value)
+                    }
+                };
+                Some(parts.into_iter().map(|part| value(part, &mut random)).collect())
+            })
+            .collect();
+        (0..self.points)
+            .map(|point| columns.iter().map(|column| column[point].clone()).collect())
+            .collect()
+    }
+}
+
+fn is_scalar(value: &Value) -> bool {
+    matches!(value, Value::Number(_) | Value::String(_) | Value::Bool(_))
+}
+
+/// The bounds of a range, rising.
+fn ends(range: &Value) -> Option<[f64; 2]> {
+    let [low, high] = range.as_array()?.as_slice() else {
+        return None;
+    };
+    let (low, high) = (low.as_f64()?, high.as_f64()?);
+    (low < high && high - low < f64::INFINITY).then_some([low, high])
+}
+
+/// The values of a grid along one key.
+fn along(values: &Value) -> Result<Vec<Value>, &'static str> {
+    if let Value::Array(list) = values {
+        return if list.is_empty() || !list.iter().all(is_scalar) {
+            Err("a list of at least one number, word, true or false")
+        } else {
+            Ok(list.clone())
+        };
+    }
+    let table = values.as_object().ok_or("a list or a range")?;
+    if table.keys().any(|key| !["from", "to", "count"].contains(&key.as_str())) {
+        return Err("of `from`, `to` and `count` only");
+    }
+    let [from, to] = ["from", "to"].map(|key| table.get(key).and_then(Value::as_f64));
+    let (Some(from), Some(to)) = (from, to) else {
+        return Err("with `from` and `to`, both numbers");
+    };
+    let count = table.get("count").and_then(Value::as_u64).unwrap_or(0);
+    if !(2..=MOST_POINTS as u64).contains(&count) || !(from < to && to - from < f64::INFINITY) {
+        return Err("from a smaller to a larger number, with a `count` of 2 to 200000");
+    }
+    Ok(evenly(from, to, count as usize).into_iter().map(Value::from).collect())
+}
+
+/// `count` values from `from` to `to`, both ends included.
+pub fn evenly(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1);
+    // Ends as given: rounding must not bring them out of bounds.
+    (0..count)
+        .map(|at| match at {
+            0 => from,
+            at if at == last => to,
+            at => from + (to - from) * at as f64 / last as f64,
+        })
+        .collect()
+}

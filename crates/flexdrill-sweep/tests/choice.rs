@@ -1,0 +1,95 @@
+//! Few runs find a boundary that is known; the choice depends on the results only.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+use flexdrill_sweep::choice::{Choice, Class, Wanted};
+use flexdrill_sweep::plan::Grid;
+
+/// Whether an alarm is to be expected at a place of the unit square, from a start.
+type Truth = fn(usize, [f64; 2]) -> bool;
+
+/// A bent front as of whirl; with a start that hangs on longer, as of stick-slip.
+fn front(start: usize, [x, y]: [f64; 2]) -> bool {
+    y > 0.25 + 0.6 * x * x - if start == 1 { 0.15 } else { 0.0 }
+}
+
+/// An island of trouble and a strip at the edge.
+fn island(start: usize, [x, y]: [f64; 2]) -> bool {
+    let r = if start == 1 { 0.22 } else { 0.27 };
+    (x - 0.6).powi(2) + (y - 0.45).powi(2) < r * r || x < 0.12
+}
+
+const GRID: Grid = Grid { columns: 16, rows: 14 };
+
+fn place(cell: usize) -> [f64; 2] {
+    let (column, row) = (cell % GRID.columns, cell / GRID.columns);
+    [column as f64 / 15.0, row as f64 / 13.0]
+}
+
+/// Runs, and cells that are inferred wrongly, of all.
+fn explore(truth: Truth, most: usize) -> (usize, usize, Vec<Wanted>) {
+    let mut choice = Choice::new(GRID, 2);
+    let mut order = Vec::new();
+    loop {
+        let wanted = choice.next(most);
+        if wanted.is_empty() {
+            break;
+        }
+        for run in wanted {
+            assert!(!order.contains(&run), "{run:?} twice");
+            order.push(run);
+            let class = if truth(run.start, place(run.cell)) {
+                Class::Expected
+            } else {
+                Class::Clear
+            };
+            choice.learn(run, class);
+        }
+    }
+    let mut wrong = 0;
+    for start in 0..2 {
+        for (cell, surface) in choice.inferred(start).into_iter().enumerate() {
+            wrong += usize::from(surface.is_some_and(|surface| (surface.mean > 0.0) != truth(start, place(cell))));
+        }
+    }
+    (choice.runs(), wrong, order)
+}
+
+#[test]
+fn boundaries_are_found_with_two_fifths_of_the_runs() {
+    let all = 2 * GRID.columns * GRID.rows;
+    for truth in [front as Truth, island] {
+        let (runs, wrong, order) = explore(truth, all * 2 / 5);
+        println!("{runs} of {all} runs, {wrong} wrong");
+        assert!(runs <= all * 2 / 5);
+        // 95 % of the cells, of both starts.
+        assert!(wrong * 20 <= all, "{wrong} of {all} wrong");
+        assert_eq!(explore(truth, all * 2 / 5).2, order);
+    }
+}
+
+#[test]
+fn without_a_boundary_few_runs_are_made() {
+    for truth in [(|_, _| true) as Truth, |_, _| false] {
+        let (runs, wrong, _) = explore(truth, usize::MAX);
+        assert!(runs < 2 * GRID.columns * GRID.rows / 4, "{runs}");
+        assert_eq!(wrong, 0);
+    }
+}
+
+#[test]
+fn the_budget_is_kept_and_the_smallest_grid_ends() {
+    let mut choice = Choice::new(Grid { columns: 2, rows: 2 }, 2);
+    let mut runs = 0;
+    while let Some(run) = choice.next(3).first().copied() {
+        choice.learn(run, Class::Unknown);
+        runs += 1;
+    }
+    assert_eq!((runs, choice.runs()), (3, 3));
+    let mut choice = Choice::new(GRID, 1);
+    assert_eq!(choice.next(5).len(), 5);
+}

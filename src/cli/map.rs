@@ -1,0 +1,230 @@
+//! `flexdrill map`: the safe window of speed and weight, or of another pair of keys.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::progress::Progress;
+use super::{WrongUse, numbers, signals};
+use crate::cli::output::say;
+use crate::map::study::{self, Question};
+use crate::map::{picture, table};
+use flexdrill_alarms::Priority;
+use flexdrill_config::Config;
+use flexdrill_sweep::directory::write_whole;
+use flexdrill_sweep::envelope::Envelope;
+use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::plan::{HORIZONS, MOST_MEMBERS};
+use flexdrill_sweep::spec::evenly;
+
+/// Maps the chance of every alarm over rotary speed and weight on bit, or over another pair of keys.
+///
+/// Every cell is run from rest and from running; the map says where the two differ. Runs are chosen where they tell most
+/// of the boundary, and the other cells are inferred. A map that was interrupted goes on with the same command.
+#[derive(Debug, Args)]
+pub struct MapArgs {
+    /// The configuration (YAML).
+    config: PathBuf,
+    /// Rotary speeds (r/min), as LOW:HIGH.
+    #[arg(long, value_name = "A:B", value_parser = range, required_unless_present = "x", conflicts_with = "x")]
+    rpm: Option<[f64; 2]>,
+    /// Weights on bit (kN), as LOW:HIGH.
+    #[arg(long, value_name = "A:B", value_parser = range, required_unless_present = "y", conflicts_with = "y")]
+    wob: Option<[f64; 2]>,
+    /// Another key along x, in the place of the speed.
+    #[arg(long, value_name = "KEY=A:B", value_parser = key_range)]
+    x: Option<(String, [f64; 2])>,
+    /// Another key along y, in the place of the weight.
+    #[arg(long, value_name = "KEY=A:B", value_parser = key_range)]
+    y: Option<(String, [f64; 2])>,
+    /// Folder for the results and for the runs, created if necessary.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Cells along x and y.
+    #[arg(long, value_name = "NxM", value_parser = grid, default_value = "12x10")]
+    grid: [usize; 2],
+    /// Members per cell and start, at most; a start ends early where they decide every alarm.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MEMBERS)))]
+    members: u32,
+    /// Model time that each member is judged over (s).
+    #[arg(long, default_value_t = 60.0, value_parser = numbers::seconds)]
+    horizon: f64,
+    /// Runs at the same time, one thread each. The results do not depend on it.
+    #[arg(long, default_value_t = 1, value_parser = numbers::jobs())]
+    jobs: usize,
+    /// Seed of the disturbances by which members differ.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Largest part of all runs of the grid (%); 100 runs every cell.
+    #[arg(long, value_name = "PERCENT", default_value_t = 40, value_parser = clap::value_parser!(u8).range(1..=100))]
+    share: u8,
+    /// Priority from which on an alarm counts.
+    #[arg(long, value_enum, default_value_t = Least::Low)]
+    priority: Least,
+    /// Rotary speed that the start from running comes from (r/min) [default: the highest of the map].
+    #[arg(long, value_name = "RPM", value_parser = numbers::drilling_rpm)]
+    running_rpm: Option<f64>,
+    /// Values of the configuration to change, as KEY=VALUE with the key's dotted path (may be given more than once).
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// [`Priority`] on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Least {
+    /// Every alarm.
+    Low,
+    /// Alarms that require a response soon.
+    Medium,
+    /// Alarms that require a response at once.
+    High,
+}
+
+/// Chance above which an alarm must be expected: the chance that the look-ahead counts as excluded.
+const LIMIT: f64 = 0.1;
+
+/// A range `A:B`.
+fn range(text: &str) -> Result<[f64; 2], String> {
+    let of = |text: &str| -> Option<[f64; 2]> {
+        let (low, high) = text.split_once(':')?;
+        let (low, high) = (low.trim().parse::<f64>().ok()?, high.trim().parse::<f64>().ok()?);
+        (low < high && low.abs() < 1e12 && high.abs() < 1e12).then_some([low, high])
+    };
+    of(text).ok_or_else(|| "use LOW:HIGH, two numbers, such as 20:120".to_owned())
+}
+
+/// A key with its range, `KEY=A:B`.
+fn key_range(text: &str) -> Result<(String, [f64; 2]), String> {
+    let (key, values) = text
+        .split_once('=')
+        .ok_or("use KEY=LOW:HIGH, such as contact.inner.friction_tangential=0.1:0.7")?;
+    Ok((key.trim().to_owned(), range(values)?))
+}
+
+/// A grid `NxM`.
+fn grid(text: &str) -> Result<[usize; 2], String> {
+    let of = |text: &str| -> Option<[usize; 2]> {
+        let (columns, rows) = text.split_once('x')?;
+        let grid = [columns.parse::<usize>().ok()?, rows.parse::<usize>().ok()?];
+        let fits = grid.iter().all(|count| (2..=MOST_VALUES).contains(count)) && grid[0] * grid[1] <= MOST_CELLS;
+        fits.then_some(grid)
+    };
+    of(text).ok_or_else(|| format!("use NxM, such as 12x10: 2 to {MOST_VALUES} each, at most {MOST_CELLS} cells"))
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When the configuration or the axes are refused, the folder has another map, a file cannot be written, or the map was
+/// interrupted. A run that fails is part of the map.
+pub fn run(args: &MapArgs) -> anyhow::Result<()> {
+    let config = Config::load(&args.config)?;
+    let config = flexdrill_bench::changed(config, None, &args.set)?;
+    let question = question(args)?;
+    let plan = study::plan(&args.config.display().to_string(), &config, &question)?;
+    let stop = signals::stop_flag()?;
+    let mut progress = Progress::share();
+    let made = study::make(&args.out, &config, &plan, &question, args.jobs, &stop, |so_far| {
+        progress.at(so_far.done as f64 / so_far.most as f64);
+    })?;
+    progress.done();
+    let Some(map) = made else {
+        anyhow::bail!("stopped; the same command goes on");
+    };
+    let files = write(args, &map)?;
+    for line in table::words(&map) {
+        say!("{line}");
+    }
+    say!("{:.0} s; wrote {files}", progress.elapsed());
+    anyhow::ensure!(
+        map.cells.iter().any(|cell| cell.verdict != Verdict::Unknown),
+        "nothing is known: every run failed; map.csv has the causes"
+    );
+    Ok(())
+}
+
+fn question(args: &MapArgs) -> anyhow::Result<Question> {
+    let axis = |other: &Option<(String, [f64; 2])>, key: &str, range: Option<[f64; 2]>, count: usize| {
+        let (key, [low, high]) = match (other, range) {
+            (Some((key, range)), _) => (key.clone(), *range),
+            (None, Some(range)) => (key.to_owned(), range),
+            // One of the two is required.
+            (None, None) => (key.to_owned(), [f64::NAN; 2]),
+        };
+        (key, evenly(low, high, count))
+    };
+    let [least, most] = HORIZONS;
+    if !(least..=most).contains(&args.horizon) {
+        return Err(WrongUse::new(format!("--horizon {}: use {least} to {most} s", args.horizon)).into());
+    }
+    Ok(Question {
+        axes: [
+            axis(&args.x, ROTARY_SPEED, args.rpm, args.grid[0]),
+            axis(&args.y, WEIGHT_ON_BIT, args.wob, args.grid[1]),
+        ],
+        horizon: args.horizon,
+        members: args.members,
+        seed: args.seed,
+        running_rpm: args.running_rpm,
+        running_time: flexdrill_sweep::spec::RUNNING_TIME,
+        priority: match args.priority {
+            Least::Low => Priority::Low,
+            Least::Medium => Priority::Medium,
+            Least::High => Priority::High,
+        },
+        limit: LIMIT,
+        share: f64::from(args.share) / 100.0,
+    })
+}
+
+/// Writes all files, and names them.
+fn write(args: &MapArgs, map: &Map) -> anyhow::Result<String> {
+    let envelope = Envelope::of(map, true);
+    let svg = flexdrill_plot::svg(&picture::figure(map))?;
+    let page = flexdrill_report::map::page(map, &svg);
+    let files = [
+        ("map.csv", table::csv(map)?),
+        ("map.svg", svg.into_bytes()),
+        ("map.html", page.into_bytes()),
+        ("envelope_x.csv", table::bounds(map, &envelope, table::Of::X)?),
+        ("envelope_y.csv", table::bounds(map, &envelope, table::Of::Y)?),
+        // Last: who finds it finds the others.
+        ("map.json", map.to_json()?.into_bytes()),
+    ];
+    let mut names = Vec::new();
+    for (name, content) in &files {
+        let path = args.out.join(name);
+        write_whole(&path, content)?;
+        names.push(path.display().to_string());
+    }
+    Ok(names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_and_grids_are_refused_in_words() {
+        assert_eq!(range("20:140"), Ok([20.0, 140.0]));
+        assert_eq!(key_range("a.b=0.1:0.7"), Ok(("a.b".to_owned(), [0.1, 0.7])));
+        assert_eq!(grid("12x10"), Ok([12, 10]));
+        for text in [
+            "",
+            "20",
+            "140:20",
+            "20:20",
+            "a:b",
+            "nan:3",
+            "1:inf",
+            "1:2:3",
+            "1e300:2e300",
+        ] {
+            assert!(range(text).unwrap_err().starts_with("use LOW:HIGH"), "{text}");
+        }
+        for text in ["", "12", "1x5", "201x5", "150x150", "ax5", "-3x4"] {
+            assert!(grid(text).unwrap_err().starts_with("use NxM"), "{text}");
+        }
+        assert!(key_range("a.b").unwrap_err().starts_with("use KEY="));
+    }
+}

@@ -1,0 +1,176 @@
+//! One point of a sweep, computed with the twin.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::ahead::{Candidate, CandidateAnswer, Figure, Goal, Start as Begin, look_ahead};
+use crate::messages::outputs::schedule;
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::StepOutcome;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::twin::{Run, RunInputs, Simulation};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_sweep::map::{self, AlarmCount, Start};
+use flexdrill_sweep::plan::Running;
+use flexdrill_sweep::{Outcome, Plan, Point};
+
+/// Model time between two looks at the refinement that the motion asks for (s), as in the node.
+const PERIOD: f64 = 5e-3;
+/// Longest way to the speed that a start comes from (s), as for a look-ahead's candidate.
+const LONGEST_WAY: f64 = 300.0;
+
+/// Why a run has no members.
+enum Ended {
+    /// What would have come is unknown.
+    Unknown(String),
+    /// It was told to stop.
+    Stopped,
+}
+
+/// Computes a point of a plan whose configuration is `base`; nothing when `stop` is set. What fails is part of the
+/// outcome.
+pub fn run(plan: &Plan, base: &Config, point: &Point, stop: &AtomicBool) -> Option<Outcome> {
+    let config = match plan.config(base, point.row) {
+        Ok(config) => Arc::new(config),
+        Err(error) => return Some(unknown(plan, error.to_string())),
+    };
+    let candidate = Candidate {
+        rotary_speed: config.inputs.rotary_speed.initial_rpm,
+        weight_on_bit: config.inputs.weight_on_bit.initial_kn,
+        speed_ramp: 0.0,
+        weight_ramp: 0.0,
+    };
+    let running = (point.start == Start::Running).then_some(&plan.runs.running);
+    let begin = match begin(&config, running, candidate.weight_on_bit, stop) {
+        Ok(begin) => begin,
+        Err(Ended::Unknown(why)) => return Some(unknown(plan, why)),
+        Err(Ended::Stopped) => return None,
+    };
+    let goal = Goal {
+        candidates: vec![candidate],
+        horizon: plan.runs.horizon,
+        members: plan.runs.members,
+        run_all: false,
+        seed: point.seed,
+    };
+    let answer = look_ahead(&begin, &goal, 1, stop, |_| {});
+    if answer.stopped {
+        return None;
+    }
+    answer.candidates.first().map(outcome)
+}
+
+/// The state that a point starts from: at rest without weight, or running under the weight.
+fn begin(config: &Arc<Config>, running: Option<&Running>, kn: f64, stop: &AtomicBool) -> Result<Begin, Ended> {
+    let mut settings = config.simulation();
+    settings.initial_inputs = Inputs {
+        rotary_speed: 0.0,
+        weight_on_bit: 0.0,
+        ..settings.initial_inputs
+    };
+    let simulation = Simulation::new(&config.tool(), &settings).map_err(|error| Ended::Unknown(error.to_string()))?;
+    let mut run = Run::new(simulation, schedule(config, &config.outputs.rates));
+    if let Some(running) = running {
+        let target = Inputs {
+            rotary_speed: rpm_to_rad_per_s(running.rpm),
+            weight_on_bit: kn_to_n(kn),
+            ..run.applied().inputs
+        };
+        run.apply(&RunInputs {
+            inputs: target,
+            ..run.applied()
+        });
+        let arrived = |run: &Run| {
+            let applied = run.simulation().applied();
+            applied.rotary_speed == target.rotary_speed && applied.weight_set == target.weight_on_bit
+        };
+        while !arrived(&run) {
+            if run.simulation().time() > LONGEST_WAY {
+                let why = format!("speed or weight did not reach the start's within {LONGEST_WAY} s");
+                return Err(Ended::Unknown(why));
+            }
+            advance(&mut run, stop)?;
+        }
+        let end = run.simulation().time() + running.time;
+        while run.simulation().time() < end {
+            advance(&mut run, stop)?;
+        }
+    }
+    Ok(Begin::new(Arc::clone(config), run.simulation().fork(), &run.applied()))
+}
+
+/// Advances by a period.
+fn advance(run: &mut Run, stop: &AtomicBool) -> Result<(), Ended> {
+    if stop.load(Ordering::Relaxed) {
+        return Err(Ended::Stopped);
+    }
+    let refinement = run.wanted_refinement();
+    if refinement != run.applied().refinement {
+        run.apply(&RunInputs {
+            refinement,
+            ..run.applied()
+        });
+    }
+    let steps = (PERIOD / run.simulation().settings().time_step).round().max(1.0) as u64;
+    for _ in 0..steps {
+        if let StepOutcome::Failed(failure) = run.advance() {
+            return Err(Ended::Unknown(format!(
+                "a step failed, so that the rest is unknown: {failure}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// An outcome of which nothing is known.
+fn unknown(plan: &Plan, failure: String) -> Outcome {
+    let none = |(name, unit): &(String, String)| map::Figure {
+        name: name.clone(),
+        unit: unit.clone(),
+        quantiles: None,
+    };
+    Outcome {
+        members: 0,
+        failed: 0,
+        failure,
+        run_up: None,
+        alarms: Vec::new(),
+        figures: plan.runs.figures.iter().map(none).collect(),
+        quality: [0; 3],
+    }
+}
+
+fn outcome(answer: &CandidateAnswer) -> Outcome {
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let figures = Figure::ALL.into_iter().zip(&answer.figures);
+    Outcome {
+        members: answer.members,
+        failed: answer.failed,
+        failure: answer.failure.clone(),
+        run_up: finite(answer.run_up),
+        alarms: answer
+            .alarms
+            .iter()
+            .map(|alarm| AlarmCount {
+                alarm: alarm.id.id().to_owned(),
+                priority: alarm.priority,
+                seen: alarm.chance.seen,
+                of: alarm.chance.of,
+                interval: alarm.chance.interval,
+                first: finite(alarm.first),
+            })
+            .collect(),
+        figures: figures
+            .map(|(figure, band)| {
+                let (name, unit) = figure.name_and_unit();
+                let known = band.quantiles.iter().all(|value| value.is_finite());
+                map::Figure {
+                    name: name.to_owned(),
+                    unit: unit.to_owned(),
+                    quantiles: known.then_some(band.quantiles),
+                }
+            })
+            .collect(),
+        quality: answer.quality,
+    }
+}

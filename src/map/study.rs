@@ -1,0 +1,302 @@
+//! A map: which of its points to run, and what they say together.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::{point, program};
+use flexdrill_alarms::Priority;
+use flexdrill_config::{Config, ConfigError};
+use flexdrill_sweep::choice::{Choice, Class, Wanted};
+use flexdrill_sweep::map::{Axis, Cell, FORMAT, Map, OfStart, ROTARY_SPEED, Start, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::plan::{self, Grid, Plan, Running, Runs};
+use flexdrill_sweep::{Directory, Found, Outcome, SweepError};
+use serde_json::Value;
+
+/// What is asked of a map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// Keys of the axes with their values.
+    pub axes: [(String, Vec<f64>); 2],
+    /// Model time that each member is judged over (s).
+    pub horizon: f64,
+    /// Members per cell and start, at most.
+    pub members: u32,
+    /// Seed of the disturbances.
+    pub seed: u64,
+    /// State that the start from running comes from; its speed is the highest of the axes if not given.
+    pub running_rpm: Option<f64>,
+    /// Time at this speed (s).
+    pub running_time: f64,
+    /// Priority from which on an alarm counts.
+    pub priority: Priority,
+    /// Chance above which an alarm must be expected.
+    pub limit: f64,
+    /// Largest share of the grid's runs, 0 to 1; 1 runs every cell.
+    pub share: f64,
+}
+
+/// How far a map is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// Runs with a result.
+    pub done: usize,
+    /// Most runs of the map.
+    pub most: usize,
+    /// Runs among the done that this call computed.
+    pub here: usize,
+}
+
+/// The plan of a map: all cells of its grid, from all starts.
+///
+/// # Errors
+/// When a value of the axes is out of the configuration's bounds, or the configuration cannot be written.
+pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, SweepError> {
+    let [(x, columns), (y, rows)] = &question.axes;
+    let cells = rows
+        .iter()
+        .flat_map(|y| columns.iter().map(move |x| vec![Value::from(*x), Value::from(*y)]));
+    let speeds = question.axes.iter().find(|(key, _)| key == ROTARY_SPEED);
+    let highest = speeds.and_then(|(_, values)| values.iter().copied().reduce(f64::max));
+    let program = program();
+    let plan = Plan {
+        format: plan::FORMAT,
+        runs: Runs {
+            program: program.name,
+            arithmetic: program.arithmetic,
+            configuration: config.to_yaml().map_err(|error| SweepError::Damaged {
+                path: name.into(),
+                reason: error.to_string(),
+            })?,
+            hash: config.hash(),
+            horizon: question.horizon,
+            members: question.members,
+            running: Running {
+                rpm: question
+                    .running_rpm
+                    .or(highest)
+                    .unwrap_or(config.inputs.rotary_speed.max_rpm),
+                time: question.running_time,
+            },
+            alarms: program.alarms,
+            figures: program.figures,
+        },
+        keys: vec![x.clone(), y.clone()],
+        rows: cells.collect(),
+        starts: Start::ALL.to_vec(),
+        seeds: vec![question.seed],
+        map: Some(Grid {
+            columns: columns.len(),
+            rows: rows.len(),
+        }),
+    };
+    plan.check_rows(name, config)?;
+    Ok(plan)
+}
+
+/// Makes a map in a directory, on `jobs` threads; results that are there are used. Returns nothing when `stop` is set:
+/// then the same call goes on later.
+///
+/// The same plan and question give the same map, with any number of threads and interruptions.
+///
+/// # Errors
+/// When the directory has another plan, or a file cannot be written or read or is damaged.
+pub fn make(
+    out: &Path,
+    config: &Config,
+    plan: &Plan,
+    question: &Question,
+    jobs: usize,
+    stop: &AtomicBool,
+    mut progress: impl FnMut(Progress),
+) -> Result<Option<Map>, SweepError> {
+    let directory = Directory::create(out, plan)?;
+    let plan = directory.plan();
+    let grid = plan.map.unwrap_or(Grid { columns: 0, rows: 0 });
+    let mut choice = Choice::new(grid, plan.starts.len());
+    let all = choice.all();
+    let most = ((question.share * all as f64).round() as usize).clamp(1, all);
+    let mut here = 0;
+    let mut outcomes: Vec<Vec<Option<Outcome>>> = vec![vec![None; plan.rows.len()]; plan.starts.len()];
+    loop {
+        let wanted = if most == all {
+            everything(&choice, plan)
+        } else {
+            choice.next(most)
+        };
+        if wanted.is_empty() {
+            break;
+        }
+        let before = choice.runs();
+        let numbers: Vec<usize> = wanted.iter().map(|run| plan.number(run.cell, run.start, 0)).collect();
+        let run = |point: &_| point::run(plan, config, point, stop);
+        let worked = directory.work(&numbers, jobs, stop, run, |work| {
+            progress(Progress {
+                done: before + numbers.len() - work.all + work.done,
+                most,
+                here: here + work.done,
+            });
+        })?;
+        here += worked.ran;
+        if stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        for (run, number) in wanted.into_iter().zip(numbers) {
+            let point = &directory.points()[number];
+            let Found::Done(outcome) = directory.find(point)? else {
+                return Ok(None);
+            };
+            choice.learn(run, class(&outcome, question));
+            outcomes[run.start][run.cell] = Some(*outcome);
+        }
+    }
+    Ok(Some(assemble(config, plan, question, &mut choice, &outcomes)))
+}
+
+/// Every run that has no result.
+fn everything(choice: &Choice, plan: &Plan) -> Vec<Wanted> {
+    if choice.runs() > 0 {
+        return Vec::new();
+    }
+    let starts = 0..plan.starts.len();
+    let all = starts.flat_map(|start| (0..plan.rows.len()).map(move |cell| Wanted { start, cell }));
+    all.collect()
+}
+
+/// The alarm that is most likely among those that count: its identifier, how often it was seen, and the interval.
+fn worst<'a>(outcome: &'a Outcome, question: &Question) -> Option<(&'a str, u32, [f64; 2])> {
+    let counted = outcome
+        .alarms
+        .iter()
+        .filter(|count| count.priority == question.priority);
+    counted
+        .rev()
+        .max_by_key(|count| count.seen)
+        .map(|count| (count.alarm.as_str(), count.seen, count.interval))
+}
+
+/// Share of the members that ended which saw the alarm that is most likely.
+fn chance(outcome: &Outcome, question: &Question) -> Option<f64> {
+    let seen = worst(outcome, question).map_or(0, |(_, seen, _)| seen);
+    (outcome.ended() > 0).then(|| f64::from(seen) / f64::from(outcome.ended()))
+}
+
+fn class(outcome: &Outcome, question: &Question) -> Class {
+    match chance(outcome, question) {
+        Some(chance) if chance > question.limit => Class::Expected,
+        Some(_) if outcome.failed == 0 => Class::Clear,
+        _ => Class::Unknown,
+    }
+}
+
+fn assemble(
+    config: &Config,
+    plan: &Plan,
+    question: &Question,
+    choice: &mut Choice,
+    outcomes: &[Vec<Option<Outcome>>],
+) -> Map {
+    let inferred: Vec<_> = (0..plan.starts.len()).map(|start| choice.inferred(start)).collect();
+    let cells = plan.rows.iter().enumerate().map(|(cell, row)| {
+        let starts: Vec<OfStart> = (0..plan.starts.len())
+            .map(|start| match (&outcomes[start][cell], inferred[start][cell]) {
+                (Some(outcome), _) => known(outcome, question),
+                (None, Some(surface)) => OfStart::inferred(surface.mean > 0.0, surface.confidence()),
+                (None, None) => OfStart::inferred(false, 0.5),
+            })
+            .collect();
+        let value = |at: usize| row.get(at).and_then(Value::as_f64).unwrap_or(f64::NAN);
+        Cell {
+            x: value(0),
+            y: value(1),
+            verdict: Verdict::of(&starts),
+            starts,
+        }
+    });
+    let cells: Vec<Cell> = cells.collect();
+    let columns = plan.map.map_or(0, |grid| grid.columns);
+    let along_x = cells.iter().take(columns).map(|cell| cell.x).collect();
+    let along_y = cells.iter().step_by(columns.max(1)).map(|cell| cell.y).collect();
+    Map {
+        format: FORMAT,
+        program: plan.runs.program.clone(),
+        title: config.run.title.clone(),
+        configuration: plan.runs.hash.clone(),
+        motion: config.motion_hash(),
+        x: axis(config, &plan.keys[0], along_x),
+        y: axis(config, &plan.keys[1], along_y),
+        horizon: plan.runs.horizon,
+        members: plan.runs.members,
+        seed: question.seed,
+        priority: question.priority,
+        limit: question.limit,
+        starts: plan.starts.clone(),
+        runs: choice.runs() as u32,
+        cells,
+    }
+}
+
+fn known(outcome: &Outcome, question: &Question) -> OfStart {
+    let chance = chance(outcome, question);
+    let worst = worst(outcome, question);
+    let none = OfStart::inferred(false, 0.5);
+    OfStart {
+        state: if chance.is_some() { State::Known } else { State::Unknown },
+        expected: chance.is_some_and(|chance| chance > question.limit),
+        confidence: if chance.is_some() { 1.0 } else { none.confidence },
+        chance,
+        // Without a sighting every alarm has the interval of none in so many.
+        interval: match (worst, chance) {
+            (Some((_, _, interval)), _) => interval,
+            (None, Some(_)) => crate::ahead::Chance::new(0, outcome.ended()).interval,
+            (None, None) => none.interval,
+        },
+        alarm: worst.map_or(String::new(), |(alarm, _, _)| alarm.to_owned()),
+        members: outcome.members,
+        failed: outcome.failed,
+        failure: outcome.failure.clone(),
+        alarms: outcome.alarms.clone(),
+        figures: if outcome.members > 0 {
+            outcome.figures.clone()
+        } else {
+            Vec::new()
+        },
+    }
+}
+
+/// An axis with the name and unit of its key.
+fn axis(config: &Config, key: &str, values: Vec<f64>) -> Axis {
+    let unit = config
+        .numbers()
+        .into_iter()
+        .find(|number| number.key == key)
+        .map_or("", |number| number.unit);
+    let name = match key {
+        ROTARY_SPEED => "rotary speed",
+        WEIGHT_ON_BIT => "weight on bit",
+        key => key,
+    };
+    Axis {
+        key: key.to_owned(),
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        values,
+    }
+}
+
+/// Reads the configuration of a plan.
+///
+/// # Errors
+/// When it is not that of the plan's hash, or is refused by this version.
+pub fn configuration(directory: &Directory) -> Result<Config, SweepError> {
+    let runs = &directory.plan().runs;
+    let path = directory.path().join(flexdrill_sweep::directory::PLAN);
+    let read: Result<Config, ConfigError> = Config::from_text(&path.display().to_string(), &runs.configuration);
+    let config = read?;
+    if config.hash() == runs.hash {
+        return Ok(config);
+    }
+    Err(SweepError::Damaged {
+        path,
+        reason: "its configuration is not the one of its hash".to_owned(),
+    })
+}
