@@ -10,7 +10,7 @@ use super::{WrongUse, numbers};
 use crate::cli::output::{say, say_text, tell};
 use flexdrill_bench::measure::{Load, Measured, percentiles};
 use flexdrill_bench::table::Table;
-use flexdrill_bench::{ChangeError, machine, measure, real_time};
+use flexdrill_bench::{ChangeError, batch, machine, measure, real_time};
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
@@ -26,7 +26,7 @@ pub struct BenchArgs {
     /// A set of runs instead of a single one.
     #[arg(long, value_enum)]
     cases: Option<Cases>,
-    /// Model time after the static start (s) [default: 20; 60 with --cases].
+    /// Model time after the static start (s) [default: 20; 60 with --cases real-time].
     #[arg(long, value_parser = numbers::seconds)]
     duration: Option<f64>,
     /// Rotary speed (r/min).
@@ -76,6 +76,9 @@ impl Vectors {
 enum Cases {
     /// The tool as it is and harder ones, with speed, iterations, energy error and time per phase.
     RealTime,
+    /// Forks as look-aheads, maps and sweeps run them, on one core and on several, alone and next to a live run; the
+    /// duration is wall time per row.
+    Batch,
 }
 
 /// Runs the subcommand.
@@ -89,7 +92,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(WrongUse::new(format!("--duration {duration}: a time above 0 s")).into());
     }
     match args.cases {
-        Some(Cases::RealTime) => run_cases(args),
+        Some(cases) => run_cases(args, cases),
         None => run_plain(args),
     }
 }
@@ -104,7 +107,7 @@ fn instructions(args: &BenchArgs) -> anyhow::Result<Instructions> {
         .ok_or_else(|| WrongUse::new(format!("--instructions: this machine does not have {}", asked.name())).into())
 }
 
-fn run_cases(args: &BenchArgs) -> anyhow::Result<()> {
+fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
     let (name, config) = match args.configs.first() {
         Some(path) => (path.display().to_string(), load(BuiltIn::Default, Some(path), args)?),
         None => (BuiltIn::Default.file().to_owned(), load(BuiltIn::Default, None, args)?),
@@ -114,9 +117,19 @@ fn run_cases(args: &BenchArgs) -> anyhow::Result<()> {
         wob: args.wob,
         instructions: instructions(args)?,
     };
-    let duration = args.duration.unwrap_or(60.0);
-    let tables = real_time::tables(&config, constant, duration, |line| tell!("{line}"))?;
-    say!("\n### real-time\n\n{}", real_time::section(&name, duration, &tables));
+    let (title, section) = match cases {
+        Cases::RealTime => {
+            let duration = args.duration.unwrap_or(60.0);
+            let tables = real_time::tables(&config, constant, duration, |line| tell!("{line}"))?;
+            ("real-time", real_time::section(&name, duration, &tables))
+        }
+        Cases::Batch => {
+            let duration = args.duration.unwrap_or(20.0);
+            let tables = batch::tables(&config, constant, duration, |line| tell!("{line}"))?;
+            ("batch", batch::section(&name, duration, &tables))
+        }
+    };
+    say!("\n### {title}\n\n{section}");
     Ok(())
 }
 

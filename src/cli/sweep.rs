@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use clap::{Args, Subcommand};
 
 use super::progress::Progress;
-use super::{WrongUse, numbers, signals};
+use super::{numbers, signals};
 use crate::cli::output::{say, tell};
 use crate::map::{point, program, study};
 use flexdrill_sweep::directory::write_whole;
@@ -130,19 +130,10 @@ fn work(args: &WorkArgs) -> anyhow::Result<()> {
     let numbers: Vec<usize> = (0..directory.points().len())
         .filter(|number| args.chunk.has(*number))
         .collect();
-    if numbers.is_empty() {
-        let why = format!(
-            "--chunk: part {} of {} has none of {} points",
-            args.chunk.part,
-            args.chunk.of,
-            directory.points().len()
-        );
-        return Err(WrongUse::new(why).into());
-    }
     let mut progress = Progress::share();
     let compute = |point: &_| point::run(directory.plan(), &config, point, &stop);
     let worked = directory.work(&numbers, args.jobs, &stop, compute, |work| {
-        progress.at(work.done as f64 / work.all as f64);
+        progress.at(work.done as f64 / work.all.max(1) as f64);
     })?;
     progress.done();
     say!(

@@ -8,4 +8,5 @@
 
 mod paper;
 mod reach;
+mod sweep;
 mod usage;

@@ -161,7 +161,18 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 4] = ["metadata.yaml", "report.md", "findings.csv", "reach.csv"];
+const WRITTEN_FILES: [&str; 10] = [
+    "metadata.yaml",
+    "report.md",
+    "findings.csv",
+    "reach.csv",
+    "sweep.json",
+    "points.csv",
+    "map.csv",
+    "map.json",
+    "envelope_x.csv",
+    "envelope_y.csv",
+];
 
 #[test]
 fn files_that_are_named_exist() {

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::error::SweepError;
 use crate::map::{ROTARY_SPEED, Start};
-use crate::plan::{FORMAT, HORIZONS, MOST_KEYS, MOST_MEMBERS, MOST_POINTS, Plan, Running, Runs};
+use crate::plan::{FORMAT, HORIZONS, MOST_KEYS, MOST_MEMBERS, MOST_POINTS, Plan, Problem, Running, Runs};
 
 /// A sweep as a person writes it. Exactly one of `grid`, `list` and `latin_hypercube` gives the values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -342,6 +342,8 @@ impl Plan {
             let name = name.to_owned();
             return Err(SweepError::Plan { name, problem });
         }
+        let rpm = self.runs.running.rpm;
+        let mut beyond = None;
         for row in 0..self.rows.len() {
             let changed = config.with_values(name, self.values(row).map(|(key, value)| (key, value.clone())));
             let changed = changed.map_err(|reason| SweepError::Row {
@@ -349,22 +351,21 @@ impl Plan {
                 row: row + 1,
                 reason,
             })?;
-            let (rpm, limits) = (self.runs.running.rpm, &changed.inputs.rotary_speed);
+            let limits = &changed.inputs.rotary_speed;
             if self.starts.contains(&Start::Running) && !(limits.min_rpm..=limits.max_rpm).contains(&rpm) {
-                return Err(SweepError::Plan {
-                    name: name.to_owned(),
-                    problem: crate::plan::Problem {
-                        what: "running.rpm".to_owned(),
-                        value: rpm.to_string(),
-                        bound: format!(
-                            "within inputs.rotary_speed, {} to {} r/min",
-                            limits.min_rpm, limits.max_rpm
-                        ),
-                    },
-                });
+                beyond.get_or_insert([limits.min_rpm, limits.max_rpm]);
             }
         }
-        Ok(())
+        // After all rows: where a row is beyond a limit itself, that is what is wrong.
+        let Some([least, most]) = beyond else { return Ok(()) };
+        Err(SweepError::Plan {
+            name: name.to_owned(),
+            problem: Problem {
+                what: "running.rpm".to_owned(),
+                value: rpm.to_string(),
+                bound: format!("within inputs.rotary_speed, {least} to {most} r/min"),
+            },
+        })
     }
 
     /// The configuration of a row.

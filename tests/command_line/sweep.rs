@@ -1,0 +1,308 @@
+//! `flexdrill sweep` and `flexdrill map` on the short tool of the tests: the same bytes with any number of threads, killed
+//! workers and interruptions, and refusals in words.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use flexdrill_config::Config;
+use flexdrill_sweep::Directory;
+use flexdrill_sweep::map::{Map, State};
+
+fn flexdrill(arguments: &[&str], folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
+    command
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .arg(folder);
+    command
+}
+
+fn text(output: &Output) -> String {
+    [&output.stdout, &output.stderr]
+        .map(|bytes| String::from_utf8_lossy(bytes))
+        .concat()
+}
+
+fn run(arguments: &[&str], folder: &Path, more: &[&str]) -> String {
+    let output = flexdrill(arguments, folder).args(more).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output));
+    text(&output)
+}
+
+const PLAN: [&str; 3] = ["sweep", "plan", "tests/data/sweep.yaml"];
+
+fn planned(folder: &Path) -> PathBuf {
+    run(&PLAN, folder, &[]);
+    folder.to_owned()
+}
+
+#[test]
+fn killed_workers_and_threads_change_no_byte_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let alone = planned(&folder.path().join("alone"));
+    run(&["sweep", "work"], &alone, &["--jobs", "1"]);
+    run(&["sweep", "collect"], &alone, &[]);
+    let killed = planned(&folder.path().join("killed"));
+    let done = || Directory::open(&killed).unwrap().status().unwrap().done;
+    // Two workers on the same points; one is killed once a point is there, while it works on another one.
+    let mut workers = [0, 1].map(|_| {
+        flexdrill(&["sweep", "work"], &killed)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap()
+    });
+    let limit = Instant::now() + Duration::from_secs(120);
+    while done() == 0 {
+        assert!(Instant::now() < limit, "no point was computed");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    workers[0].kill().unwrap();
+    assert!(!workers[0].wait().unwrap().success());
+    assert!(done() < 8, "the worker had ended before it was killed");
+    assert!(workers[1].wait().unwrap().success());
+    let again = run(&["sweep", "work"], &killed, &["--jobs", "2"]);
+    assert!(again.contains("8 points: 0 computed"), "{again}");
+    run(&["sweep", "collect"], &killed, &[]);
+    let tables = [&alone, &killed].map(|folder| std::fs::read(folder.join("points.csv")).unwrap());
+    assert_eq!(tables[0], tables[1]);
+    let table = String::from_utf8(tables[0].clone()).unwrap();
+    assert_eq!(table.lines().count(), 9, "{table}");
+    assert!(table.lines().skip(1).all(|row| row.contains(",known,2,0,")), "{table}");
+}
+
+#[test]
+fn parts_are_parts_and_what_is_refused_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = planned(&folder.path().join("sweep"));
+    let said = run(&["sweep", "work"], &path, &["--chunk", "1/8"]);
+    assert!(said.contains("1 points: 1 computed"), "{said}");
+    // A scheduler's array may have more tasks than there are points.
+    let said = run(&["sweep", "work"], &path, &["--chunk", "9/20"]);
+    assert!(said.contains("0 points: 0 computed"), "{said}");
+    let said = run(&["sweep", "status"], &path, &[]);
+    assert!(
+        said.contains("missing     7") && said.contains("done        1 (0 with"),
+        "{said}"
+    );
+    for (arguments, more, code, part) in [
+        (&["sweep", "work"][..], &["--chunk", "8/8"][..], 2, "use I/N"),
+        (
+            &["sweep", "collect"],
+            &[],
+            1,
+            "7 of 8 points have no result; run flexdrill sweep work",
+        ),
+        (
+            &["sweep", "plan", "tests/data/small.yaml"],
+            &[],
+            1,
+            "tests/data/small.yaml",
+        ),
+    ] {
+        let output = flexdrill(arguments, &path).args(more).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output));
+        assert!(text(&output).contains(part), "{}", text(&output));
+    }
+    // A map is another plan.
+    let map = flexdrill(&MAP, &path).args(SMALL).output().unwrap();
+    assert_eq!(map.status.code(), Some(1));
+    assert!(text(&map).contains("the directory has another plan"), "{}", text(&map));
+    // Another version's plan.
+    let plan = path.join("sweep.json");
+    let other =
+        std::fs::read_to_string(&plan)
+            .unwrap()
+            .replacen("\"program\":\"flexdrill ", "\"program\":\"flexdrill 9", 1);
+    std::fs::write(&plan, other).unwrap();
+    let work = flexdrill(&["sweep", "work"], &path).output().unwrap();
+    assert!(
+        text(&work).contains("results of two programs are not mixed"),
+        "{}",
+        text(&work)
+    );
+}
+
+const MAP: [&str; 5] = ["map", "tests/data/small.yaml", "--rpm", "30:110", "--out"];
+const SMALL: [&str; 8] = ["--wob", "1:9", "--grid", "3x3", "--horizon", "10", "--members", "2"];
+
+#[test]
+fn a_map_has_the_same_bytes_with_any_threads_and_interruptions() {
+    let folder = tempfile::tempdir().unwrap();
+    let (one, two) = (folder.path().join("one"), folder.path().join("two"));
+    let words = run(&MAP, &one, &[&SMALL[..], &["--share", "80"]].concat());
+    assert!(
+        words.contains("9 cells from 2 starts") && words.contains("map.json"),
+        "{words}"
+    );
+    // Interrupted in the middle, then continued with two threads.
+    let share = [&SMALL[..], &["--share", "80", "--jobs", "2"]].concat();
+    let mut worker = flexdrill(&MAP, &two)
+        .args(&share)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let limit = Instant::now() + Duration::from_secs(120);
+    while !Directory::open(&two).is_ok_and(|there| there.status().is_ok_and(|status| status.done > 1)) {
+        assert!(Instant::now() < limit, "no point was computed");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    worker.kill().unwrap();
+    worker.wait().unwrap();
+    run(&MAP, &two, &share);
+    for name in [
+        "map.json",
+        "map.csv",
+        "map.svg",
+        "map.html",
+        "envelope_x.csv",
+        "envelope_y.csv",
+    ] {
+        let [a, b] = [&one, &two].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(!a.is_empty() && a == b, "{name}");
+    }
+    let map = Map::load(&one.join("map.json")).unwrap();
+    let config = Config::load("tests/data/small.yaml").unwrap();
+    assert_eq!((map.configuration, map.motion), (config.hash(), config.motion_hash()));
+    assert_eq!((map.x.unit.as_str(), map.y.unit.as_str()), ("r/min", "kN"));
+    assert_eq!(map.x.values, [30.0, 70.0, 110.0]);
+    let known = map
+        .cells
+        .iter()
+        .flat_map(|cell| &cell.starts)
+        .filter(|start| start.state == State::Known)
+        .count();
+    assert_eq!(known, map.runs as usize);
+    assert!(map.runs <= 14, "{}", map.runs);
+}
+
+#[test]
+fn maps_of_other_keys_are_made_and_wrong_axes_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let keys = [
+        "map",
+        "tests/data/small.yaml",
+        "--x",
+        "contact.inner.friction_tangential=0.1:0.7",
+        "--y",
+        "contact.outer.friction_tangential=0.1:0.5",
+        "--grid",
+        "2x2",
+        "--horizon",
+        "10",
+        "--members",
+        "1",
+        "--share",
+        "100",
+        "--set",
+        "inputs.rotary_speed.initial_rpm=40",
+        "--running-rpm",
+        "80",
+        "--set",
+        "inputs.weight_on_bit.initial_kn=5",
+        "--out",
+    ];
+    run(&keys, folder.path(), &["--jobs", "2"]);
+    let map = Map::load(&folder.path().join("map.json")).unwrap();
+    assert_eq!(
+        (map.runs, map.x.name.as_str()),
+        (8, "contact.inner.friction_tangential")
+    );
+    let other = folder.path().join("other");
+    for (arguments, code, part) in [
+        (
+            &[
+                "map",
+                "tests/data/small.yaml",
+                "--rpm",
+                "30:130",
+                "--wob",
+                "1:9",
+                "--out",
+            ][..],
+            1,
+            "inputs.rotary_speed.initial_rpm = 130 r/min",
+        ),
+        (
+            &[
+                "map",
+                "tests/data/small.yaml",
+                "--rpm",
+                "30:110",
+                "--wob",
+                "1:90",
+                "--out",
+            ],
+            1,
+            "inputs.weight_on_bit.initial_kn = 90 kN",
+        ),
+        (
+            &[
+                "map",
+                "tests/data/small.yaml",
+                "--rpm",
+                "30:110",
+                "--y",
+                "no.such=1:9",
+                "--out",
+            ],
+            1,
+            "no.such: no such key",
+        ),
+        (
+            &["map", "tests/data/small.yaml", "--rpm", "30:110", "--out"],
+            2,
+            "--wob",
+        ),
+        (
+            &[
+                "map",
+                "tests/data/small.yaml",
+                "--rpm",
+                "110:30",
+                "--wob",
+                "1:9",
+                "--out",
+            ],
+            2,
+            "use LOW:HIGH",
+        ),
+        (
+            &[
+                "map",
+                "tests/data/small.yaml",
+                "--rpm",
+                "30:110",
+                "--wob",
+                "1:9",
+                "--horizon",
+                "5",
+                "--out",
+            ],
+            2,
+            "use 10 to 600 s",
+        ),
+        (
+            &[
+                "map",
+                "tests/data/small.yaml",
+                "--rpm",
+                "30:110",
+                "--wob",
+                "1:9",
+                "--grid",
+                "1x3",
+                "--out",
+            ],
+            2,
+            "use NxM",
+        ),
+    ] {
+        let output = flexdrill(arguments, &other).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output));
+        assert!(text(&output).contains(part), "{part}: {}", text(&output));
+        assert!(!other.exists(), "{part}");
+    }
+}
