@@ -336,10 +336,21 @@ fn seed(seed: u64, candidate: usize, member: u32) -> u64 {
     fastrand::Rng::with_seed(seed ^ ((candidate as u64) << 32 | u64::from(member))).u64(..)
 }
 
+/// Whether members run at the lowest priority.
+static YIELDS: AtomicBool = AtomicBool::new(true);
+
+/// Lets the members of this process run at its own priority, for a process that has no live run: a sweep that yields to
+/// everything stands still on a machine that is shared.
+pub fn keep_priority() {
+    YIELDS.store(false, Ordering::Relaxed);
+}
+
 /// Lowers the priority of this thread: the look-ahead takes what the live run leaves. It is a hint; without it the answer is
 /// the same.
 fn yield_to_others() {
-    let _ = rustix::process::nice(19);
+    if YIELDS.load(Ordering::Relaxed) {
+        let _ = rustix::process::nice(19);
+    }
 }
 
 /// The number of members that are enough, if the first ones that ended are; all of them where all ended.

@@ -25,6 +25,6 @@ mod member;
 
 pub use advice::search;
 pub use chance::{Band, Chance};
-pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, look_ahead};
+pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, keep_priority, look_ahead};
 pub use goal::{Candidate, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use member::{DISTURBANCE, Figure};

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::progress::Progress;
 use super::{WrongUse, numbers, signals};
+use crate::ahead::keep_priority;
 use crate::cli::output::say;
 use crate::map::study::{self, Question};
 use crate::map::{picture, table};
@@ -123,6 +124,7 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
     let question = question(args)?;
     let plan = study::plan(&args.config.display().to_string(), &config, &question)?;
     let stop = signals::stop_flag()?;
+    keep_priority();
     let mut progress = Progress::share();
     let made = study::make(&args.out, &config, &plan, &question, args.jobs, &stop, |so_far| {
         progress.at(so_far.done as f64 / so_far.most as f64);

@@ -7,6 +7,7 @@ use clap::{Args, Subcommand};
 
 use super::progress::Progress;
 use super::{numbers, signals};
+use crate::ahead::keep_priority;
 use crate::cli::output::{say, tell};
 use crate::map::{point, program, study};
 use flexdrill_sweep::directory::write_whole;
@@ -130,6 +131,7 @@ fn work(args: &WorkArgs) -> anyhow::Result<()> {
     let numbers: Vec<usize> = (0..directory.points().len())
         .filter(|number| args.chunk.has(*number))
         .collect();
+    keep_priority();
     let mut progress = Progress::share();
     let compute = |point: &_| point::run(directory.plan(), &config, point, &stop);
     let worked = directory.work(&numbers, args.jobs, &stop, compute, |work| {
