@@ -63,8 +63,13 @@ impl Start {
         self.run.applied()
     }
 
+    /// A run in this state.
+    pub(super) fn run(&self) -> Run {
+        self.run.fork()
+    }
+
     /// What acts from here on under a candidate.
-    fn target(&self, candidate: &Candidate) -> RunInputs {
+    pub(super) fn target(&self, candidate: &Candidate) -> RunInputs {
         let applied = self.run.applied();
         let mut slew = applied.slew;
         if candidate.speed_ramp > 0.0 {
@@ -123,14 +128,6 @@ pub struct CandidateAnswer {
     pub quality: [u32; 3],
 }
 
-impl CandidateAnswer {
-    /// Members that saw an alarm, of any priority.
-    pub fn seen(&self, id: AlarmId) -> u32 {
-        let of = self.alarms.iter().filter(|alarm| alarm.id == id);
-        of.map(|alarm| alarm.chance.seen).max().unwrap_or(0)
-    }
-}
-
 /// The answer on all candidates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
@@ -177,48 +174,6 @@ pub fn look_ahead(
     goal: &Goal,
     threads: usize,
     stop: &AtomicBool,
-    progress: impl FnMut(Progress),
-) -> Answer {
-    let enough = if goal.run_all { Enough::All } else { Enough::Decided };
-    run_goal(start, goal, enough, threads, stop, progress)
-}
-
-/// When a candidate has run enough members.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Enough<'a> {
-    /// When all have run.
-    All,
-    /// When the test decides every alarm.
-    Decided,
-    /// When more than `most` members show `alarm`, or another that is not `standing`.
-    Against {
-        alarm: AlarmId,
-        standing: &'a [AlarmId],
-        most: u32,
-    },
-}
-
-impl Enough<'_> {
-    /// Whether `of` members do, by the number that saw each alarm.
-    fn reached(&self, seen: &[u32], of: u32) -> bool {
-        match self {
-            Self::All => false,
-            Self::Decided => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
-            Self::Against { alarm, standing, most } => AlarmId::ALL
-                .into_iter()
-                .filter(|id| id == alarm || !standing.contains(id))
-                .any(|id| seen[id as usize] > *most),
-        }
-    }
-}
-
-/// [`look_ahead`] with a rule for when a candidate has run enough members.
-pub(super) fn run_goal(
-    start: &Start,
-    goal: &Goal,
-    rule: Enough<'_>,
-    threads: usize,
-    stop: &AtomicBool,
     mut progress: impl FnMut(Progress),
 ) -> Answer {
     let candidates = goal.candidates.len();
@@ -254,7 +209,7 @@ pub(super) fn run_goal(
             let of = &mut gathered[report.candidate];
             of.members.insert(report.member, report.result);
             if of.enough.is_none() {
-                of.enough = enough(&of.members, goal, rule);
+                of.enough = enough(&of.members, goal);
                 decided[report.candidate].store(of.enough.is_some(), Ordering::Relaxed);
             }
             progress(told(goal, &gathered));
@@ -268,32 +223,16 @@ type RunUp = Result<(Run, f64), Ended>;
 
 /// The run-up to each candidate, in the order of the goal.
 fn run_ups(start: &Start, goal: &Goal, threads: usize, stop: &AtomicBool) -> Vec<RunUp> {
-    let next = AtomicUsize::new(0);
-    let mut found: Vec<(usize, RunUp)> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads.clamp(1, goal.candidates.len()))
-            .map(|_| {
-                scope.spawn(|| {
-                    yield_to_others();
-                    let mut own = Vec::new();
-                    loop {
-                        let index = next.fetch_add(1, Ordering::Relaxed);
-                        let Some(candidate) = goal.candidates.get(index) else {
-                            return own;
-                        };
-                        let watched = Watched::new(start.run.fork(), &start.config, stop);
-                        own.push((index, watched.run_up(&start.target(candidate), MOST_RUN_UP)));
-                    }
-                })
-            })
-            .collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
-    });
-    found.sort_by_key(|(index, _)| *index);
-    found.into_iter().map(|(_, run_up)| run_up).collect()
+    on_threads(&goal.candidates, threads, |candidate| {
+        let watched = Watched::new(start.run.fork(), &start.config, stop);
+        watched.run_up(&start.target(candidate), MOST_RUN_UP)
+    })
 }
+
+/// Longest way to a candidate that each member takes itself (s). Where a motion can go on or end, the way decides which, and
+/// one way for all members would decide for all (`docs/measurements.md`, chaotic whirl). A longer way is run once: its end is
+/// far from the motion at its beginning.
+const OWN_WAY: f64 = 10.0;
 
 /// Takes tasks until none is left.
 #[expect(clippy::too_many_arguments, reason = "what all workers share, by reference")]
@@ -312,14 +251,21 @@ fn work(
         let Some(&(candidate, member)) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) else {
             return;
         };
-        let Ok((run, _)) = &run_ups[candidate] else { continue };
+        let Ok((there, way)) = &run_ups[candidate] else {
+            continue;
+        };
         if decided[candidate].load(Ordering::Relaxed) {
             continue;
         }
-        let mut fork = run.fork();
-        let mut random = fastrand::Rng::with_seed(seed(goal.seed, candidate, member));
-        fork.disturb(|| DISTURBANCE * (2.0 * random.f64() - 1.0));
-        let result = Watched::new(fork, &start.config, stop).judge(goal.horizon);
+        let member_run = if *way <= OWN_WAY {
+            let fork = disturbed(&start.run, goal.seed, candidate, member);
+            let watched = Watched::new(fork, &start.config, stop);
+            let own = watched.run_up(&start.target(&goal.candidates[candidate]), MOST_RUN_UP);
+            own.map(|(run, _)| run)
+        } else {
+            Ok(disturbed(there, goal.seed, candidate, member))
+        };
+        let result = member_run.and_then(|run| Watched::new(run, &start.config, stop).judge(goal.horizon, |_| false));
         let report = Report {
             candidate,
             member,
@@ -329,6 +275,42 @@ fn work(
             return;
         }
     }
+}
+
+/// A member's own run: `run` with the disturbance of its number.
+pub(super) fn disturbed(run: &Run, of_goal: u64, candidate: usize, member: u32) -> Run {
+    let mut fork = run.fork();
+    let mut random = fastrand::Rng::with_seed(seed(of_goal, candidate, member));
+    fork.disturb(|| DISTURBANCE * (2.0 * random.f64() - 1.0));
+    fork
+}
+
+/// `work` on each of `items`, on `threads` threads of low priority; the results in the order of the items.
+pub(super) fn on_threads<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let mut found: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads.clamp(1, items.len().max(1)))
+            .map(|_| {
+                scope.spawn(|| {
+                    yield_to_others();
+                    let mut own = Vec::new();
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(item) = items.get(index) else {
+                            return own;
+                        };
+                        own.push((index, work(item)));
+                    }
+                })
+            })
+            .collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    });
+    found.sort_by_key(|(index, _)| *index);
+    found.into_iter().map(|(_, result)| result).collect()
 }
 
 /// The seed of a member: neighbours differ in all bits once the generator has mixed them.
@@ -354,7 +336,7 @@ fn yield_to_others() {
 }
 
 /// The number of members that are enough, if the first ones that ended are; all of them where all ended.
-fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal, rule: Enough<'_>) -> Option<u32> {
+fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal) -> Option<u32> {
     let mut seen = vec![0; AlarmId::ALL.len()];
     let mut of = 0;
     for (number, (member, result)) in (0..goal.members).zip(members) {
@@ -367,7 +349,8 @@ fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal, rule: Eno
                 *seen += u32::from(called.worst.is_some());
             }
         }
-        if number + 1 == goal.members || rule.reached(&seen, of) {
+        let decided = || seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some());
+        if number + 1 == goal.members || (!goal.run_all && decided()) {
             return Some(number + 1);
         }
     }
@@ -402,25 +385,6 @@ fn summed((candidate, gathered): (&Candidate, &Gathered)) -> CandidateAnswer {
     let of = members.len() as u32;
     let failures = results.iter().filter_map(|result| result.as_ref().err());
     let failure = gathered.run_up.as_ref().err().or_else(|| failures.clone().next());
-    let mut alarms = Vec::new();
-    for id in AlarmId::ALL {
-        for priority in [Priority::Low, Priority::Medium, Priority::High] {
-            let called = members.iter().map(|member| member.alarms[id as usize]);
-            let firsts: Vec<f64> = called
-                .filter(|called| called.worst >= Some(priority))
-                .map(|called| called.first)
-                .collect();
-            if !firsts.is_empty() {
-                alarms.push(AlarmChance {
-                    id,
-                    priority,
-                    chance: Chance::new(firsts.len() as u32, of),
-                    first: Band::of(firsts.into_iter()).quantiles[1],
-                });
-            }
-        }
-    }
-    let any = |member: &&&Member| member.alarms.iter().any(|called| called.worst.is_some());
     let of_quality = |level: QualityLevel| members.iter().filter(|member| member.quality == level).count() as u32;
     let mut seen = vec![0; AlarmId::ALL.len()];
     for member in &members {
@@ -435,14 +399,44 @@ fn summed((candidate, gathered): (&Candidate, &Gathered)) -> CandidateAnswer {
         failed: failures.count() as u32,
         failure: failure.map_or(String::new(), sentence),
         decided: seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
-        alarms,
-        any_alarm: Chance::new(members.iter().filter(any).count() as u32, of),
+        alarms: alarm_chances(&members),
+        any_alarm: any_alarm(&members),
         figures: Figure::ALL.map(|figure| Band::of(members.iter().map(|member| member.figures[figure as usize]))),
         quality: [QualityLevel::Good, QualityLevel::Degraded, QualityLevel::Poor].map(of_quality),
     }
 }
 
-fn sentence(ended: &Ended) -> String {
+/// The alarms that a member saw, by [`AlarmId::ALL`] and from the lowest priority.
+pub(super) fn alarm_chances(members: &[&Member]) -> Vec<AlarmChance> {
+    let mut alarms = Vec::new();
+    for id in AlarmId::ALL {
+        for priority in [Priority::Low, Priority::Medium, Priority::High] {
+            let called = members.iter().map(|member| member.alarms[id as usize]);
+            let firsts: Vec<f64> = called
+                .filter(|called| called.worst >= Some(priority))
+                .map(|called| called.first)
+                .collect();
+            if !firsts.is_empty() {
+                alarms.push(AlarmChance {
+                    id,
+                    priority,
+                    chance: Chance::new(firsts.len() as u32, members.len() as u32),
+                    first: Band::of(firsts.into_iter()).quantiles[1],
+                });
+            }
+        }
+    }
+    alarms
+}
+
+/// The chance that a member saw any alarm.
+pub(super) fn any_alarm(members: &[&Member]) -> Chance {
+    let any = |member: &&&Member| member.alarms.iter().any(|called| called.worst.is_some());
+    Chance::new(members.iter().filter(any).count() as u32, members.len() as u32)
+}
+
+/// Why a member ended early.
+pub(super) fn sentence(ended: &Ended) -> String {
     match ended {
         Ended::Failed(failure) => format!("a step failed, so that the rest is unknown: {failure}"),
         Ended::NotReached => format!(

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::trace::Trace;
 use crate::alarms::{AlarmBook, AlarmId};
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
@@ -87,6 +88,8 @@ pub(super) struct Member {
     pub figures: [f64; Figure::ALL.len()],
     /// The worst quality of its motion.
     pub quality: QualityLevel,
+    /// Its seconds; none unless it was traced.
+    pub trace: Trace,
 }
 
 /// Why a member ended early.
@@ -110,6 +113,7 @@ pub(super) struct Watched<'a> {
     period: u64,
     /// Periods per look.
     periods: u64,
+    trace: Option<Trace>,
 }
 
 impl<'a> Watched<'a> {
@@ -126,7 +130,14 @@ impl<'a> Watched<'a> {
             snapshot,
             period,
             periods,
+            trace: None,
         }
+    }
+
+    /// Keeps the figures of every second.
+    pub(super) fn traced(mut self) -> Self {
+        self.trace = Some(Trace::default());
+        self
     }
 
     /// Advances by one look.
@@ -167,8 +178,8 @@ impl<'a> Watched<'a> {
         }
     }
 
-    /// Runs for `horizon` (s) and judges it.
-    pub(super) fn judge(mut self, horizon: f64) -> Result<Member, Ended> {
+    /// Runs for `horizon` (s) and judges it; ends early once `enough` says so of the alarms so far ([`AlarmId::ALL`]).
+    pub(super) fn judge(mut self, horizon: f64, enough: impl Fn(&[Called]) -> bool) -> Result<Member, Ended> {
         // What the state before brings is up within `SETTLING`. It counts only if it lasts or returns.
         self.run.look(&mut self.snapshot);
         let begun = self.snapshot.time;
@@ -203,7 +214,15 @@ impl<'a> Watched<'a> {
                 }
             }
             tally.add(snapshot);
+            if let Some(trace) = &mut self.trace {
+                let time = self.run.ticks() as f64 * self.config.solver.time_step;
+                trace.look(time, snapshot);
+                trace.peaks(time, snapshot);
+            }
             quality = quality.max(snapshot.quality.level);
+            if enough(&alarms) {
+                break;
+            }
         }
         let hours = (self.snapshot.time - begun) / 3600.0;
         let figures = tally.figures((damage(&self.snapshot) - damage_before) / hours);
@@ -211,6 +230,7 @@ impl<'a> Watched<'a> {
             alarms,
             figures,
             quality,
+            trace: self.trace.unwrap_or_default(),
         })
     }
 }

@@ -7,6 +7,7 @@
 //! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
 //! - [`look_ahead`]: runs the members on some threads and gathers an [`Answer`].
 //! - [`search`]: the smallest change of speed or weight that ends an alarm.
+//! - [`forecast`]: the next minute at the present speed and weight, second by second. [`Held`] compares it with what came.
 //!
 //! # Choices
 //! - **Same bytes.** A member is determined by start, candidate, seed and its number. Results count in the order of these
@@ -14,17 +15,27 @@
 //!   change nothing.
 //! - **Unknown is not safe.** A member whose step fails counts as failed; it is in no probability, and the answer says how
 //!   many failed and why.
-//! - **Run-up once.** The way from the present speed and weight to the candidate's is run once; the members part there, by
-//!   lateral velocities of [`DISTURBANCE`].
+//! - **The way is part of the chance.** Members part by lateral velocities of [`DISTURBANCE`] before the way to the candidate,
+//!   since the way may decide whether a motion ends. Only a long way is run once for all.
 
 mod advice;
 mod chance;
 mod engine;
+mod forecast;
 mod goal;
+mod held;
 mod member;
+mod trace;
 
 pub use advice::search;
 pub use chance::{Band, Chance};
+<<<<<<< HEAD
 pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, keep_priority, look_ahead};
+=======
+pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, look_ahead};
+pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, forecast, widened};
+>>>>>>> 61d20b0 (Search for advice in passes, standing forecast on twin/forecast, the page's panel Ahead with what-if form)
 pub use goal::{Candidate, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
+pub use held::Held;
 pub use member::{DISTURBANCE, Figure};
+pub use trace::{SIGNALS, Second, Signal, Trace};

@@ -37,7 +37,7 @@ use crate::messages::std_msgs::Header;
 use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, to_cdr_into};
 use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Priority, Saved, SavedError, Statistics, Time};
-use flexdrill_config::Config;
+use flexdrill_config::{Advice, AdviceTable, Config};
 use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
 
@@ -317,6 +317,12 @@ impl AlarmBook {
     pub fn statistics(&self) -> &Statistics {
         self.system.statistics()
     }
+}
+
+/// The rule for an alarm of the tool's motion; one without limits for any other.
+pub(crate) fn rule(id: AlarmId, table: &AdviceTable) -> Advice {
+    let kind = HazardKind::ALL.into_iter().find(|kind| AlarmId::of_hazard(*kind) == id);
+    kind.map_or(Advice::default(), |kind| tool::rule(kind, table))
 }
 
 fn system(config: &Config) -> AlarmSystem {

@@ -37,6 +37,8 @@ struct Exchange {
     answered: Option<(Asked, Option<Tested>)>,
     /// Of the search that runs.
     stop: Option<Arc<AtomicBool>>,
+    /// Of the forecast that runs: it gives way to goals and searches.
+    forecast: Option<Arc<AtomicBool>>,
 }
 
 /// What is asked and what was found.
@@ -66,6 +68,9 @@ impl Advisor {
                 since: Instant::now(),
             });
         }
+        if exchange.stop.is_none() && exchange.search().is_some() {
+            stop(&mut exchange.forecast);
+        }
         let (asked, tested) = exchange.answered.as_ref()?;
         tested.filter(|tested| asked.alarm == alarm && tested.holds_at(at))
     }
@@ -73,14 +78,7 @@ impl Advisor {
     /// What is to be searched now, with the flag that stops the search.
     pub fn due(&self) -> Option<(Asked, Arc<AtomicBool>)> {
         let mut exchange = self.lock();
-        let asked = exchange.asked.clone()?;
-        let known = exchange
-            .answered
-            .as_ref()
-            .is_some_and(|(answered, _)| answered.is_for(asked.alarm, asked.at));
-        if known || asked.since.elapsed() < SETTLED {
-            return None;
-        }
+        let asked = exchange.search()?.clone();
         let stop = Arc::new(AtomicBool::new(false));
         exchange.stop = Some(Arc::clone(&stop));
         Some((asked, stop))
@@ -93,17 +91,38 @@ impl Advisor {
         exchange.answered = Some((asked, tested));
     }
 
-    /// Stops the search that runs; it begins again later if it is due.
+    /// Stops the search and the forecast that run; they begin again later if they are due.
     pub fn interrupt(&self) {
-        self.lock().interrupt();
+        let mut exchange = self.lock();
+        exchange.interrupt();
+        stop(&mut exchange.forecast);
+    }
+
+    /// The flag that stops a forecast that begins now.
+    pub fn forecasts(&self) -> Arc<AtomicBool> {
+        let stop = Arc::new(AtomicBool::new(false));
+        self.lock().forecast = Some(Arc::clone(&stop));
+        stop
     }
 }
 
 impl Exchange {
+    /// What is to be searched now.
+    fn search(&self) -> Option<&Asked> {
+        let asked = self.asked.as_ref()?;
+        let known = |(answered, _): &(Asked, _)| answered.is_for(asked.alarm, asked.at);
+        let is_known = self.answered.as_ref().is_some_and(known);
+        (!is_known && asked.since.elapsed() >= SETTLED).then_some(asked)
+    }
+
     fn interrupt(&mut self) {
-        if let Some(stop) = self.stop.take() {
-            stop.store(true, Ordering::Relaxed);
-        }
+        stop(&mut self.stop);
+    }
+}
+
+fn stop(flag: &mut Option<Arc<AtomicBool>>) {
+    if let Some(stop) = flag.take() {
+        stop.store(true, Ordering::Relaxed);
     }
 }
 
@@ -156,6 +175,25 @@ mod tests {
         // Once nothing stands it is forgotten.
         assert_eq!(advisor.follow(None, AT), None);
         assert_eq!(advisor.follow(leads(), AT), None);
+    }
+
+    #[test]
+    fn a_forecast_gives_way_to_goals_and_searches() {
+        let advisor = asked(Duration::ZERO);
+        let forecast = advisor.forecasts();
+        let _ = advisor.follow(leads(), AT);
+        assert!(!forecast.load(Ordering::Relaxed), "the alarm has not settled");
+        let advisor = asked(SETTLED);
+        let forecast = advisor.forecasts();
+        let _ = advisor.follow(leads(), AT);
+        assert!(forecast.load(Ordering::Relaxed));
+        let (asked, _) = advisor.due().unwrap();
+        advisor.answer(asked, Some(tested()));
+        let forecast = advisor.forecasts();
+        let _ = advisor.follow(leads(), AT);
+        assert!(!forecast.load(Ordering::Relaxed), "the search has its answer");
+        advisor.interrupt();
+        assert!(forecast.load(Ordering::Relaxed));
     }
 
     #[test]

@@ -13,6 +13,7 @@ pub mod control;
 pub mod demonstration_rig;
 mod duration;
 mod error;
+mod forecast;
 pub mod inputs;
 mod lifecycle;
 pub mod parameters;

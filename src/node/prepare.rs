@@ -11,6 +11,7 @@ use tokio::task::JoinSet;
 use super::alarms::{self, AlarmDesk, AlarmRequest};
 use super::clocks::Clocks;
 use super::control::{self, Control, ParameterUpdate};
+use super::forecast::ForecastDesk;
 use super::inputs::RigInputs;
 use super::publish::{Publisher, PublisherParts};
 use super::publishers::Publishers;
@@ -119,6 +120,7 @@ impl PreparedNode {
             control: Arc::clone(&control),
             gauges: Arc::clone(&gauges),
             advisor,
+            forecasts: config.look_ahead.forecast.then(Arc::default),
         };
         let shut_down = Arc::new(Notify::new());
         if setup.lifecycle {
@@ -225,6 +227,7 @@ impl PreparedNode {
         if self.config.look_ahead.advice {
             alarms.advised_by(Arc::clone(&self.answering.advisor));
         }
+        let forecasts = self.answering.forecasts.as_ref().map(Arc::clone);
         let publisher = Publisher::new(PublisherParts {
             end: self.publisher_end,
             publishers: self.publishers,
@@ -240,6 +243,7 @@ impl PreparedNode {
             dds: port.monitor(),
             node_name: setup.identity.full_name(),
             finish: Arc::clone(&finish),
+            forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
         })
         .map_err(|error| NodeError::Stopped(error.to_string()))?;
         let publisher_thread = spawn("publisher", move || publisher.run())?;

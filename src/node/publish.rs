@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::alarms::{self, AlarmDesk};
 use super::clocks::Clocks;
 use super::control::ParameterUpdate;
+use super::forecast::ForecastDesk;
 use super::inputs::RigInputs;
 use super::publishers::Publishers;
 use super::received::{Received, ReceivedQueue};
@@ -74,6 +75,8 @@ pub struct PublisherParts {
     pub node_name: String,
     /// Set when the thread is to publish what is queued, and end.
     pub finish: Arc<AtomicBool>,
+    /// Forecasts and what came; none where they are off.
+    pub forecasts: Option<ForecastDesk>,
 }
 
 /// Publishes the run.
@@ -193,6 +196,7 @@ impl Publisher {
             let pace = self.status.pace();
             alarms::judge_node(&mut self.parts, self.failure, pace);
         }
+        self.send_forecast();
         let parts = &mut self.parts;
         parts.alarms.answer(|| parts.clocks.rig_time());
         if self.parts.alarms.is_due(now) {
@@ -236,6 +240,9 @@ impl Publisher {
                     outputs.repeat_applied(&frame, |encoded| parts.send(encoded))
                 });
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
+                if let Some(desk) = &mut self.parts.forecasts {
+                    desk.observe(&frame);
+                }
                 if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
                     let stamp = outputs.instant(frame.ticks);
                     self.parts.alarms.observe_tool(&frame.snapshot, stamp);
@@ -375,6 +382,17 @@ impl Publisher {
                 "{}; start one of them with another --namespace{more}",
                 another_of_this_name(&status.namesake)
             );
+        }
+    }
+
+    /// Publishes the forecast that has arrived.
+    fn send_forecast(&mut self) {
+        let (Some(desk), Some(outputs)) = (&mut self.parts.forecasts, &self.outputs) else {
+            return;
+        };
+        let frame_id = &self.parts.config.outputs.frame_id;
+        if let Some(forecast) = desk.take(frame_id, |ticks| outputs.instant(ticks)) {
+            self.parts.send_message(&topics::FORECAST, &forecast, self.instant());
         }
     }
 

@@ -13,8 +13,9 @@ use super::NodeError;
 use super::advisor::Advisor;
 use super::clocks::Clocks;
 use super::control::Control;
+use super::forecast::{Forecasts, Issued};
 use super::states::SavedRun;
-use crate::ahead::{Answer, Candidate, CandidateAnswer, Figure, Goal, Progress, Start, look_ahead, search};
+use crate::ahead::{Answer, Candidate, CandidateAnswer, Figure, Goal, Progress, Start, forecast, look_ahead, search};
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_core::twin::{RunInputs, Simulation};
@@ -26,7 +27,7 @@ use flexdrill_messages::{
     WhatIfGetResultRequest, WhatIfGetResultResponse, WhatIfGoal, WhatIfResult, WhatIfSendGoalRequest,
     WhatIfSendGoalResponse, to_cdr_body,
 };
-use flexdrill_realtime::link::Gauges;
+use flexdrill_realtime::link::{Gauges, RunState};
 use flexdrill_ros2::action::{Accepted, ActionEnds, Begun, GoalId, Goals};
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
@@ -43,6 +44,10 @@ const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
 const IDLE: Duration = Duration::from_millis(200);
 /// Seed of the look-aheads for advice.
 const ADVICE_SEED: u64 = 1;
+/// Seed of the forecasts.
+const FORECAST_SEED: u64 = 1;
+/// From the beginning of a forecast to that of the next.
+const FORECAST_INTERVAL: Duration = Duration::from_secs(30);
 
 /// What the thread that looks ahead does next.
 enum Next {
@@ -140,6 +145,11 @@ impl WhatIf {
         *self.ending.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Whether a goal waits or the node ends.
+    fn is_wanted(&self) -> bool {
+        self.goals().is_waiting() || self.is_ending()
+    }
+
     /// What is to be done next; waits a moment for it.
     fn next(&self) -> Next {
         let mut goals = self.goals();
@@ -216,6 +226,8 @@ pub struct Answering {
     pub gauges: Arc<Gauges>,
     /// Who asks for advice on alarms.
     pub advisor: Arc<Advisor>,
+    /// Where forecasts go; none where they are off.
+    pub forecasts: Option<Arc<Forecasts>>,
 }
 
 impl Answering {
@@ -223,11 +235,13 @@ impl Answering {
     pub fn run(self) {
         // The tool is built once, when the first goal comes.
         let mut tool = None;
+        let mut forecast_at = Instant::now();
         loop {
             let begun = match self.what_if.next() {
                 Next::Goal(begun) => begun,
                 Next::Nothing => {
                     self.advise(&mut tool);
+                    self.forecast(&mut tool, &mut forecast_at);
                     continue;
                 }
                 Next::End => return,
@@ -326,6 +340,49 @@ impl Answering {
             )
         );
         self.advisor.answer(asked, tested);
+    }
+
+    /// Forecasts the next minute, once that is due at `at`. A forecast that gives way to a goal or a search is made later.
+    fn forecast(&self, tool: &mut Option<Simulation>, at: &mut Instant) {
+        let Some(forecasts) = &self.forecasts else {
+            return;
+        };
+        if Instant::now() < *at || self.gauges.run_state() != RunState::Running {
+            return;
+        }
+        let stop = self.advisor.forecasts();
+        // A goal that came before the flag was there is not kept waiting.
+        if self.what_if.is_wanted() {
+            return;
+        }
+        let began = Instant::now();
+        let config = self.control.config();
+        let settings = &config.look_ahead;
+        let issued = match self.start(&config, tool) {
+            Ok((start, applied, ticks)) => {
+                let threads = settings.threads as usize;
+                let found = forecast(&start, settings.forecast_members, FORECAST_SEED, threads, &stop);
+                let Some(found) = found else { return };
+                Issued {
+                    ticks,
+                    step: applied.step,
+                    targets: [applied.inputs.rotary_speed, applied.inputs.weight_on_bit],
+                    forecast: Ok(found),
+                }
+            }
+            Err(why) => {
+                tracing::warn!("forecast: {why}");
+                Issued {
+                    ticks: self.gauges.ticks.load(Ordering::Relaxed),
+                    step: self.gauges.step.load(Ordering::Relaxed),
+                    targets: [f64::NAN; 2],
+                    forecast: Err(why),
+                }
+            }
+        };
+        tracing::debug!("forecast after {:.1} s", began.elapsed().as_secs_f64());
+        forecasts.put(issued);
+        *at = began + FORECAST_INTERVAL;
     }
 
     /// The instant after so many ticks on the rig's clock.
@@ -431,7 +488,7 @@ fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
     }
 }
 
-fn of_alarm(of: &crate::ahead::AlarmChance) -> AlarmChance {
+pub(super) fn of_alarm(of: &crate::ahead::AlarmChance) -> AlarmChance {
     AlarmChance {
         id: of.id.id().to_owned(),
         name: of.id.name().to_owned(),

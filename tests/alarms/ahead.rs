@@ -296,8 +296,10 @@ fn followed(
     }
     let (_, standing) = book.leading().unwrap();
     let begin = start(&config, &run);
+    let began = Instant::now();
     let tested = search(&begin, alarm, &standing, 1, 2, &AtomicBool::new(false)).expect("a change that ends it");
-    assert!(tested.ended >= 18 && tested.of == 20 && tested.holds_at([rpm, kn]));
+    let searched = began.elapsed().as_secs_f64();
+    assert!((14..=20).contains(&tested.of) && 10 * tested.ended >= 9 * tested.of && tested.holds_at([rpm, kn]));
     book.set_tested(Some(tested));
     let [mut speed, mut weight] = [rpm, kn];
     match tested.change.quantity {
@@ -319,10 +321,11 @@ fn followed(
             });
             let mut book = AlarmBook::fresh(Arc::clone(&config), (snapshot.time * 1e9) as i64);
             look(&mut live, &mut book, &mut snapshot.clone(), 20.0);
-            book.active(alarm).is_none()
+            let others = AlarmId::ALL.into_iter().filter(|id| !standing.contains(id));
+            book.active(alarm).is_none() && others.into_iter().all(|id| book.active(id).is_none())
         })
         .count();
-    (tested.to_string(), ended)
+    (format!("{tested} Found after {searched:.0} s."), ended)
 }
 
 /// The destructive cases with ten seeds each, as `docs/look_ahead.md` lists them: some minutes on two cores.

@@ -1,11 +1,15 @@
 //! CDR: every message type in both byte orders, and requests in both forms in which they travel.
 
+use std::sync::LazyLock;
+
+use flexdrill::ahead::{Candidate, Goal};
 use flexdrill::messages::generated::{
     TYPES, action_msgs, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs,
     rcl_interfaces, rosgraph_msgs, sensor_msgs, service_msgs, std_msgs, std_srvs, tf2_msgs,
     type_description_interfaces, unique_identifier_msgs, visualization_msgs,
 };
 use flexdrill::messages::{Message, find_type, from_cdr, from_cdr_body, to_cdr, to_cdr_body};
+use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
 
 use crate::engine::Target;
@@ -67,6 +71,8 @@ types! {
     ours::BitState,
     ours::ContactForces,
     ours::FigureBand,
+    ours::Forecast,
+    ours::ForecastBand,
     ours::JointDeflections,
     ours::Reactions,
     ours::RigInputs,
@@ -288,7 +294,45 @@ const REQUESTS: &[Read] = &[
     request::<lifecycle_msgs::GetStateRequest>,
     request::<lifecycle_msgs::GetAvailableStatesRequest>,
     request::<lifecycle_msgs::GetAvailableTransitionsRequest>,
+    goal,
+    request::<ours::WhatIfGetResultRequest>,
+    request::<action_msgs::CancelGoalRequest>,
 ];
+
+/// A request that begins a look-ahead: what its bytes ask for is within the bounds, or is refused in words.
+fn goal(body: &[u8]) -> bool {
+    static CONFIG: LazyLock<Config> =
+        LazyLock::new(|| Config::from_text("coarse.yaml", include_str!("../../config/coarse.yaml")).unwrap());
+    if let Ok((asked, _)) = from_cdr_body::<ours::WhatIfSendGoalRequest>(body) {
+        let asked = asked.goal;
+        let goal = Goal {
+            candidates: asked
+                .candidates
+                .iter()
+                .map(|of| Candidate {
+                    rotary_speed: of.rotary_speed,
+                    weight_on_bit: of.weight_on_bit,
+                    speed_ramp: of.speed_ramp,
+                    weight_ramp: of.weight_ramp,
+                })
+                .collect(),
+            horizon: asked.horizon,
+            members: asked.members,
+            run_all: asked.run_all,
+            seed: asked.seed,
+        };
+        match goal.check(&CONFIG) {
+            Ok(()) => {
+                let all = goal.horizon * f64::from(goal.members) * goal.candidates.len() as f64;
+                assert!(all <= 72_000.0 && goal.candidates.len() <= 16, "{goal:?}");
+            }
+            Err(error) => {
+                says_why(&error);
+            }
+        }
+    }
+    request::<ours::WhatIfSendGoalRequest>(body)
+}
 
 /// The first byte is the service; the rest comes as rmw_fastrtps sends it, and as rmw_cyclonedds does behind 16 bytes.
 #[test]
@@ -303,6 +347,22 @@ fn requests() {
         parameters: vec![rcl_interfaces::Parameter::default(); 2],
     };
     let shelve = ours::ShelveAlarmRequest::default();
+    let what_if = ours::WhatIfSendGoalRequest {
+        goal: ours::WhatIfGoal {
+            candidates: vec![
+                ours::WhatIfCandidate {
+                    rotary_speed: 60.0,
+                    weight_on_bit: 12.0,
+                    ..Default::default()
+                };
+                2
+            ],
+            horizon: 30.0,
+            members: 20,
+            ..Default::default()
+        },
+        ..Default::default()
+    };
     let seed = |kind: u8, bytes: Vec<u8>| [vec![kind], bytes].concat();
     Target {
         name: "requests",
@@ -313,6 +373,10 @@ fn requests() {
             seed(6, [vec![7; 16], to_cdr_body(&get).unwrap()].concat()),
             seed(8, to_cdr_body(&list).unwrap()),
             seed(9, to_cdr_body(&set).unwrap()),
+            seed(18, to_cdr_body(&what_if).unwrap()),
+            seed(18, [vec![7; 16], to_cdr_body(&what_if).unwrap()].concat()),
+            seed(19, vec![5; 16]),
+            seed(20, vec![0; 24]),
         ],
         words: &["\0\0\0\0", "\u{1}\0\0\0", "rates"],
         run: &mut |bytes| {

@@ -250,6 +250,66 @@ fn what_an_operator_asks_reaches_the_node_and_its_words_come_back() {
 }
 
 #[test]
+fn what_if_is_asked_with_the_token_and_its_answers_are_for_all() {
+    let Some(network) = Network::new() else { return };
+    let mut twin = network.twin(&["--namespace", "/rig_7"]);
+    twin.wait_for("model time runs");
+    let server = Server::start(&network, &["--namespace", "/rig_7", "--allow-control"]);
+    let Some(_) = server.get("/api/session") else { return };
+    server.body_with("/api/control", |control| !control["applied_rpm"].is_null());
+    assert_eq!(server.body("/api/what_if")["number"], 0);
+    let point = |rpm: f64| json!({"rotary_speed_rpm": rpm, "weight_on_bit_kn": 5.0});
+    let question = |points: &[Value], horizon: f64, members: u32| json!({"operator": "Kim", "candidates": points, "horizon": horizon, "members": members});
+    let short = question(&[point(30.0), point(60.0)], 10.0, 2);
+    assert_eq!(
+        server.post("what_if", "another token of a reader", short.clone()).0,
+        401
+    );
+    assert_eq!(server.post("what_if", TOKEN, question(&[], 10.0, 2)).0, 400);
+    let (code, said) = server.post("what_if", TOKEN, short);
+    assert_eq!(code, 200, "{said}");
+    let answered = server.body_with("/api/what_if", |asked| asked["running"] == false);
+    assert_eq!((&answered["failed"], &answered["by"]), (&json!(false), &json!("Kim")));
+    let answers = answered["answers"].as_array().unwrap();
+    assert_eq!(answers.len(), 2);
+    for (answer, rpm) in answers.iter().zip([30.0, 60.0]) {
+        assert_eq!(answer["candidate"]["rotary_speed"], rpm);
+        assert_eq!((&answer["members"], &answer["failed"]), (&json!(2), &json!(0)));
+        assert!(answer["any_alarm_upper"].as_f64().unwrap() > 0.0, "{answer}");
+    }
+    // The node's words on a question that is out of its bounds.
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(
+        server.post("what_if", TOKEN, question(&[point(1e6)], 10.0, 2)).0,
+        200,
+        "accepted, as every goal"
+    );
+    let refused = server.body_with("/api/what_if", |asked| asked["running"] == false);
+    assert!(
+        refused["failed"] == true && text(&refused).contains("inputs.rotary_speed"),
+        "{refused}"
+    );
+    // One at a time; a long one is cancelled.
+    std::thread::sleep(Duration::from_secs(1));
+    let long = question(&[point(30.0)], 600.0, 50);
+    assert_eq!(server.post("what_if", TOKEN, long.clone()).0, 200);
+    let (code, said) = server.post("what_if", TOKEN, long);
+    assert!(
+        code == 409 && text(&said).contains("a question of Kim"),
+        "{code} {said}"
+    );
+    assert_eq!(server.post("cancel_what_if", TOKEN, json!({"operator": "Kim"})).0, 200);
+    let cancelled = server.body_with("/api/what_if", |asked| asked["running"] == false);
+    assert!(text(&cancelled).starts_with("cancelled"), "{cancelled}");
+    server.end();
+    // A server for reading only has no questions.
+    let server = Server::start(&network, &["--namespace", "/rig_7"]);
+    assert_eq!(server.body("/api/what_if"), Value::Null);
+    assert_eq!(server.post("what_if", TOKEN, question(&[point(30.0)], 10.0, 2)).0, 403);
+    server.end();
+}
+
+#[test]
 fn a_twin_that_went_comes_back_by_itself_and_the_hour_has_a_gap() {
     let Some(network) = Network::new() else { return };
     let mut twin = network.twin(&[]);

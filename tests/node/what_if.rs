@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use crate::common::{Network, Peer, Program};
+use crate::common::{Network, Peer, Program, small_config};
 use flexdrill::messages::action_msgs::GoalStatus;
 use serde_json::{Value, json};
 
@@ -197,4 +197,67 @@ fn deadlines_while_looking_ahead() {
         twin.signal("TERM");
         assert_eq!(twin.end(), Some(0));
     }
+}
+
+/// The forecast over DDS: bands of a minute, a chance for every alarm, and the second one compared with what came.
+#[test]
+fn a_forecast_comes_every_half_minute_and_is_compared_with_what_came() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let text = std::fs::read_to_string(small_config()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("forecast.yaml");
+    std::fs::write(
+        &file,
+        format!("{text}\nlook_ahead: {{forecast: true, forecast_members: 2}}\n"),
+    )
+    .unwrap();
+    let bag = folder.path().join("run.mcap");
+    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    command.args(["run", "--config"]).arg(&file).arg("--record").arg(&bag);
+    let mut twin = Program::start(command);
+    twin.wait_for("model time runs");
+    // Without inputs the tool stands, and speed and weight stay.
+    peer.subscribe("/twin/forecast", "flexdrill/msg/Forecast", "latched");
+    // The first is made at once; a busy machine gets a minute for each.
+    let first = peer.take("/twin/forecast", 1, 60.0);
+    let first = first.last().expect("a forecast");
+    assert_eq!((&first["members"], &first["failed"]), (&json!(2), &json!(0)), "{first}");
+    let bands = first["bands"].as_array().unwrap();
+    let names: Vec<&str> = bands.iter().map(|band| band["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        [
+            "bit_speed",
+            "bit_torque",
+            "weight_on_bit",
+            "pipe_guide_force",
+            "guide_wall_force"
+        ]
+    );
+    for band in bands {
+        let edge = |name: &str| -> Vec<f64> { serde_json::from_value(band[name].clone()).unwrap() };
+        let (low, median, high) = (edge("p5"), edge("p50"), edge("p95"));
+        assert_eq!((low.len(), median.len(), high.len()), (60, 60, 60));
+        let in_order = |at: usize| low[at] <= median[at] && median[at] <= high[at];
+        assert!((0..60).all(in_order), "{band}");
+    }
+    let seconds = |time: &Value| time["sec"].as_f64().unwrap() + 1e-9 * time["nanosec"].as_f64().unwrap();
+    let ahead = seconds(&first["bands_from"]) - seconds(&first["header"]["stamp"]);
+    assert!((0.0..=1.0).contains(&ahead), "{ahead}");
+    let lower = first["any_alarm_lower"].as_f64().unwrap();
+    assert!(lower <= first["any_alarm"].as_f64().unwrap(), "{first}");
+    // The next one knows how the first one did.
+    let second = peer.take("/twin/forecast", 1, 100.0);
+    let second = second.last().expect("another forecast");
+    let apart = seconds(&second["header"]["stamp"]) - seconds(&first["header"]["stamp"]);
+    assert!(apart >= 20.0, "{apart} s apart");
+    let torque = &second["bands"][1];
+    let compared = torque["compared"].as_u64().unwrap();
+    assert!((10..=60).contains(&compared), "{torque}");
+    assert!(torque["inside"].as_u64().unwrap() <= compared);
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+    let recorded = flexdrill::bag::open(&bag).unwrap().map(Result::unwrap);
+    assert!(recorded.filter(|message| message.topic.is("twin/forecast")).count() >= 2);
 }

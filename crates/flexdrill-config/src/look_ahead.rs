@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::checker::{Bound, Checker};
 
 const THREADS: Bound = Bound::within(1.0, 256.0);
+const FORECAST_MEMBERS: Bound = Bound::within(2.0, 64.0);
 
-/// Runs from forks of the present state, for the action `~/what_if`.
+/// Runs from forks of the present state: for the action `~/what_if`, for advice and for the forecast.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LookAhead {
@@ -18,6 +19,13 @@ pub struct LookAhead {
     /// that ends it in at least 9 of 10 of them and raises no other. Until one is found the rule of `alarms.advice` stands
     /// and says that it is a rule. Default false.
     pub advice: bool,
+    /// Whether the node forecasts the next minute at the present speed and weight, every half minute, on `twin/forecast`.
+    /// Default false.
+    pub forecast: bool,
+    /// Runs that a forecast is made from. Each takes 60 s of model time, so that four every half minute take eight times
+    /// real time. Default 4.
+    #[schemars(transform = FORECAST_MEMBERS.in_schema())]
+    pub forecast_members: u32,
 }
 
 impl Default for LookAhead {
@@ -25,6 +33,8 @@ impl Default for LookAhead {
         Self {
             threads: 1,
             advice: false,
+            forecast: false,
+            forecast_members: 4,
         }
     }
 }
@@ -36,6 +46,12 @@ impl LookAhead {
             self.threads as usize,
             THREADS,
             "more than any machine on a rig has",
+        );
+        c.count(
+            "forecast_members",
+            self.forecast_members as usize,
+            FORECAST_MEMBERS,
+            "one run has no band, and more than a few dozen take longer than the minute that they forecast",
         );
     }
 }

@@ -20,6 +20,7 @@ use crate::assets;
 use crate::board::Board;
 use crate::control::{Action, Control, Refused};
 use crate::snapshots::Snapshots;
+use crate::what_if::{Question, WhatIf};
 use flexdrill_live::{Gateway, WrongTokens, host_is_ours};
 
 /// Longest body of a request (bytes): names and reasons.
@@ -34,6 +35,8 @@ pub(crate) struct Shared {
     pub board: Arc<Board>,
     /// `None` if no client may steer.
     pub control: Option<Arc<Control>>,
+    /// Questions to the look-ahead; `None` as for steering.
+    pub what_if: Option<Arc<WhatIf>>,
     /// The reason in that case.
     pub no_control: &'static str,
     pub gateway: Arc<Gateway>,
@@ -87,6 +90,7 @@ pub(crate) fn router(shared: Shared) -> Router {
         .route("/api/orbit/{joint}/{time_ns}", get(orbit))
         .route("/api/journal", get(journal))
         .route("/api/control", get(control))
+        .route("/api/what_if", get(what_if))
         .route("/api/control/{what}", post(act))
         .layer(DefaultBodyLimit::max(LONGEST_BODY));
     assets::router()
@@ -195,6 +199,11 @@ async fn control(State(shared): Server) -> Json<Value> {
     })
 }
 
+async fn what_if(State(shared): Server) -> Response {
+    let body = shared.what_if.as_ref().map_or(Value::Null, |what_if| what_if.json());
+    ([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response()
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SteerRequest {
@@ -288,6 +297,22 @@ async fn act(
             Ok(pause) => control.carry_out(&pause.operator, Action::Pause(pause.paused)).await,
             Err(refused) => Err(refused),
         },
+        "what_if" | "cancel_what_if" => {
+            let Some(what_if) = &shared.what_if else {
+                return answer(StatusCode::FORBIDDEN, shared.no_control);
+            };
+            if what == "what_if" {
+                match read::<Question>(&body) {
+                    Ok(question) => what_if.ask(question).await,
+                    Err(refused) => Err(refused),
+                }
+            } else {
+                match read::<OperatorRequest>(&body) {
+                    Ok(plain) => what_if.cancel(&plain.operator).await,
+                    Err(refused) => Err(refused),
+                }
+            }
+        }
         _ => return answer(StatusCode::NOT_FOUND, "no such request"),
     };
     match done {

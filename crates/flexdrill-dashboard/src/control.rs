@@ -11,8 +11,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use self::action::checked_name;
-pub(crate) use self::action::{Action, ControlParts};
+pub(crate) use self::action::{Action, ControlParts, checked_name};
 use self::drive::{Drive, applied, measured};
 use super::session::Limit;
 use flexdrill_live::Token;

@@ -5,12 +5,14 @@
 //! - `GET /api/session`: mode, limits, the tool's stations, a bag's incidents;
 //! - `GET /api/pulse`: the server's clock, its instance, the age of its newest data;
 //! - `GET /api/history`: the last hour, one frame per second; `GET /api/journal`: the alarms' events;
-//! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause}`,
-//!   with the token.
+//! - `GET /api/what_if`: the newest question to the look-ahead with its answers so far;
+//! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause,
+//!   what_if, cancel_what_if}`, with the token.
 //!
 //! # Layout
 //! - `listen`: from DDS to page and board. `recorded`: from a bag to page and board.
 //! - `board`: the server's own knowledge of the twin, with `session`, `history` and `orbits`. `control`: steering.
+//!   `what_if`: questions to the look-ahead.
 //! - `api`, `assets`, `snapshots`: HTTP.
 
 mod api;
@@ -24,6 +26,7 @@ mod orbits;
 mod recorded;
 mod session;
 mod snapshots;
+mod what_if;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -36,6 +39,7 @@ use crate::control::{Control, ControlParts};
 pub use crate::error::DashboardError;
 use crate::listen::Listener;
 use crate::recorded::Recorded;
+use crate::what_if::{WhatIf, WhatIfParts};
 use flexdrill_live::{self as live, Gateway, Hub};
 use flexdrill_ros2::args::NodeIdentity;
 use flexdrill_ros2::dds::network::Network;
@@ -85,6 +89,7 @@ impl Dashboard {
                 let router = api::router(Shared {
                     board: Arc::clone(&live.board),
                     control: live.control.clone(),
+                    what_if: live.what_if.clone(),
                     no_control: "steering is off: start the dashboard with --allow-control",
                     gateway: Gateway::new(&live.hub, None, &self.origins),
                     namespace: twin.namespace.clone(),
@@ -103,6 +108,7 @@ impl Dashboard {
                 let router = api::router(Shared {
                     board: Arc::clone(&recorded.board),
                     control: None,
+                    what_if: None,
                     no_control: "a recording cannot be steered",
                     gateway: Gateway::new(&recorded.hub, None, &self.origins),
                     namespace: recorded.namespace.clone(),
@@ -124,6 +130,7 @@ struct Live {
     hub: Arc<Hub>,
     board: Arc<Board>,
     control: Option<Arc<Control>>,
+    what_if: Option<Arc<WhatIf>>,
     port: Port,
 }
 
@@ -135,10 +142,12 @@ impl Live {
         let own = NodeIdentity::new(&twin.namespace, &format!("flexdrill_dashboard_{}", std::process::id()))?;
         let mut port = PortBuilder::new(network, &own.namespace, &own.name);
         let listener = Listener::new(&mut port, twin)?;
+        let identity = u64::from_le_bytes(random);
         let control = match token {
             Some(token) => Some((
                 token,
-                ControlParts::new(&mut port, &own, twin, u64::from_le_bytes(random))?,
+                ControlParts::new(&mut port, &own, twin, identity)?,
+                WhatIfParts::new(&mut port, twin, identity)?,
             )),
             None => None,
         };
@@ -146,7 +155,12 @@ impl Live {
         let board = Arc::new(Board::live());
         let port = tokio::task::spawn_blocking(move || port.start()).await??;
         listener.listen(&hub, &board);
-        let control = control.map(|(token, parts)| Arc::new(Control::new(token, port.monitor(), parts)));
+        let (control, what_if) = control
+            .map(|(token, parts, what_if)| {
+                let control = Control::new(token, port.monitor(), parts);
+                (Arc::new(control), WhatIf::new(port.monitor(), what_if, identity))
+            })
+            .unzip();
         if let Some(control) = &control {
             tokio::spawn(steer(Arc::clone(control), Arc::clone(&board)));
         }
@@ -154,6 +168,7 @@ impl Live {
             hub,
             board,
             control,
+            what_if,
             port,
         })
     }

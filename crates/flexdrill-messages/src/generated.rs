@@ -1087,6 +1087,91 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/FigureBand", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p5", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p50", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p95", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// The next minute at the present speed and weight, from runs that begin at the present state.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Forecast {
+        /// Stamp: the instant of the state that the runs begin from, on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Model step of that state.
+        pub from_step: u64,
+        /// Rotary speed that is asked for during the forecast (rad/s).
+        pub rotary_speed: f64,
+        /// Weight on bit that is asked for during the forecast (N).
+        pub weight_on_bit: f64,
+        /// Start of the first second of the bands: the first whole second of model time after the state, on the rig's clock.
+        pub bands_from: super::builtin_interfaces::Time,
+        /// Time between two values of the bands (s).
+        pub interval: f64,
+        /// Members whose motion could be computed to the end.
+        pub members: u32,
+        /// Members that failed. They are in no band and no probability: what would have come is unknown, not safe.
+        pub failed: u32,
+        /// Why the first of these failed, or why there is no forecast; empty where none failed.
+        pub failure: std::string::String,
+        /// One per figure.
+        pub bands: Vec<ForecastBand>,
+        /// The alarms that a member saw, with each priority.
+        pub alarms: Vec<AlarmChance>,
+        /// Chance that a member saw any alarm, with its 95 % interval (Wilson); NaN where no member ended.
+        pub any_alarm: f64,
+        pub any_alarm_lower: f64,
+        pub any_alarm_upper: f64,
+    }
+
+    impl Message for Forecast {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Forecast";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Forecast";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Forecast_";
+        const RIHS01: &'static str = "RIHS01_56a0b5d3bd4c69cc08c438c4f7c43412755fb2a70145175df536d4f52715a4ea";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/Forecast.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: flexdrill/ForecastBand\n",
+            include_str!("../../../msg/ForecastBand.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Forecast", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "from_step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands_from", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "interval", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/ForecastBand"}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// One figure of a forecast, second by second.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ForecastBand {
+        /// bit_speed, bit_torque, weight_on_bit, pipe_guide_force or guide_wall_force. Speed, torque and weight are means over
+        /// each second, forces the largest of each second at any station.
+        pub name: std::string::String,
+        /// Unit: rad/s, N m or N.
+        pub unit: std::string::String,
+        /// The 90 % band and the median, one value per second of the horizon; NaN where no member ended. The band has been widened
+        /// or narrowed to the share of earlier seconds that it is to hold (see width).
+        pub p5: Vec<f64>,
+        pub p50: Vec<f64>,
+        pub p95: Vec<f64>,
+        /// Factor on the band of the members. It is the one with which nine of ten of the last seconds that were compared would
+        /// have been in their band; 1 before a minute has been compared.
+        pub width: f64,
+        /// Seconds of earlier forecasts of this run that were compared with what came, while speed and weight stayed.
+        pub compared: u32,
+        /// Seconds among them in which the figure was in the published band.
+        pub inside: u32,
+        /// Seconds among them in which it was in the band of the members as they were.
+        pub inside_members: u32,
+    }
+
+    impl Message for ForecastBand {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "ForecastBand";
+        const ROS_TYPE: &'static str = "flexdrill/msg/ForecastBand";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::ForecastBand_";
+        const RIHS01: &'static str = "RIHS01_8cc60a6e5166ce23aeacf9dc3cbaafd84162fa1a7e814eac6a7dd0e1b07ab8d4";
+        const SCHEMA: &'static str = include_str!("../../../msg/ForecastBand.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ForecastBand", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p5", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p50", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p95", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "width", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "compared", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside_members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
     /// entry 0 is joint_01 of joint_states.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -3743,6 +3828,8 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::BitState as super::Message>::INFO,
     <flexdrill::ContactForces as super::Message>::INFO,
     <flexdrill::FigureBand as super::Message>::INFO,
+    <flexdrill::Forecast as super::Message>::INFO,
+    <flexdrill::ForecastBand as super::Message>::INFO,
     <flexdrill::JointDeflections as super::Message>::INFO,
     <flexdrill::Reactions as super::Message>::INFO,
     <flexdrill::RigInputs as super::Message>::INFO,

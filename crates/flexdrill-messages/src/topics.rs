@@ -1,9 +1,9 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions,
-    RigInputs, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs,
-    sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, Forecast, JointDeflections, Message,
+    Reactions, RigInputs, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs,
+    rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -150,6 +150,8 @@ pub const REACTIONS: TopicInfo = TopicInfo::new(
 /// Output: torque, weight and power from the surface to the bit.
 pub const TRANSFER: TopicInfo =
     TopicInfo::new("twin/transfer", Transfer::INFO, Cadence::Rate("transfer"), reliable(10));
+/// Output: the next minute at the present speed and weight.
+pub const FORECAST: TopicInfo = TopicInfo::new("twin/forecast", Forecast::INFO, Cadence::OnChange, LATCHED);
 /// Output: health and heartbeat.
 pub const STATUS: TopicInfo = TopicInfo::new("twin/status", TwinStatus::INFO, Cadence::Rate("status"), reliable(10));
 /// Output: picture of the tool.
@@ -187,7 +189,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 23] = [
+pub const ALL: [TopicInfo; 24] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
@@ -204,6 +206,7 @@ pub const ALL: [TopicInfo; 23] = [
     BIT_STATE,
     REACTIONS,
     TRANSFER,
+    FORECAST,
     STATUS,
     TOOL_SHAPE,
     APPLIED_INPUTS,

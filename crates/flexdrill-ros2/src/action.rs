@@ -141,6 +141,11 @@ impl<G, R: Clone> Goals<G, R> {
         Accepted::Waits(before)
     }
 
+    /// Whether a goal waits to begin.
+    pub fn is_waiting(&self) -> bool {
+        self.entries.iter().any(|entry| entry.goal.is_some())
+    }
+
     /// The next goal that waits, which begins.
     pub fn begin(&mut self) -> Option<Begun<G>> {
         let next = self.entries.iter_mut().find(|entry| entry.goal.is_some())?;

@@ -142,7 +142,7 @@ impl Control {
 ///
 /// # Errors
 /// When it is empty, too long, or has control characters.
-pub(super) fn checked_name(operator: &str) -> Result<String, Refused> {
+pub(crate) fn checked_name(operator: &str) -> Result<String, Refused> {
     let name = operator.trim();
     let length = name.chars().count();
     if length == 0 || length > LONGEST_NAME || name.chars().any(char::is_control) {

@@ -1,7 +1,7 @@
 // Programs that a browser's test runs against: a twin, a rig that plays a log into it, the server.
 import { spawn } from "node:child_process";
 import { connect, createServer } from "node:net";
-import { mkdtempSync, openSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -57,7 +57,13 @@ export async function until(words, seconds, what) {
   }
 }
 
-export const node = (...more) => start("node", "run", "--config", join(root, "config/default.yaml"), ...more);
+/** The default tool, which forecasts. */
+const config = join(work, "forecast.yaml");
+writeFileSync(
+  config,
+  `${readFileSync(join(root, "config/default.yaml"), "utf8")}\nlook_ahead: {forecast: true, forecast_members: 2}\n`,
+);
+export const node = (...more) => start("node", "run", "--config", config, ...more);
 export const rig = () =>
   start(
     "rig",

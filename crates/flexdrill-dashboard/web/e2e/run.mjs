@@ -183,6 +183,32 @@ try {
     assert.equal(refused.status, 409, refused.text);
   });
 
+  await step("what if is asked, answered as its runs end, and next to the forecast", async () => {
+    await page.click("#tab-ahead");
+    await until("the present as the first candidate", 20, async () => (await page.inputValue("#what-if-rpm-1")) !== "");
+    await page.fill("#what-if-operator", "ann");
+    await page.fill("#what-if-rpm-1", "5000");
+    await page.click("#what-if-ask");
+    await until("a limit", 5, async () => (await page.textContent("#what-if-answer")).includes("must be"));
+    await page.fill("#what-if-rpm-1", "40");
+    await page.fill("#what-if-wob-1", "10");
+    await page.click("#what-if-add");
+    await page.fill("#what-if-rpm-2", "60");
+    await page.fill("#what-if-wob-2", "12");
+    await page.fill("#what-if-horizon", "10");
+    await page.fill("#what-if-members", "2");
+    await page.click("#what-if-ask");
+    await until("an answer per candidate", 180, async () =>
+      /40 r\/min, 10\.0 kN.* of 2 runs .*60 r\/min, 12\.0 kN.* of 2 runs/.test(
+        await page.textContent("#what-if-results"),
+      ),
+    );
+    await until("its end", 60, async () => !(await page.isVisible("#what-if-cancel")));
+    await until("a forecast", 240, async () => / runs? \(chance /.test(await page.textContent("#forecast-summary")));
+    await look("ahead");
+    await page.click("#tab-alarms");
+  });
+
   await step("a rig that falls silent is an alarm; it is acknowledged, shelved and taken off the shelf", async () => {
     await stop("rig", "SIGKILL");
     await page.click("#tab-alarms");

@@ -101,6 +101,59 @@ export interface Answer {
   message: string;
 }
 
+/** A number, or null where it is not one. */
+type Figure = number | null;
+
+export interface AlarmChance {
+  id: string;
+  name: string;
+  priority: number;
+  seen: number;
+  members: number;
+  probability: Figure;
+  lower: Figure;
+  upper: Figure;
+  time_to_first: Figure;
+}
+
+export interface FigureBand {
+  name: string;
+  unit: string;
+  p5: Figure;
+  p50: Figure;
+  p95: Figure;
+}
+
+/** What a look-ahead says of one speed and weight. */
+export interface WhatIfAnswer {
+  candidate: { rotary_speed: number; weight_on_bit: number };
+  run_up: Figure;
+  members: number;
+  failed: number;
+  failure: string;
+  decided: boolean;
+  any_alarm: Figure;
+  any_alarm_lower: Figure;
+  any_alarm_upper: Figure;
+  alarms: AlarmChance[];
+  figures: FigureBand[];
+}
+
+/** The newest question to the look-ahead, with its answers so far. */
+export interface WhatIf {
+  /** 0 before the first question. */
+  number: number;
+  by: string;
+  horizon: number;
+  members: number;
+  running: boolean;
+  done: number;
+  remaining: number;
+  failed: boolean;
+  message: string;
+  answers: WhatIfAnswer[];
+}
+
 async function json<T>(path: string, timeout?: number): Promise<T | null> {
   try {
     const signal = timeout === undefined ? null : AbortSignal.timeout(timeout);
@@ -115,6 +168,8 @@ export const session = (): Promise<Session | null> => json<Session>("/api/sessio
 /** Asked twice a second; an answer that takes longer than this (ms) is of no use. */
 export const pulse = (): Promise<Pulse | null> => json<Pulse>("/api/pulse", 2500);
 export const control = (): Promise<ControlState | null> => json<ControlState>("/api/control");
+
+export const whatIf = (): Promise<WhatIf | null> => json<WhatIf>("/api/what_if");
 
 /** Three seconds of a joint's motion, longer ago than a minute. */
 export interface Orbit {

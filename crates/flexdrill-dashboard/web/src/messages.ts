@@ -679,6 +679,98 @@ export function decodeFigureBand(reader: CdrReader): FigureBand {
   };
 }
 
+/** One figure of a forecast, second by second. */
+export interface ForecastBand {
+  /**
+   * bit_speed, bit_torque, weight_on_bit, pipe_guide_force or guide_wall_force. Speed, torque and weight are means over
+   * each second, forces the largest of each second at any station.
+   */
+  name: string;
+  /** Unit: rad/s, N m or N. */
+  unit: string;
+  /**
+   * The 90 % band and the median, one value per second of the horizon; NaN where no member ended. The band has been widened
+   * or narrowed to the share of earlier seconds that it is to hold (see width).
+   */
+  p5: Float64Array;
+  p50: Float64Array;
+  p95: Float64Array;
+  /**
+   * Factor on the band of the members. It is the one with which nine of ten of the last seconds that were compared would
+   * have been in their band; 1 before a minute has been compared.
+   */
+  width: number;
+  /** Seconds of earlier forecasts of this run that were compared with what came, while speed and weight stayed. */
+  compared: number;
+  /** Seconds among them in which the figure was in the published band. */
+  inside: number;
+  /** Seconds among them in which it was in the band of the members as they were. */
+  inside_members: number;
+}
+/** Reads a `flexdrill/msg/ForecastBand`. */
+export function decodeForecastBand(reader: CdrReader): ForecastBand {
+  return {
+    name: reader.string(),
+    unit: reader.string(),
+    p5: reader.float64Array(reader.length()),
+    p50: reader.float64Array(reader.length()),
+    p95: reader.float64Array(reader.length()),
+    width: reader.float64(),
+    compared: reader.uint32(),
+    inside: reader.uint32(),
+    inside_members: reader.uint32(),
+  };
+}
+
+/** The next minute at the present speed and weight, from runs that begin at the present state. */
+export interface Forecast {
+  /** Stamp: the instant of the state that the runs begin from, on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** Model step of that state. */
+  from_step: number;
+  /** Rotary speed that is asked for during the forecast (rad/s). */
+  rotary_speed: number;
+  /** Weight on bit that is asked for during the forecast (N). */
+  weight_on_bit: number;
+  /** Start of the first second of the bands: the first whole second of model time after the state, on the rig's clock. */
+  bands_from: Time;
+  /** Time between two values of the bands (s). */
+  interval: number;
+  /** Members whose motion could be computed to the end. */
+  members: number;
+  /** Members that failed. They are in no band and no probability: what would have come is unknown, not safe. */
+  failed: number;
+  /** Why the first of these failed, or why there is no forecast; empty where none failed. */
+  failure: string;
+  /** One per figure. */
+  bands: ForecastBand[];
+  /** The alarms that a member saw, with each priority. */
+  alarms: AlarmChance[];
+  /** Chance that a member saw any alarm, with its 95 % interval (Wilson); NaN where no member ended. */
+  any_alarm: number;
+  any_alarm_lower: number;
+  any_alarm_upper: number;
+}
+/** Reads a `flexdrill/msg/Forecast`. */
+export function decodeForecast(reader: CdrReader): Forecast {
+  return {
+    header: decodeHeader(reader),
+    from_step: reader.uint64(),
+    rotary_speed: reader.float64(),
+    weight_on_bit: reader.float64(),
+    bands_from: decodeTime(reader),
+    interval: reader.float64(),
+    members: reader.uint32(),
+    failed: reader.uint32(),
+    failure: reader.string(),
+    bands: reader.many(reader.length(), () => decodeForecastBand(reader)),
+    alarms: reader.many(reader.length(), () => decodeAlarmChance(reader)),
+    any_alarm: reader.float64(),
+    any_alarm_lower: reader.float64(),
+    any_alarm_upper: reader.float64(),
+  };
+}
+
 /**
  * Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
  * entry 0 is joint_01 of joint_states.
@@ -1803,6 +1895,8 @@ export const DECODERS = {
   "flexdrill/msg/BitState": decodeBitState,
   "flexdrill/msg/ContactForces": decodeContactForces,
   "flexdrill/msg/FigureBand": decodeFigureBand,
+  "flexdrill/msg/Forecast": decodeForecast,
+  "flexdrill/msg/ForecastBand": decodeForecastBand,
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/RigInputs": decodeRigInputs,

@@ -9,6 +9,7 @@ import {
   type AlarmList,
   type BitState,
   type ContactForces,
+  type Forecast,
   type JointDeflections,
   type MarkerArray,
   type SessionInfo,
@@ -21,11 +22,13 @@ import { Freshness } from "./freshness";
 import type { Geometry } from "./geometry";
 import type { Layout } from "./layout";
 import type { Ring } from "./ring";
-import { instant, MOTION, type Topic } from "./topics";
+import { instant, MOTION, stamp, type Topic } from "./topics";
 import { Trace } from "./trace";
 
 /** Topics of which the newest holds, however old. */
-const LATCHED: readonly string[] = ["twin/session", "twin/alarms"];
+const LATCHED: readonly string[] = ["twin/session", "twin/alarms", "twin/forecast"];
+/** Forecasts that are kept: what came is shown against those of the last minutes. */
+const FORECASTS = 6;
 /**
  * Messages of a recording are of the player's time within this (s) and half a second of playing: it fetches those of up
  * to two seconds before a time that it is brought to.
@@ -56,6 +59,8 @@ export class Store {
   status: TwinStatus | null = null;
   sessionInfo: SessionInfo | null = null;
   transfer: Transfer | null = null;
+  /** The newest forecasts, the oldest first. */
+  forecasts: Forecast[] = [];
   /** Messages that were not understood: page and twin are of different versions. */
   unreadable = 0;
 
@@ -169,9 +174,17 @@ export class Store {
       case "twin/transfer":
         this.transfer = message as Transfer;
         return;
+      case "twin/forecast":
+        return this.takeForecast(message as Forecast);
       case "twin/tool_shape":
         return trace.takeShape(message as MarkerArray);
     }
+  }
+
+  /** Keeps the newest forecasts in the order of their states: after a jump of the player, or of a new run, only this one. */
+  private takeForecast(forecast: Forecast): void {
+    const before = this.forecasts.filter((kept) => stamp(kept.header) < stamp(forecast.header));
+    this.forecasts = [...before.slice(1 - FORECASTS), forecast];
   }
 
   /** Takes the server's answer to a question that was asked at `asked` (ms). */

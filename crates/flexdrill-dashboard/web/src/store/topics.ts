@@ -14,6 +14,7 @@ export const TOPICS = [
   "twin/whirl",
   "twin/tool_shape",
   "twin/transfer",
+  "twin/forecast",
 ] as const;
 export type Topic = (typeof TOPICS)[number];
 

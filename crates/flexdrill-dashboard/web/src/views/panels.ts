@@ -1,7 +1,8 @@
-// The panels next to the tool: alarms, location, transfer, steering; one of them is shown.
+// The panels next to the tool: alarms, location, transfer, look-ahead, steering; one of them is shown.
 
 import { h, setAttribute, setText, show } from "../dom";
 import type { Context, View } from "../view";
+import { AheadView } from "./ahead";
 import { Alarms } from "./alarms";
 import { LocationView } from "./location";
 import type { Steer } from "./steer";
@@ -22,6 +23,7 @@ export class Panels implements View {
       ["Alarms", new Alarms(context)],
       ["Location", new LocationView(context)],
       ["Transfer", new TransferView(context)],
+      ["Ahead", new AheadView(context)],
       ["Steer", steer],
     ] as const) {
       const id = name.toLowerCase();
@@ -76,8 +78,9 @@ export class Panels implements View {
     const count = store.isBag || store.silent ? 0 : (store.alarms?.unacknowledged ?? 0);
     setText(this.tabs[0].tab, count > 0 ? `Alarms (${count})` : "Alarms");
     const driving = this.steer.driving;
-    setText(this.tabs[3].tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
-    this.tabs[3].tab.classList.toggle("driving", driving !== null);
+    const { tab } = this.tabs[this.tabs.length - 1];
+    setText(tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
+    tab.classList.toggle("driving", driving !== null);
     for (const { view } of this.tabs) view.draw(now);
   }
 }

@@ -12,6 +12,8 @@ export interface StripOptions {
   range: (min: number, max: number) => [number, number];
   /** Horizontal lines: limits and levels. */
   limits: () => number[];
+  /** The present (s), marked where the strip goes beyond it. */
+  now?: () => number;
   /** Larger type, for a strip that has the width of a panel. */
   wide?: boolean;
   /** The lowest of a column: it has the column's marks of time where the others are too low for their own. */
@@ -157,7 +159,7 @@ export class Strip {
       ctx.lineTo(left + width, y);
       ctx.stroke();
     }
-    const shown = store.cursor ?? (store.isBag ? store.now : null);
+    const shown = this.options.now?.() ?? store.cursor ?? (store.isBag ? store.now : null);
     if (shown !== null) {
       const x = plot.valToPos(shown, "x", true);
       ctx.setLineDash([]);

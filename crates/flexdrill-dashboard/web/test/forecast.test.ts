@@ -1,0 +1,119 @@
+// Looking ahead: bands of several forecasts in one strip, chances in words, unknown never as safe.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { WhatIfAnswer } from "../src/api";
+import type { AlarmChance, Forecast, ForecastBand } from "../src/messages";
+import { Ring } from "../src/store/ring";
+import { alarms, bandOf, chance, rows, summary } from "../src/views/forecast";
+import { verdict } from "../src/views/what_if";
+
+function forecast(from: number, values: number[], more: Partial<Forecast> = {}): Forecast {
+  const low = Float64Array.from(values);
+  const band: Partial<ForecastBand> = {
+    name: "bit_torque",
+    p5: low,
+    p50: low.map((v) => v + 1),
+    p95: low.map((v) => v + 2),
+  };
+  return {
+    bands_from: { sec: from, nanosec: 0 },
+    interval: 1,
+    bands: [band as ForecastBand],
+    members: 4,
+    failed: 0,
+    failure: "",
+    any_alarm: 0,
+    any_alarm_lower: 0,
+    any_alarm_upper: 0.49,
+    ...more,
+  } as Forecast;
+}
+
+function alarm(id: string, priority: number, seen: number): AlarmChance {
+  return {
+    id,
+    name: id,
+    priority,
+    seen,
+    members: 4,
+    probability: seen / 4,
+    lower: 0.1,
+    upper: 0.9,
+    time_to_first: 7,
+  } as AlarmChance;
+}
+
+test("a second has the band of the newest forecast that knows it, and unknown seconds have none", () => {
+  const band = bandOf([forecast(100, [10, 10, 10]), forecast(102, [20, NaN])], "bit_torque");
+  assert.deepEqual(
+    band.map(({ time, low, high }) => [time, low, high]),
+    [
+      [100.5, 10, 12],
+      [101.5, 10, 12],
+      [102.5, 20, 22],
+    ],
+  );
+  assert.deepEqual(bandOf([forecast(100, [1])], "weight_on_bit"), []);
+});
+
+test("band and line are columns over the same times, and end where data are missing", () => {
+  const hour = new Ring(10, 1);
+  for (const [time, value] of [
+    [99, 5],
+    [100, 11],
+    [101, 12],
+    [120, 13],
+  ])
+    hour.push(time)[0] = value;
+  const [times, came, low, high] = rows([forecast(100, [10, 10, 10])], "bit_torque", hour, 0, 100);
+  assert.equal(times[0], 100);
+  const at = (time: number, column: (number | null)[]) => column[times.indexOf(time)];
+  assert.equal(at(101, came), 12);
+  assert.equal(at(100.5, low), 10);
+  assert.equal(at(100.5, high), 12);
+  // The band goes on over the line's rows and ends after its last second.
+  assert.equal(at(101, low), 10);
+  assert.equal(at(120, low), null);
+  assert.equal(at(120, came), 13);
+});
+
+test("a forecast says what its runs saw, and what is unknown is said to be so", () => {
+  assert.equal(summary(forecast(0, [])), "No alarm in 4 runs (chance 0.0 % to 49.0 %).");
+  const some = forecast(0, [], { any_alarm: 0.5, any_alarm_lower: 0.15, any_alarm_upper: 0.85, failed: 1 });
+  assert.match(summary(some), /^An alarm in 2 of 4 runs .* 1 more could not be computed to the end/);
+  const none = forecast(0, [], { members: 0, failed: 4, failure: "a step failed", any_alarm: NaN });
+  assert.equal(summary(none), "The next minute is unknown: a step failed.");
+});
+
+test("an alarm is listed once, the likeliest first", () => {
+  const all = [alarm("shock", 1, 2), alarm("shock", 2, 1), alarm("backward_whirl", 3, 4)];
+  assert.deepEqual(
+    alarms(all).map(({ id, seen }) => [id, seen]),
+    [
+      ["backward_whirl", 4],
+      ["shock", 2],
+    ],
+  );
+  assert.equal(chance(all[0]), "2 of 4 runs (10.0 % to 90.0 %)");
+});
+
+test("a candidate without a run that ended is unknown, not safe", () => {
+  const answer: WhatIfAnswer = {
+    candidate: { rotary_speed: 60, weight_on_bit: 12 },
+    run_up: 1,
+    members: 6,
+    failed: 0,
+    failure: "",
+    decided: true,
+    any_alarm: 0,
+    any_alarm_lower: 0,
+    any_alarm_upper: 0.39,
+    alarms: [],
+    figures: [],
+  };
+  assert.equal(verdict(answer), "no alarm in 6 runs (0.0 % to 39.0 %)");
+  assert.equal(verdict({ ...answer, any_alarm: 0.5 }), "alarms in 3 of 6 runs (0.0 % to 39.0 %)");
+  assert.match(verdict({ ...answer, failed: 2 }), /4 runs .*; 2 unknown$/);
+  assert.match(verdict({ ...answer, failed: 6, any_alarm: null, failure: "a step failed" }), /^unknown: a step failed/);
+});

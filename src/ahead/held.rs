@@ -1,0 +1,159 @@
+//! Forecasts that are held against what came.
+
+use std::collections::VecDeque;
+
+use super::forecast::{Calibration, Forecast, HORIZON};
+use super::trace::{SIGNALS, Trace};
+use flexdrill_config::InputsConfig;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+
+/// Parts of the range of an input and of its value by which the input may change while a forecast at it is held against
+/// what comes. A rig's weight is steady to a kilonewton at best, and its speed to a turn per minute.
+const SAME_OF_RANGE: f64 = 0.025;
+const SAME: f64 = 0.05;
+/// Seconds that are kept until the forecasts that begin in them arrive: a forecast that takes longer than its horizon is of
+/// no use.
+const KEPT: usize = 2 * HORIZON as usize;
+
+/// A forecast that is held against what comes.
+#[derive(Debug)]
+struct Open {
+    forecast: Forecast,
+    /// Speed (rad/s) and weight (N) that it assumes.
+    targets: [f64; 2],
+    /// Factors that its bands were published with.
+    widths: [f64; SIGNALS],
+    /// Second that is compared next.
+    next: u64,
+}
+
+/// Least and most of speed (rad/s) and weight (N) in a second.
+#[derive(Debug, Clone, Copy)]
+struct Acted {
+    number: u64,
+    range: [[f64; 2]; 2],
+}
+
+/// What came, and the forecasts that it is compared with.
+#[derive(Debug)]
+pub struct Held {
+    /// By how much speed (rad/s) and weight (N) may change.
+    same: [f64; 2],
+    trace: Trace,
+    acted: VecDeque<Acted>,
+    step: u64,
+    open: Vec<Open>,
+    calibration: Calibration,
+}
+
+impl Held {
+    /// Nothing yet, for a rig with these inputs.
+    pub fn new(inputs: &InputsConfig) -> Self {
+        Self {
+            same: [
+                rpm_to_rad_per_s(SAME_OF_RANGE * inputs.rotary_speed.max_rpm),
+                kn_to_n(SAME_OF_RANGE * inputs.weight_on_bit.max_kn),
+            ],
+            trace: Trace::default(),
+            acted: VecDeque::new(),
+            step: 0,
+            open: Vec::new(),
+            calibration: Calibration::default(),
+        }
+    }
+
+    /// Takes the peaks of an interval that ends at `time` (s of the run).
+    pub fn peaks(&mut self, time: f64, snapshot: &Snapshot) {
+        self.follow_reset(snapshot);
+        self.trace.peaks(time, snapshot);
+    }
+
+    /// Looks at the run at `time` (s of the run), ten times a second, and compares the seconds that are complete.
+    pub fn look(&mut self, time: f64, snapshot: &Snapshot) {
+        self.follow_reset(snapshot);
+        self.trace.look(time, snapshot);
+        self.act(
+            time.max(0.0) as u64,
+            [snapshot.applied.rotary_speed, snapshot.applied.weight_set],
+        );
+        self.trace.keep(KEPT);
+        self.compare();
+    }
+
+    /// Holds a forecast at speed (rad/s) and weight (N) against what comes and what came since its start. Its bands are those
+    /// of the present widths.
+    pub fn hold(&mut self, forecast: Forecast, targets: [f64; 2]) {
+        self.open.push(Open {
+            next: forecast.first,
+            widths: self.calibration.widths(),
+            targets,
+            forecast,
+        });
+    }
+
+    /// How forecasts and what came compare so far.
+    pub fn calibration(&self) -> &Calibration {
+        &self.calibration
+    }
+
+    /// Nothing that follows a reset of the model was forecast.
+    fn follow_reset(&mut self, snapshot: &Snapshot) {
+        if snapshot.step < self.step {
+            (self.trace, self.acted) = (Trace::default(), VecDeque::new());
+            self.open.clear();
+        }
+        self.step = snapshot.step;
+    }
+
+    fn act(&mut self, number: u64, values: [f64; 2]) {
+        match self.acted.back_mut().filter(|last| last.number == number) {
+            Some(last) => {
+                for (range, value) in last.range.iter_mut().zip(values) {
+                    *range = [range[0].min(value), range[1].max(value)];
+                }
+            }
+            None => self.acted.push_back(Acted {
+                number,
+                range: values.map(|value| [value, value]),
+            }),
+        }
+        if self.acted.len() > KEPT {
+            self.acted.pop_front();
+        }
+    }
+
+    /// Compares the seconds that are complete.
+    fn compare(&mut self) {
+        let Some(newest) = self.trace.seconds().back().map(|second| second.number) else {
+            return;
+        };
+        for open in &mut self.open {
+            let end = open.forecast.first + HORIZON;
+            while open.next < newest.min(end) {
+                let number = open.next;
+                open.next += 1;
+                let acted = self.acted.iter().find(|acted| acted.number == number);
+                if acted.is_some_and(|acted| !stayed(acted, &open.targets, &self.same)) {
+                    // Something else acted: the rest of the forecast says nothing of it.
+                    open.next = end;
+                    break;
+                }
+                let bands = open.forecast.seconds.get((number - open.forecast.first) as usize);
+                let second = self.trace.seconds().iter().find(|second| second.number == number);
+                if let (Some(bands), Some(second)) = (bands, second) {
+                    self.calibration.compare(bands, &open.widths, &second.values());
+                }
+            }
+        }
+        self.open.retain(|open| open.next < open.forecast.first + HORIZON);
+    }
+}
+
+fn stayed(acted: &Acted, targets: &[f64; 2], same: &[f64; 2]) -> bool {
+    let mut all = acted.range.iter().zip(targets).zip(same);
+    all.all(|(([least, most], target), same)| {
+        let within = same.max(SAME * target.abs());
+        (least - target).abs() <= within && (most - target).abs() <= within
+    })
+}
