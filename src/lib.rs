@@ -13,6 +13,7 @@
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
+//! - [`window`]: the map of speed and weight, and where a point is on it.
 //! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
 //!
 //! Below them are crates, most of them also under a short name here: [`flexdrill_dashboard`], [`flexdrill_report`],
@@ -27,6 +28,7 @@ pub mod map;
 pub mod node;
 pub mod reach;
 pub mod rig_inputs;
+pub mod window;
 
 pub use flexdrill_bag as bag;
 pub use flexdrill_dashboard as dashboard;

@@ -29,12 +29,8 @@ mod trace;
 
 pub use advice::search;
 pub use chance::{Band, Chance};
-<<<<<<< HEAD
 pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, keep_priority, look_ahead};
-=======
-pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, look_ahead};
 pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, forecast, widened};
->>>>>>> 61d20b0 (Search for advice in passes, standing forecast on twin/forecast, the page's panel Ahead with what-if form)
 pub use goal::{Candidate, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use held::Held;
 pub use member::{DISTURBANCE, Figure};

@@ -32,6 +32,8 @@ pub enum AlarmId {
     PressureFolding,
     /// Numerical errors are too large for the computed motion to be reliable.
     ModelQuality,
+    /// Speed and weight are outside the part of the map in which no alarm must be expected.
+    KnownWindow,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
@@ -54,7 +56,7 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 20] = [
+    pub const ALL: [AlarmId; 21] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -66,6 +68,7 @@ impl AlarmId {
         AlarmId::GuidePreload,
         AlarmId::PressureFolding,
         AlarmId::ModelQuality,
+        AlarmId::KnownWindow,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
         AlarmId::RateOfPenetrationInput,
@@ -91,6 +94,7 @@ impl AlarmId {
             AlarmId::GuidePreload => "guide_preload",
             AlarmId::PressureFolding => "pressure_folding",
             AlarmId::ModelQuality => "model_quality",
+            AlarmId::KnownWindow => "known_window",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
             AlarmId::RateOfPenetrationInput => "rate_of_penetration_input",
@@ -117,6 +121,7 @@ impl AlarmId {
             AlarmId::GuidePreload => "guide overbent",
             AlarmId::PressureFolding => "folding under pressure",
             AlarmId::ModelQuality => "model unreliable",
+            AlarmId::KnownWindow => "outside the known window",
             AlarmId::RotarySpeedInput => "no valid rotary speed",
             AlarmId::WeightOnBitInput => "no valid weight on bit",
             AlarmId::RateOfPenetrationInput => "no valid rate of penetration",
@@ -194,6 +199,7 @@ impl AlarmId {
             AlarmId::GuidePreload => tool(&alarms.guide_preload),
             AlarmId::PressureFolding => tool(&alarms.pressure_folding),
             AlarmId::ModelQuality => tool(&alarms.model_quality),
+            AlarmId::KnownWindow => tool(&alarms.known_window),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
             AlarmId::RateOfPenetrationInput => node(&alarms.rate_of_penetration_input),

@@ -6,6 +6,7 @@
 //! - `catalogue`: the alarms that exist. `finding`: a condition with its texts.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
 //!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
+//!   `window`: speed and weight against the map.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
 //!   of sentences.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
@@ -21,6 +22,7 @@ mod request;
 mod sentence;
 pub mod state_file;
 mod tool;
+mod window;
 mod worst_moment;
 
 pub use advice::{Change, Quantity, Tested};
@@ -41,6 +43,7 @@ use flexdrill_config::{Advice, AdviceTable, Config};
 use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
 
+use crate::window::SafeWindow;
 use advice::{Ahead, Demand, Operating};
 use worst_moment::WorstMoment;
 
@@ -58,6 +61,8 @@ pub struct AlarmBook {
     /// The operating point of the newest snapshot.
     operating: Operating,
     memory: node::Memory,
+    /// The map of speed and weight, where one is loaded.
+    window: Option<Arc<SafeWindow>>,
     /// What look-aheads have found for the present state.
     tested: Option<Tested>,
     /// Per alarm: whether its present state began in an earlier run.
@@ -95,6 +100,7 @@ impl AlarmBook {
             moments: vec![WorstMoment::default(); AlarmId::ALL.len()],
             operating: Operating::default(),
             memory: node::Memory::default(),
+            window: None,
             tested: None,
             restored: (0..AlarmId::ALL.len())
                 .map(|index| system.alarm(index).since != 0)
@@ -117,6 +123,11 @@ impl AlarmBook {
         self.config = Arc::clone(config);
     }
 
+    /// Judges speed and weight by a map.
+    pub fn set_window(&mut self, window: Arc<SafeWindow>) {
+        self.window = Some(window);
+    }
+
     /// Advances the clock of requests. Call it before the observations of that time.
     pub fn advance(&mut self, time: Time) {
         let mut events = Vec::new();
@@ -127,7 +138,10 @@ impl AlarmBook {
     /// Observes the hazards of a snapshot at its stamp.
     pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
         let stands = |id: AlarmId| self.system.alarm(id as usize).standing.active().is_some();
-        let findings = tool::findings(snapshot, stamp, &self.config, stands);
+        let mut findings = tool::findings(snapshot, stamp, &self.config, stands);
+        if let Some(window) = &self.window {
+            findings.push((AlarmId::KnownWindow, window::finding(window, snapshot)));
+        }
         self.operating = Operating::of(&snapshot.applied);
         self.observe(findings, stamp);
     }

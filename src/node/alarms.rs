@@ -12,6 +12,7 @@ use super::advisor::Advisor;
 use super::publish::{PublisherParts, Sinks};
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use crate::window::SafeWindow;
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
@@ -82,6 +83,11 @@ impl AlarmDesk {
     /// Takes advice from look-aheads.
     pub fn advised_by(&mut self, advisor: Arc<Advisor>) {
         self.advisor = Some(advisor);
+    }
+
+    /// Judges speed and weight by a map.
+    pub fn judge_by(&mut self, window: Arc<SafeWindow>) {
+        self.book.set_window(window);
     }
 
     /// Adopts changed limits and rules.

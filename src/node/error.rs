@@ -23,6 +23,9 @@ pub enum NodeError {
     /// The live server.
     #[error(transparent)]
     Live(#[from] crate::live::LiveError),
+    /// The map of speed and weight.
+    #[error(transparent)]
+    Window(#[from] crate::window::WindowError),
     /// A checkpoint cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {

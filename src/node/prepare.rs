@@ -24,6 +24,7 @@ use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameter
 use crate::bag::{RecordingThread, Topic};
 use crate::live::{Hub, LiveServer, Steering};
 use crate::rig_inputs::Driver;
+use crate::window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{BuildError, Run, Simulation};
@@ -61,6 +62,8 @@ pub(super) struct PreparedNode {
     /// What viewers may steer; none without viewers.
     viewers: Option<Arc<Viewers>>,
     checkpoint: Option<Vec<u8>>,
+    /// The map of speed and weight, where one is named.
+    window: Option<Arc<SafeWindow>>,
     /// Notified when a managed node is shut down by its service.
     shut_down: Arc<Notify>,
 }
@@ -73,6 +76,7 @@ impl PreparedNode {
     pub(super) fn new(setup: NodeSetup) -> Result<Self, NodeError> {
         let checkpoint = setup.checkpoint.as_deref().map(read_checkpoint).transpose()?;
         let config = Arc::new(setup.config.clone());
+        let window = SafeWindow::of(&config, Path::new(&setup.config_file))?.map(Arc::new);
         let node_name = setup.identity.full_name();
         let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
         if setup.rosout {
@@ -175,6 +179,7 @@ impl PreparedNode {
             received: received::queue(),
             viewers,
             checkpoint,
+            window,
             shut_down,
             setup,
         })
@@ -224,6 +229,9 @@ impl PreparedNode {
             self.alarm_requests,
             self.clocks.rig_time(),
         );
+        if let Some(window) = &self.window {
+            alarms.judge_by(Arc::clone(window));
+        }
         if self.config.look_ahead.advice {
             alarms.advised_by(Arc::clone(&self.answering.advisor));
         }
@@ -243,6 +251,7 @@ impl PreparedNode {
             dds: port.monitor(),
             node_name: setup.identity.full_name(),
             finish: Arc::clone(&finish),
+            window: self.window,
             forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
         })
         .map_err(|error| NodeError::Stopped(error.to_string()))?;

@@ -20,6 +20,7 @@ use crate::health::diagnostics;
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
 use crate::live::LiveServer;
+use crate::window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::twin::{Output, RunInputs};
@@ -75,6 +76,8 @@ pub struct PublisherParts {
     pub node_name: String,
     /// Set when the thread is to publish what is queued, and end.
     pub finish: Arc<AtomicBool>,
+    /// The map of speed and weight, where one is loaded.
+    pub window: Option<Arc<SafeWindow>>,
     /// Forecasts and what came; none where they are off.
     pub forecasts: Option<ForecastDesk>,
 }
@@ -217,6 +220,10 @@ impl Publisher {
             tracing::error!("{error}");
         }
         self.outputs = Some(outputs);
+        if let Some(window) = &self.parts.window {
+            let message = window.message(self.header());
+            self.parts.send_message(&topics::SAFE_WINDOW, &message, self.instant());
+        }
     }
 
     fn publish_event(&mut self, event: LoopEvent) -> Result<(), CdrError> {

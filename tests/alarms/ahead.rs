@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::random::Random;
-use flexdrill::ahead::{Answer, Candidate, Figure, Goal, GoalError, Start, look_ahead, search};
+use flexdrill::ahead::{Answer, Candidate, Figure, Goal, GoalError, Start, keep_priority, look_ahead, search};
 use flexdrill::alarms::{AlarmBook, AlarmId, Quantity};
 use flexdrill::messages::outputs::schedule;
 use flexdrill_config::Config;
@@ -18,6 +18,8 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
 /// The coarse tool with a pipe that rubs in its guide as in `alarms::advice`.
 fn config(friction: f64) -> Arc<Config> {
+    // There is no live run to yield to.
+    keep_priority();
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let config = Config::load(root.join("config/coarse.yaml"))
         .and_then(|config| config.with_value("contact.inner.friction_tangential", friction))
@@ -259,12 +261,11 @@ fn followed(
     alarm: AlarmId,
     seeds: std::ops::Range<u64>,
 ) -> (String, usize) {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let config = Config::load(root.join("config/coarse.yaml"))
-        .and_then(|config| config.with_value("contact.inner.friction_tangential", friction))
-        .and_then(|config| config.with_value("inputs.weight_on_bit.initial_kn", kn))
-        .unwrap();
-    let config = Arc::new(config);
+    let config = Arc::new(
+        config(friction)
+            .with_value("inputs.weight_on_bit.initial_kn", kn)
+            .unwrap(),
+    );
     let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut run = Run::new(simulation, schedule(&config, &config.outputs.rates));
     let inputs = Inputs {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use flexdrill::ahead::{Held, Signal, Start, forecast};
+use flexdrill::ahead::{Held, Signal, Start, forecast, keep_priority};
 use flexdrill::messages::outputs::schedule;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
@@ -41,6 +41,8 @@ fn at(log: &InputSequence, time: f64) -> Inputs {
 
 /// Runs a tool under the log, again and again, from `from` (s) for `seconds`, with a forecast of `members` every half minute.
 fn held(config: &Arc<Config>, from: f64, seconds: u64, members: u32) -> Held {
+    // There is no live run to yield to.
+    keep_priority();
     let log = log();
     let length = log.duration;
     let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();

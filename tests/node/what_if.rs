@@ -173,7 +173,7 @@ fn deadlines_while_looking_ahead() {
         ]);
         let mut twin = Program::start(command);
         twin.wait_for("model time runs");
-        peer.subscribe("/twin/status", "flexdrill/msg/TwinStatus", "latched");
+        peer.subscribe("/twin/status", "flexdrill/msg/TwinStatus", "reliable");
         let mut misses = Vec::new();
         let mut members = 0;
         for number in 1..=8 {

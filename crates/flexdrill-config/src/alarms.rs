@@ -36,6 +36,8 @@ section! {
         pressure_folding: ToolAlarm = ToolAlarm::default(), below;
         /// The energy errors of the steps make the motion doubtful.
         model_quality: ToolAlarm = ToolAlarm::default(), below;
+        /// Speed and weight are outside the part of the map (`map.file`) in which no alarm must be expected.
+        known_window: ToolAlarm = ToolAlarm { on_delay: 5.0, ..ToolAlarm::default() }, below;
         /// The rotary speed is not received, refused or stale.
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// The weight on bit is not received, refused or stale.

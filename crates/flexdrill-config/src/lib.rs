@@ -21,6 +21,7 @@ mod json_schema;
 pub mod lines;
 mod loads;
 mod look_ahead;
+mod map;
 mod motion;
 mod mud;
 mod network;
@@ -69,6 +70,7 @@ pub use inputs::{DriverPolicy, DriverRule, InputsConfig, Measured, RotarySpeed, 
 pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
 pub use look_ahead::LookAhead;
+pub use map::SafeMap;
 pub use mud::Mud;
 pub use network::{Network, Reach, is_peer};
 pub use outputs::{Outputs, Rates};
@@ -191,6 +193,9 @@ pub struct Schema {
     /// Runs from forks of the present state: what would be under other speeds and weights.
     #[serde(default)]
     pub look_ahead: LookAhead,
+    /// The map of speed and weight that the node loads.
+    #[serde(default)]
+    pub map: SafeMap,
     /// Frames and publishing rates of the outputs.
     #[serde(default)]
     pub outputs: Outputs,

@@ -1342,6 +1342,67 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_m_per_h", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_mpa", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// The map of rotary speed and weight on bit that the node has loaded (map.file): where alarms must be expected, and where
+    /// not. It belongs to the tool of this run.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SafeWindow {
+        /// Stamp: when the run began. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Title of the configuration that the map was made for.
+        pub title: std::string::String,
+        /// The program that made it.
+        pub program: std::string::String,
+        /// Hash of what determines the motion of the tool and its alarms.
+        pub motion: std::string::String,
+        /// Model time that each run of the map was judged over (s).
+        pub horizon: f64,
+        /// Runs per cell and start, at most.
+        pub members: u32,
+        /// Chance above which an alarm must be expected.
+        pub limit: f64,
+        /// Priority from which on an alarm counts: Alarm.LOW, MEDIUM or HIGH.
+        pub priority: u8,
+        /// Rotary speeds of the cells (r/min), rising.
+        pub rotary_speed_rpm: Vec<f64>,
+        /// Weights on bit of the cells (kN), rising.
+        pub weight_on_bit_kn: Vec<f64>,
+        /// What each cell is: row by row of the weight, the speed within a row.
+        pub verdict: Vec<u8>,
+        /// Largest chance of the likeliest alarm over the starts; NaN where the cell was not run or is unknown.
+        pub chance: Vec<f64>,
+        /// The id of that alarm; empty where none was seen.
+        pub alarm: Vec<std::string::String>,
+        /// Whether the cell was run; otherwise its verdict is inferred from those that were.
+        pub was_run: Vec<bool>,
+    }
+
+    impl SafeWindow {
+        /// From no start must an alarm be expected.
+        pub const CLEAR: u8 = 0;
+        /// From every start an alarm must be expected.
+        pub const ALARM: u8 = 1;
+        /// From one start an alarm must be expected, from another not.
+        pub const DEPENDS_ON_START: u8 = 2;
+        /// A run of it failed: it is not safe.
+        pub const UNKNOWN: u8 = 3;
+    }
+
+    impl Message for SafeWindow {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "SafeWindow";
+        const ROS_TYPE: &'static str = "flexdrill/msg/SafeWindow";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::SafeWindow_";
+        const RIHS01: &'static str = "RIHS01_dd560fe118afbe6c1fe94dd42526a2849ac646ac73c97e9fa5f30e1517a845b4";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/SafeWindow.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/SafeWindow", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "title", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "program", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "motion", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "horizon", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_rpm", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "verdict", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "chance", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarm", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "was_run", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// Configuration and version of a run, so that a recording is self-contained.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct SessionInfo {
@@ -3833,6 +3894,7 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::JointDeflections as super::Message>::INFO,
     <flexdrill::Reactions as super::Message>::INFO,
     <flexdrill::RigInputs as super::Message>::INFO,
+    <flexdrill::SafeWindow as super::Message>::INFO,
     <flexdrill::SessionInfo as super::Message>::INFO,
     <flexdrill::Transfer as super::Message>::INFO,
     <flexdrill::TwinStatus as super::Message>::INFO,

@@ -2,8 +2,8 @@
 
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, Forecast, JointDeflections, Message,
-    Reactions, RigInputs, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs,
-    rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
+    Reactions, RigInputs, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning,
+    diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -152,6 +152,8 @@ pub const TRANSFER: TopicInfo =
     TopicInfo::new("twin/transfer", Transfer::INFO, Cadence::Rate("transfer"), reliable(10));
 /// Output: the next minute at the present speed and weight.
 pub const FORECAST: TopicInfo = TopicInfo::new("twin/forecast", Forecast::INFO, Cadence::OnChange, LATCHED);
+/// Output: the map of speed and weight that is loaded.
+pub const SAFE_WINDOW: TopicInfo = TopicInfo::new("twin/safe_window", SafeWindow::INFO, Cadence::OnChange, LATCHED);
 /// Output: health and heartbeat.
 pub const STATUS: TopicInfo = TopicInfo::new("twin/status", TwinStatus::INFO, Cadence::Rate("status"), reliable(10));
 /// Output: picture of the tool.
@@ -189,7 +191,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 24] = [
+pub const ALL: [TopicInfo; 25] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
@@ -207,6 +209,7 @@ pub const ALL: [TopicInfo; 24] = [
     REACTIONS,
     TRANSFER,
     FORECAST,
+    SAFE_WINDOW,
     STATUS,
     TOOL_SHAPE,
     APPLIED_INPUTS,

@@ -954,6 +954,70 @@ export function decodeRigInputs(reader: CdrReader): RigInputs {
   };
 }
 
+/**
+ * The map of rotary speed and weight on bit that the node has loaded (map.file): where alarms must be expected, and where
+ * not. It belongs to the tool of this run.
+ */
+export interface SafeWindow {
+  /** Stamp: when the run began. Frame: the tool. */
+  header: Header;
+  /** Title of the configuration that the map was made for. */
+  title: string;
+  /** The program that made it. */
+  program: string;
+  /** Hash of what determines the motion of the tool and its alarms. */
+  motion: string;
+  /** Model time that each run of the map was judged over (s). */
+  horizon: number;
+  /** Runs per cell and start, at most. */
+  members: number;
+  /** Chance above which an alarm must be expected. */
+  limit: number;
+  /** Priority from which on an alarm counts: Alarm.LOW, MEDIUM or HIGH. */
+  priority: number;
+  /** Rotary speeds of the cells (r/min), rising. */
+  rotary_speed_rpm: Float64Array;
+  /** Weights on bit of the cells (kN), rising. */
+  weight_on_bit_kn: Float64Array;
+  /** What each cell is: row by row of the weight, the speed within a row. */
+  verdict: Uint8Array;
+  /** Largest chance of the likeliest alarm over the starts; NaN where the cell was not run or is unknown. */
+  chance: Float64Array;
+  /** The id of that alarm; empty where none was seen. */
+  alarm: string[];
+  /** Whether the cell was run; otherwise its verdict is inferred from those that were. */
+  was_run: boolean[];
+}
+export const SafeWindow = {
+  /** From no start must an alarm be expected. */
+  CLEAR: 0,
+  /** From every start an alarm must be expected. */
+  ALARM: 1,
+  /** From one start an alarm must be expected, from another not. */
+  DEPENDS_ON_START: 2,
+  /** A run of it failed: it is not safe. */
+  UNKNOWN: 3,
+} as const;
+/** Reads a `flexdrill/msg/SafeWindow`. */
+export function decodeSafeWindow(reader: CdrReader): SafeWindow {
+  return {
+    header: decodeHeader(reader),
+    title: reader.string(),
+    program: reader.string(),
+    motion: reader.string(),
+    horizon: reader.float64(),
+    members: reader.uint32(),
+    limit: reader.float64(),
+    priority: reader.uint8(),
+    rotary_speed_rpm: reader.float64Array(reader.length()),
+    weight_on_bit_kn: reader.float64Array(reader.length()),
+    verdict: reader.uint8Array(reader.length()),
+    chance: reader.float64Array(reader.length()),
+    alarm: reader.many(reader.length(), () => reader.string()),
+    was_run: reader.many(reader.length(), () => reader.bool()),
+  };
+}
+
 /** Configuration and version of a run, so that a recording is self-contained. */
 export interface SessionInfo {
   /** Stamp: start of the run on the rig's clock. Frame: the tool, as in all messages of this run. */
@@ -1900,6 +1964,7 @@ export const DECODERS = {
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/RigInputs": decodeRigInputs,
+  "flexdrill/msg/SafeWindow": decodeSafeWindow,
   "flexdrill/msg/SessionInfo": decodeSessionInfo,
   "flexdrill/msg/Transfer": decodeTransfer,
   "flexdrill/msg/TwinStatus": decodeTwinStatus,

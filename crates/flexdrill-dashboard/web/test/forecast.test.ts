@@ -3,10 +3,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { WhatIfAnswer } from "../src/api";
-import type { AlarmChance, Forecast, ForecastBand } from "../src/messages";
+import { type AlarmChance, type Forecast, type ForecastBand, SafeWindow } from "../src/messages";
 import { Ring } from "../src/store/ring";
 import { alarms, bandOf, chance, rows, summary } from "../src/views/forecast";
 import { verdict } from "../src/views/what_if";
+import { cellAt, edges, sentence } from "../src/views/window";
 
 function forecast(from: number, values: number[], more: Partial<Forecast> = {}): Forecast {
   const low = Float64Array.from(values);
@@ -116,4 +117,30 @@ test("a candidate without a run that ended is unknown, not safe", () => {
   assert.equal(verdict({ ...answer, any_alarm: 0.5 }), "alarms in 3 of 6 runs (0.0 % to 39.0 %)");
   assert.match(verdict({ ...answer, failed: 2 }), /4 runs .*; 2 unknown$/);
   assert.match(verdict({ ...answer, failed: 6, any_alarm: null, failure: "a step failed" }), /^unknown: a step failed/);
+});
+
+function map(): SafeWindow {
+  return {
+    rotary_speed_rpm: Float64Array.from([40, 60, 80]),
+    weight_on_bit_kn: Float64Array.from([5, 10]),
+    verdict: Uint8Array.from([SafeWindow.CLEAR, SafeWindow.CLEAR, SafeWindow.ALARM, 3, 2, 1]),
+    chance: Float64Array.from([0, 0, 0.8, NaN, 0.6, NaN]),
+    alarm: ["", "", "backward_whirl", "", "chaotic_whirl", ""],
+    was_run: [true, false, true, true, true, false],
+  } as unknown as SafeWindow;
+}
+
+test("the map's cells end half-way, and a point has the words of its cell", () => {
+  assert.deepEqual(edges([40, 60, 80]), [30, 50, 70, 90]);
+  assert.deepEqual(edges([5, 10]), [2.5, 7.5, 12.5]);
+  assert.deepEqual(
+    [29, 30, 50, 90, 91, NaN].map((value) => cellAt([30, 50, 70, 90], value)),
+    [-1, 0, 1, 2, -1, -1],
+  );
+  assert.equal(sentence(map(), 45, 5), "no alarm expected");
+  assert.equal(sentence(map(), 60, 5), "no alarm expected (inferred from cells nearby)");
+  assert.equal(sentence(map(), 85, 6), "alarm expected: backward whirl, chance 80.0 %");
+  assert.match(sentence(map(), 60, 11), /^an alarm comes or not, depending on the way there: chaotic whirl/);
+  assert.match(sentence(map(), 45, 9), /^unknown/);
+  assert.equal(sentence(map(), 120, 9), "off the map: not known");
 });

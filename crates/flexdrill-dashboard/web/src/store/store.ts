@@ -12,6 +12,7 @@ import {
   type Forecast,
   type JointDeflections,
   type MarkerArray,
+  type SafeWindow,
   type SessionInfo,
   type Transfer,
   type TwinStatus,
@@ -26,7 +27,7 @@ import { instant, MOTION, stamp, type Topic } from "./topics";
 import { Trace } from "./trace";
 
 /** Topics of which the newest holds, however old. */
-const LATCHED: readonly string[] = ["twin/session", "twin/alarms", "twin/forecast"];
+const LATCHED: readonly string[] = ["twin/session", "twin/alarms", "twin/forecast", "twin/safe_window"];
 /** Forecasts that are kept: what came is shown against those of the last minutes. */
 const FORECASTS = 6;
 /**
@@ -59,6 +60,8 @@ export class Store {
   status: TwinStatus | null = null;
   sessionInfo: SessionInfo | null = null;
   transfer: Transfer | null = null;
+  /** The map of speed and weight that the twin has loaded. */
+  safeWindow: SafeWindow | null = null;
   /** The newest forecasts, the oldest first. */
   forecasts: Forecast[] = [];
   /** Messages that were not understood: page and twin are of different versions. */
@@ -173,6 +176,9 @@ export class Store {
         return trace.takeWhirl(message as WhirlState);
       case "twin/transfer":
         this.transfer = message as Transfer;
+        return;
+      case "twin/safe_window":
+        this.safeWindow = message as SafeWindow;
         return;
       case "twin/forecast":
         return this.takeForecast(message as Forecast);

@@ -15,6 +15,7 @@ export const TOPICS = [
   "twin/tool_shape",
   "twin/transfer",
   "twin/forecast",
+  "twin/safe_window",
 ] as const;
 export type Topic = (typeof TOPICS)[number];
 

@@ -1,9 +1,10 @@
-// Looking ahead: the forecast, and questions.
+// Looking ahead: the forecast, questions, and the map of speed and weight.
 
 import { h } from "../dom";
 import type { Context, View } from "../view";
 import { ForecastView } from "./forecast";
 import { WhatIfView } from "./what_if";
+import { WindowView } from "./window";
 
 export class AheadView implements View {
   readonly element: HTMLElement;
@@ -12,8 +13,13 @@ export class AheadView implements View {
   constructor(context: Context) {
     const forecast = new ForecastView(context);
     const question = new WhatIfView(context);
-    this.views = [forecast, question];
-    this.element = h("div", { class: "ahead" }, forecast.element, question.element);
+    const map = new WindowView(
+      context,
+      (rpm, kilonewton) => question.fill(rpm, kilonewton),
+      () => question.asked?.answers ?? [],
+    );
+    this.views = [forecast, question, map];
+    this.element = h("div", { class: "ahead" }, forecast.element, map.element, question.element);
   }
 
   draw(now: number): void {

@@ -253,7 +253,7 @@ export class WhatIfView implements View {
   private begin(): void {
     const { store } = this.context;
     const moment = this.filled ? null : store.moment();
-    if (!moment || !store.isLive) return;
+    if (!moment || store.isBag) return;
     const rpm = convert(moment.layout.scalar(moment.row, "rotary_speed_applied"), "speed", "si");
     const kilonewton = convert(moment.layout.scalar(moment.row, "weight_on_bit_applied"), "weight", "si");
     if (Number.isFinite(rpm) && Number.isFinite(kilonewton) && rpm > 0) this.fill(rpm, kilonewton);

@@ -1,0 +1,78 @@
+//! The alarm "outside the known window": where the present speed and weight are on the map that the node has loaded.
+
+use super::catalogue::AlarmId;
+use super::finding::Finding;
+use super::sentence::{capitalized, number};
+use crate::window::{Location, SafeWindow};
+use flexdrill_alarms::Priority;
+use flexdrill_core::motion::DriveState;
+use flexdrill_core::twin::Snapshot;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+
+/// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged.
+pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot) -> Finding {
+    let rpm = rad_per_s_to_rpm(snapshot.applied.rotary_speed).abs();
+    let kn = n_to_kn(snapshot.applied.weight_on_bit);
+    let suppressed = snapshot.hazards.drive != DriveState::Turning;
+    let location = window.locate(rpm, kn);
+    if suppressed || matches!(location, Location::Inside | Location::OffBottom) {
+        return Finding {
+            suppressed,
+            ..Finding::default()
+        };
+    }
+    let at = format!(
+        "{} r/min and {} kN",
+        number(rpm, 0).unwrap_or_default(),
+        number(kn, 1).unwrap_or_default()
+    );
+    let (priority, evidence, consequence) = match location {
+        Location::Expected(expected) => {
+            let known = AlarmId::ALL.into_iter().find(|id| id.id() == expected.alarm);
+            let name = known.map_or("an alarm", AlarmId::name);
+            let share = expected.chance.and_then(|chance| number(100.0 * chance, 0));
+            let share = share.map_or(String::new(), |share| format!(" in {share} % of the runs"));
+            if expected.depends {
+                let evidence = format!("At {at} the map has {name}{share} from one start, and none from another.");
+                (
+                    Priority::Low,
+                    evidence,
+                    format!("{} may come and stay.", capitalized(name)),
+                )
+            } else {
+                let evidence = format!("At {at} the map has {name}{share}.");
+                (Priority::Medium, evidence, format!("{} is likely.", capitalized(name)))
+            }
+        }
+        Location::Beyond { axis, end, unit } => {
+            let evidence = format!(
+                "{} beyond the map: it ends at {end} {unit}, the present point is {at}.",
+                capitalized(axis)
+            );
+            let consequence = "What the tool does here has not been computed.";
+            (Priority::Low, evidence, consequence.to_owned())
+        }
+        _ => {
+            let evidence = format!("Runs of the map failed at {at}.");
+            let consequence = "What the tool does here is not known.";
+            (Priority::Low, evidence, consequence.to_owned())
+        }
+    };
+    Finding {
+        priority: Some(priority),
+        evidence,
+        cause: "Speed and weight are outside the part of the map in which no alarm must be expected.".to_owned(),
+        consequence,
+        what_to_do: match window.nearest_inside(rpm, kn) {
+            Some([rpm, kn]) => {
+                format!("Set {rpm} r/min and {kn} kN: the nearest point that is known to be free of alarms.")
+            }
+            None => "Call the engineer: the map has no point that is known to be free of alarms.".to_owned(),
+        },
+        what_the_engineer_can_do:
+            "Extend the map to this speed and weight, or refine it there, with flexdrill map. Compare the \
+                                   alarms of the run with those that the map expects."
+                .to_owned(),
+        ..Finding::default()
+    }
+}
