@@ -133,6 +133,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
             AlarmId::RateOfPenetrationInput,
             AlarmId::StandpipePressureInput,
             AlarmId::TwoDrivers,
+            AlarmId::KnownWindow,
         ],
         calm: states.join(", "),
         values,
