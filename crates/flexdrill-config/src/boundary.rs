@@ -211,6 +211,15 @@ impl Boundary {
         supports
     }
 
+    /// Whether a support beside the preset's holds the guide's top along the hole.
+    pub(super) fn holds_guide_top(&self, mesh: &Mesh) -> bool {
+        self.supports.iter().any(|held| {
+            let at = held.at.location(mesh);
+            let at_top = matches!(at, Location::Top | Location::All | Location::Station(0));
+            at_top && held.body == Body::Guide && held.fix.contains(&Direction::U)
+        })
+    }
+
     /// Whether a support holds the guide's spin.
     pub fn holds_guide_spin(&self) -> bool {
         self.supports

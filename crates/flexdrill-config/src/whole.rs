@@ -77,6 +77,22 @@ impl Schema {
             "paper with rock.law: depth_of_cut",
             "the hoist carries the guide's top, which no support may hold",
         );
+        c.require(
+            !self.has_hoist() || !self.boundary.holds_guide_top(&self.mesh()),
+            "boundary.supports",
+            "u of the guide at the top",
+            "",
+            "without it with rock.law: depth_of_cut",
+            "the hoist carries the guide's top along the hole",
+        );
+        c.require(
+            !self.has_hoist() || !self.tool.guide.fixed,
+            "tool.guide.fixed",
+            "true",
+            "",
+            "false with rock.law: depth_of_cut",
+            "the hoist lowers the guide onto the rock",
+        );
     }
 
     pub(crate) fn check(&self, c: &mut Checker) {

@@ -501,6 +501,23 @@ fn impossible_strings_and_rocks_name_both_keys() {
             "boundary.preset = none",
             "rock.law: depth_of_cut",
         ),
+        (
+            with_line("rock: {law: depth_of_cut}\nboundary: {supports: [{at: top, body: guide, fix: [u]}]}\n"),
+            "boundary.supports = u of the guide at the top",
+            "rock.law: depth_of_cut",
+        ),
+        (
+            with_line("rock: {law: depth_of_cut}\n")
+                .replace("inner_diameter: 0.080}", "inner_diameter: 0.080, fixed: true}"),
+            "tool.guide.fixed = true",
+            "rock.law: depth_of_cut",
+        ),
+        // The string turns the first link, which nothing else may hold.
+        (
+            with_line("boundary: {supports: [{at: top, body: pipe, fix: [psi]}]}\n"),
+            "boundary.supports.0.fix = psi of the driven node",
+            "boundary.drive none",
+        ),
     ] {
         let error = error_of(&text);
         assert!(error.contains(key) && error.contains(reason), "{error}");

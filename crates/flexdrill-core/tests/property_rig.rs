@@ -223,6 +223,14 @@ fn run(twin: &mut Simulation, phase: Phase, pump: bool, steps: u32, seen: &mut S
         seen.lifted |= seen.loaded && bit.weight_on_bit == 0.0;
         seen.back |= bit.rotary_speed < -1.0;
         seen.moved = seen.moved.max(moved(&snapshot.energy));
+        // The pins' share is a part of the friction, by the same rule: contacts, which have the rest, take and do not give,
+        // but for what a slip that reverses within a step makes of the trapezoid rule.
+        let of_contacts = snapshot.energy.friction - snapshot.energy.joint_friction;
+        assert!(
+            of_contacts > -1e-3 * seen.moved - 1e-6,
+            "{phase:?}: {of_contacts} J, {:?}",
+            snapshot.energy
+        );
     }
 }
 

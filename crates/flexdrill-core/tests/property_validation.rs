@@ -12,7 +12,10 @@ mod support;
 use flexdrill_core::dynamics::Scheme;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
-    Body, Direction, LoadHistory, Location, PointLoad, PointMass, Support, ToolDescription, WellSection,
+    AddedMass, Body, DepthOfCut, Direction, Feed, FreeCurvature, FrictionLaw, Hoist, LoadHistory, Location, MudDamping,
+    MudDescription, MudFilm, Piece, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw,
+    SectionProperties, SpeedController, StringDescription, Support, ToolDescription, TopDrive, Tube, WallFriction,
+    Weakening, WellSection,
 };
 use flexdrill_core::twin::{BuildError, Simulation, SimulationSettings};
 use flexdrill_core::validation::ValidationError;
@@ -60,6 +63,82 @@ fn with_everything() -> ToolDescription {
         eccentricity: 0.01,
         eccentricity_phase: 0.5,
     }];
+    tool
+}
+
+/// The same below a string, on a rock that holds the bit, with all of the rig's physics.
+fn below_a_string() -> ToolDescription {
+    let mut tool = with_everything();
+    let tube = Tube {
+        outer_diameter: 0.0730,
+        inner_diameter: 0.0546,
+    };
+    let mut piece = Piece::of(&SectionProperties::of(tube, tool.material, 1.0), 100.0).with_loss(0.01);
+    piece.friction = Some(WallFriction {
+        sliding: 300.0,
+        static_ratio: 1.3,
+        static_speed: 0.01,
+        radius: 0.0365,
+    });
+    tool.string = Some(StringDescription {
+        pieces: vec![
+            piece,
+            Piece {
+                friction: None,
+                ..piece
+            },
+        ],
+        drive: TopDrive::Controlled(SpeedController {
+            inertia: 50.0,
+            proportional: 200.0,
+            integral: 400.0,
+            torque_limit: 2000.0,
+        }),
+        hoist: Some(Hoist {
+            stiffness: 5e6,
+            response_time: 1.0,
+            fastest: 8e-3,
+            touch_down: 3e-3,
+            clearance: 10e-3,
+            feed: Feed::Weight,
+        }),
+        weight: 20e3,
+    });
+    tool.rock = RockLaw::DepthOfCut(DepthOfCut {
+        blades: 4,
+        specific_energy: 30e6,
+        cutter_inclination: 0.6,
+        wear_flat_force: 8670.0,
+        wear_flat_friction: 0.106,
+        wear_flat_travel: 1e-4,
+        weakening: Weakening { ratio: 1.3, rate: 3.0 },
+    });
+    for support in &mut tool.supports {
+        if support.location == Location::Top && support.body == Body::Guide {
+            support.directions.retain(|&direction| direction != Direction::U);
+        }
+    }
+    tool.outer.friction_law = FrictionLaw::Bristle;
+    tool.joint.friction.coefficient = 0.1;
+    tool.joint.play.half_angle = 4e-3;
+    tool.guide_free_curvature = Some(FreeCurvature {
+        curvature: 0.1,
+        phase: 0.0,
+    });
+    tool.mud = Some(MudDescription {
+        density: 1100.0,
+        viscosity: 0.02,
+        frequency: 4.0 / 3.0,
+        added_mass: AddedMass::Eccentric,
+        damping: MudDamping::Viscous,
+        film: MudFilm::Squeeze,
+    });
+    tool.pressure = Some(PressureDescription {
+        at_top: PressureSource::Constant(5e6),
+        drop_per_metre: 0.01,
+        end: PressureEnd::Sealed { diameter: 0.063 },
+        joint_seal_diameter: 0.062,
+    });
     tool
 }
 
@@ -137,19 +216,22 @@ fn with_bits<T: Serialize + DeserializeOwned>(original: &T, value: f64) -> Vec<(
 
 #[test]
 fn zero_and_negative_numbers_are_refused_or_work() {
-    let (tool, settings) = (with_everything(), SimulationSettings::default());
-    assert!(run(&tool, &settings).is_none());
-    let mut refused = 0;
-    for (field, value, changed) in changed(&tool, &[0.0, -1.0, 1e-300, 1e300]) {
-        let error = run(&changed, &settings);
-        refused += usize::from(matches!(error, Some(BuildError::Tool(_))));
-        println!(
-            "{field} = {value}: {}",
-            error.map_or("runs".into(), |error| error.to_string())
-        );
+    let settings = SimulationSettings::default();
+    for (tool, least) in [(with_everything(), 60), (below_a_string(), 120)] {
+        assert!(run(&tool, &settings).is_none());
+        let mut refused = 0;
+        for (field, value, changed) in changed(&tool, &[0.0, -1.0, 1e-300, 1e300]) {
+            let error = run(&changed, &settings);
+            refused += usize::from(matches!(error, Some(BuildError::Tool(_))));
+            println!(
+                "{field} = {value}: {}",
+                error.map_or("runs".into(), |error| error.to_string())
+            );
+        }
+        assert!(refused > least, "{refused}");
     }
-    assert!(refused > 60, "{refused}");
-    refused = 0;
+    let tool = with_everything();
+    let mut refused = 0;
     for (field, value, changed) in changed(&settings, &[0.0, -1.0, 1e-300, 1e300]) {
         let error = run(&tool, &changed);
         refused += usize::from(matches!(error, Some(BuildError::Settings(_))));
@@ -165,8 +247,11 @@ fn zero_and_negative_numbers_are_refused_or_work() {
 fn nan_and_infinity_are_refused_in_every_field() {
     let (tool, settings) = (with_everything(), SimulationSettings::default());
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let tools = with_bits(&tool, value);
+        let mut tools = with_bits(&tool, value);
         assert!(tools.len() > 50, "{}", tools.len());
+        let below = with_bits(&below_a_string(), value);
+        assert!(below.len() > tools.len() + 30, "{}", below.len());
+        tools.extend(below);
         for (field, changed) in tools {
             let error = changed.validate().expect_err(&field);
             // The error names the last part of the field's path, or one that is held against it.
@@ -191,6 +276,76 @@ fn nan_and_infinity_are_refused_in_every_field() {
             assert!(changed.validate(2).is_err(), "{field} = {value}");
             assert!(matches!(run(&tool, &changed), Some(BuildError::Settings(_))));
         }
+    }
+}
+
+/// A string, a hoist and a rock that do not go together, or need more memory than there is, are refused with what to change.
+#[test]
+fn strings_hoists_and_rocks_that_do_not_go_together_are_refused() {
+    type Change = fn(&mut ToolDescription);
+    let cases: [(Change, &str); 9] = [
+        (
+            |tool| tool.string = None,
+            "rock: DepthOfCut gives the weight on bit as a result",
+        ),
+        (
+            |tool| tool.rock = RockLaw::Paper,
+            "string.hoist: a hoist needs a rock that holds the bit",
+        ),
+        (
+            |tool| tool.drive_top = false,
+            "string: the string turns the first link; set drive_top to true",
+        ),
+        (
+            |tool| {
+                tool.supports.push(Support {
+                    location: Location::Top,
+                    body: Body::Guide,
+                    directions: vec![Direction::U],
+                });
+            },
+            "string.hoist: the hoist carries the guide's top along the hole",
+        ),
+        (
+            |tool| {
+                tool.supports.push(Support {
+                    location: Location::Top,
+                    body: Body::Pipe,
+                    directions: vec![Direction::Psi],
+                });
+            },
+            "psi of the driven node is held",
+        ),
+        (
+            |tool| tool.string.as_mut().unwrap().pieces.clear(),
+            "string.pieces = 0: must be 1 to 10000",
+        ),
+        (
+            |tool| {
+                let RockLaw::DepthOfCut(cut) = &mut tool.rock else {
+                    panic!()
+                };
+                cut.blades = u32::MAX;
+            },
+            "rock.blades = 4294967295: must be 1 to 1000",
+        ),
+        (
+            // A wave that would arrive within the step that sends it.
+            |tool| tool.string.as_mut().unwrap().pieces[1].axial.delay = 1e-4,
+            "string.pieces[1].axial.delay = 0.0001 s: must be",
+        ),
+        (
+            // 30 TB of waves under way.
+            |tool| tool.string.as_mut().unwrap().pieces[0].torsion.delay = 1e8,
+            "time_step = 0.0005 s: must be at least 4.00e2 s",
+        ),
+    ];
+    let whole = below_a_string();
+    for (change, expected) in cases {
+        let mut tool = whole.clone();
+        change(&mut tool);
+        let error = run(&tool, &SimulationSettings::default()).expect(expected).to_string();
+        assert!(error.contains(expected), "{error}\n{expected}");
     }
 }
 

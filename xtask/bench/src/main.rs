@@ -2,6 +2,7 @@
 
 mod document;
 mod memory;
+mod parts;
 mod physics;
 mod quality;
 mod scaling;
@@ -33,12 +34,21 @@ struct Measurements {
     #[arg(long, value_name = "DOCUMENT")]
     write: Option<PathBuf>,
     /// Model time after the static start (s) [default: 60 real-time, 10 scaling and physics, 3600 memory, 30 step-error and quality,
-    /// 40 truth].
+    /// 40 truth and rig-truth].
     #[arg(long)]
     duration: Option<f64>,
-    /// Runs per row of truth, which shows their mean and its error.
+    /// Runs per row of truth and rig-truth, which show their mean and its error.
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     runs: u32,
+    /// Folder in which truth and rig-truth keep every run that is done: the same command continues from there.
+    #[arg(long, value_name = "FOLDER")]
+    parts: Option<PathBuf>,
+    /// Only the first so many cases of truth and rig-truth.
+    #[arg(long, value_name = "N")]
+    first: Option<usize>,
+    /// Runs of truth and rig-truth at the same time, a thread each. The figures do not depend on it.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=64))]
+    jobs: u8,
     /// Rotary speed (r/min).
     #[arg(long, default_value_t = 40.0)]
     rpm: f64,
@@ -70,6 +80,8 @@ enum Cases {
     /// Statistics of the same tools with an eighth, a quarter, half of the step and all of it, over several runs each: an
     /// hour.
     Truth,
+    /// The same of a tool below a string, with what arrives at the bit; of config/rig.yaml unless another is named.
+    RigTruth,
     /// `model_quality` of the same tools, of others and of poor steps, against an eighth of the step: an hour.
     Quality,
     /// All of them.
@@ -83,6 +95,7 @@ impl Cases {
                 Self::RealTime,
                 Self::StepError,
                 Self::Truth,
+                Self::RigTruth,
                 Self::Quality,
                 Self::Scaling,
                 Self::Physics,
@@ -101,6 +114,7 @@ impl Cases {
             Self::Memory => "memory",
             Self::StepError => "step-error",
             Self::Truth => "truth",
+            Self::RigTruth => "rig-truth",
             Self::Quality => "quality",
             Self::All => "all",
         }
@@ -111,7 +125,7 @@ impl Cases {
         match self {
             Self::RealTime => 60.0,
             Self::StepError | Self::Quality => 30.0,
-            Self::Truth => 40.0,
+            Self::Truth | Self::RigTruth => 40.0,
             Self::Scaling | Self::Physics => 10.0,
             Self::Memory | Self::All => 3600.0,
         }
@@ -163,10 +177,13 @@ fn configurations(args: &Measurements) -> anyhow::Result<Vec<(String, Config)>> 
 /// Runs one set, and gives its section.
 fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> anyhow::Result<String> {
     let (name, config) = &configs[0];
-    let name = if case == Cases::Physics && args.configs.is_empty() {
-        "config/rig.yaml"
-    } else {
-        name
+    // Sets of the rig's tool have another configuration of their own.
+    let of_the_rig = matches!(case, Cases::Physics | Cases::RigTruth) && args.configs.is_empty();
+    let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
+    let rig = of_the_rig.then(|| load("config/rig.yaml")).transpose()?;
+    let (name, config) = match &rig {
+        Some(rig) => ("config/rig.yaml", rig),
+        None => (name.as_str(), config),
     };
     let duration = args.duration.unwrap_or_else(|| case.usual_duration());
     let constant = Load {
@@ -180,22 +197,30 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
             return Ok(real_time::section(name, duration, &tables));
         }
         Cases::StepError => step_error::tables(configs, args.rpm, duration)?,
-        Cases::Truth => truth::tables(config, args.rpm, duration, args.runs)?,
-        Cases::Quality => quality::tables(config, args.rpm, duration)?,
-        Cases::Physics => {
-            let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
-            let tool = if args.configs.is_empty() {
-                &load("config/rig.yaml")?
-            } else {
-                config
-            };
-            physics::tables(tool, &load("config/default.yaml")?, constant, duration)?
+        Cases::Truth | Cases::RigTruth => {
+            let of_the_rig = case == Cases::RigTruth;
+            truth::tables(&truth::Plan {
+                config,
+                rpm: args.rpm,
+                duration,
+                runs: args.runs,
+                steps: if of_the_rig { truth::RIG_STEPS } else { truth::STEPS },
+                with_transfer: of_the_rig,
+                first: args.first.unwrap_or(usize::MAX),
+                jobs: args.jobs.into(),
+                parts: args.parts.as_ref().map(|folder| folder.join(case.name())),
+            })?
         }
+        Cases::Quality => quality::tables(config, args.rpm, duration)?,
+        Cases::Physics => physics::tables(config, &load("config/default.yaml")?, constant, duration)?,
         Cases::Scaling => scaling::tables(config, constant, duration)?,
         Cases::Memory | Cases::All => memory::tables(config, constant, duration)?,
     };
     let runs = match case {
-        Cases::Truth => format!(" --runs {}", args.runs),
+        Cases::Truth | Cases::RigTruth => {
+            let first = args.first.map_or_else(String::new, |first| format!(" --first {first}"));
+            format!(" --runs {}{first}", args.runs)
+        }
         _ => String::new(),
     };
     Ok(format!(

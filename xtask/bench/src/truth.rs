@@ -1,14 +1,77 @@
-//! `--cases truth`: statistics of chaotic motion by step, each over several runs, with their scatter.
+//! `--cases truth` and `--cases rig-truth`: statistics of chaotic motion by step, each over several runs, with their
+//! scatter.
 
-use flexdrill_bench::cases::hard;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use flexdrill_bench::cases::{Case, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_core::motion::{BIT, KICK_OFF};
+use flexdrill_core::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
 use flexdrill_verify::step_error::{Motion, Record};
 
+use crate::parts::{Parts, Run};
+
 /// Steps over the configuration's, the finest first: the others are held against it.
-const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
+pub(crate) const STEPS: &[f64] = &[0.125, 0.25, 0.5, 1.0];
+
+/// Those of the rig's tool: what `auto` takes at the start, the whole step, and the truth.
+pub(crate) const RIG_STEPS: &[f64] = &[0.125, 0.5, 1.0];
+
+/// A figure of a run.
+struct Column {
+    head: &'static str,
+    decimals: usize,
+    of: fn(&Record) -> f64,
+    /// Whether a finer step has the same figure: what the step itself errs is none.
+    compares: bool,
+}
+
+const fn column(head: &'static str, decimals: usize, of: fn(&Record) -> f64) -> Column {
+    Column {
+        head,
+        decimals,
+        of,
+        compares: true,
+    }
+}
+
+/// Of every tool.
+const OF_MOTION: &[Column] = &[
+    column("ripple of the bit speed (rad/s)", 3, Record::ripple),
+    column("pipe-guide force (N)", 1, |record| record.force(0)),
+    column("guide-wall force (N)", 1, |record| record.force(1)),
+    column("whirl ratio", 3, |record| record.whirl_ratio),
+];
+
+/// Of a tool below a string.
+const OF_TRANSFER: &[Column] = &[
+    column("torque at the kick-off (N m)", 2, |record| record.torque[KICK_OFF]),
+    column("torque at the bit (N m)", 2, |record| record.torque[BIT]),
+    column("weight at the kick-off (kN)", 3, |record| {
+        n_to_kn(record.weight[KICK_OFF])
+    }),
+    column("weight at the bit (kN)", 3, |record| n_to_kn(record.weight[BIT])),
+];
+
+const SHARE: Column = Column {
+    head: "energy error share",
+    decimals: 2,
+    of: share,
+    compares: false,
+};
+
+/// Mean energy error share of what was judged.
+fn share(record: &Record) -> f64 {
+    let judged = record.qualities.iter().filter(|quality| quality.judged);
+    let (sum, count) = judged.fold((0.0, 0_u32), |(sum, count), quality| {
+        (sum + quality.energy_error_share, count + 1)
+    });
+    sum / f64::from(count.max(1))
+}
 
 /// Mean of several runs and its standard error.
 #[derive(Clone, Copy)]
@@ -44,86 +107,161 @@ impl Mean {
     }
 }
 
-/// Figures of one case with one step: ripple, forces, whirl ratio, energy error share.
-type Figures = [Mean; 5];
+/// What is run.
+#[derive(Debug)]
+pub(crate) struct Plan<'a> {
+    /// The tool.
+    pub config: &'a Config,
+    /// Speed (r/min).
+    pub rpm: f64,
+    /// Model time of a run (s).
+    pub duration: f64,
+    /// Runs per row.
+    pub runs: u32,
+    /// Steps over the configuration's, the finest first.
+    pub steps: &'static [f64],
+    /// With torque and weight from kick-off to bit.
+    pub with_transfer: bool,
+    /// Only so many of the cases.
+    pub first: usize,
+    /// Threads; the table does not depend on them.
+    pub jobs: usize,
+    /// Folder of the runs that are done.
+    pub parts: Option<PathBuf>,
+}
 
-const DECIMALS: [usize; 5] = [3, 1, 1, 3, 2];
+/// A run that is to be done.
+struct Task {
+    config: Config,
+    motion: Motion,
+    nudge: f64,
+    run: Run,
+}
 
-/// Runs every case with every step `runs` times; gives the table.
+/// Runs every case with every step several times; gives the table.
 ///
 /// # Errors
-/// When a tool cannot be built or a step fails.
-pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, runs: u32) -> anyhow::Result<String> {
-    let mut table = Table::new([
-        "case",
-        "step (ms)",
-        "ripple of the bit speed (rad/s)",
-        "pipe-guide force (N)",
-        "guide-wall force (N)",
-        "whirl ratio",
-        "energy error share",
-    ]);
-    for case in hard(config) {
-        let tool = (case.changes)(config)?;
-        let inputs = Inputs {
-            rotary_speed: rpm_to_rad_per_s(rpm),
-            weight_on_bit: kn_to_n(case.wob),
-            ..Inputs::default()
-        };
-        let whole = Motion::of(&tool, inputs, duration);
-        let mut fine: Option<Figures> = None;
-        for part in STEPS {
-            let step = part * tool.solver.time_step;
-            let config = tool.with_value("solver.time_step", step)?;
-            let figures = figures(&config, &whole, runs)?;
-            let cells = (0..5).map(|k| {
-                // The share is what the step itself errs, not a figure that a finer one has too.
-                let fine = fine.filter(|_| k < 4).map(|fine| fine[k]);
-                figures[k].text(fine, DECIMALS[k])
-            });
-            let row: Vec<String> = [case.name.to_owned(), format!("{}", 1e3 * step)]
-                .into_iter()
-                .chain(cells)
+/// When a tool cannot be built, a step fails, or a part cannot be written.
+pub(crate) fn tables(plan: &Plan<'_>) -> anyhow::Result<String> {
+    let mut columns: Vec<&Column> = OF_MOTION.iter().collect();
+    if plan.with_transfer {
+        columns.extend(OF_TRANSFER);
+    }
+    columns.push(&SHARE);
+    let cases = &hard(plan.config)[..plan.first.min(hard(plan.config).len())];
+    let figures = run_all(&tasks(plan, cases)?, &columns, plan)?;
+    let mut head = vec!["case", "step (ms)"];
+    head.extend(columns.iter().map(|column| column.head));
+    let mut table = Table::with_head(&head);
+    let mut rows = figures.chunks(plan.runs as usize);
+    for case in cases {
+        let mut fine: Option<Vec<Mean>> = None;
+        for part in plan.steps {
+            let runs = rows.next().unwrap_or_default();
+            let means: Vec<Mean> = (0..columns.len())
+                .map(|k| Mean::of(&runs.iter().map(|run| run[k]).collect::<Vec<_>>()))
                 .collect();
-            eprintln!("{}", row.join(" | "));
+            let mut row = vec![
+                case.name.to_owned(),
+                format!("{}", 1e3 * part * plan.config.solver.time_step),
+            ];
+            row.extend(columns.iter().enumerate().map(|(k, column)| {
+                let fine = fine.as_ref().filter(|_| column.compares).map(|fine| fine[k]);
+                means[k].text(fine, column.decimals)
+            }));
             table.cells(&row);
-            fine.get_or_insert(figures);
+            fine.get_or_insert(means);
         }
     }
+    let transfer = if plan.with_transfer {
+        " Torque and weight: means over sliding windows of `transfer.window`."
+    } else {
+        ""
+    };
     Ok(format!(
-        "{runs} runs of {duration} s from rest up to {rpm} r/min per row, which differ by 1 N of weight in the first 20 ms; statistics over the last three \
+        "{} runs of {} s from rest up to {} r/min per row, which differ by 1 N of weight in the first 20 ms; statistics over the last three \
         quarters: mean and standard error, in brackets the difference to the case's first row. Forces: root sum square over the layer's stations of their \
-        RMS. `solver.step: auto` takes half of the configuration's step, a quarter where the energy error share of half is 0.30 or more.\n\n{}",
+        RMS.{transfer} `solver.step: auto` takes half of the configuration's step, a quarter where the energy error share of half is 0.30 or more.\n\n{}",
+        plan.runs,
+        plan.duration,
+        plan.rpm,
         table.text()
     ))
 }
 
-fn figures(config: &Config, motion: &Motion, runs: u32) -> anyhow::Result<Figures> {
-    let mut values: [Vec<f64>; 5] = Default::default();
-    for run in 0..runs {
-        let record = Record::run(config, motion, f64::from(run))?;
-        let judged: Vec<f64> = record
-            .qualities
-            .iter()
-            .filter(|quality| quality.judged)
-            .map(|quality| quality.energy_error_share)
-            .collect();
-        let share = judged.iter().sum::<f64>() / judged.len().max(1) as f64;
-        let figures = [
-            record.ripple(),
-            record.force(0),
-            record.force(1),
-            record.whirl_ratio,
-            share,
-        ];
-        for (values, figure) in values.iter_mut().zip(figures) {
-            values.push(figure);
+/// All runs in the order of the table.
+fn tasks(plan: &Plan<'_>, cases: &[Case]) -> anyhow::Result<Vec<Task>> {
+    let mut tasks = Vec::new();
+    for (number, case) in cases.iter().enumerate() {
+        let tool = (case.changes)(plan.config)?;
+        let inputs = Inputs {
+            rotary_speed: rpm_to_rad_per_s(plan.rpm),
+            weight_on_bit: kn_to_n(case.wob),
+            ..Inputs::default()
+        };
+        // Intervals are those of the whole step.
+        let motion = Motion::of(&tool, inputs, plan.duration);
+        for (index, part) in plan.steps.iter().enumerate() {
+            let config = tool.with_value("solver.time_step", part * tool.solver.time_step)?;
+            for run in 0..plan.runs {
+                let nudge = f64::from(run);
+                tasks.push(Task {
+                    config: config.clone(),
+                    motion,
+                    nudge,
+                    run: Run {
+                        name: format!("{number}_{index}_{run}"),
+                        config: config.hash(),
+                        motion: format!("{motion:?}, {nudge} N"),
+                    },
+                });
+            }
         }
     }
-    Ok(values.map(|values| Mean::of(&values)))
+    Ok(tasks)
+}
+
+/// The figures of every task, from the folder where they are there.
+fn run_all(tasks: &[Task], columns: &[&Column], plan: &Plan<'_>) -> anyhow::Result<Vec<Vec<f64>>> {
+    let parts = plan.parts.as_deref().map(Parts::open).transpose()?;
+    let next = AtomicUsize::new(0);
+    let results: Mutex<Vec<Option<anyhow::Result<Vec<f64>>>>> = Mutex::new(tasks.iter().map(|_| None).collect());
+    let work = |task: &Task| {
+        if let Some(figures) = parts.as_ref().and_then(|parts| parts.read(&task.run)) {
+            return Ok(figures);
+        }
+        let record = Record::run(&task.config, &task.motion, task.nudge)?;
+        let figures: Vec<f64> = columns.iter().map(|column| (column.of)(&record)).collect();
+        eprintln!("{}: {figures:?}", task.run.name);
+        if let Some(parts) = &parts {
+            parts.write(&task.run, &figures)?;
+        }
+        Ok(figures)
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..plan.jobs.max(1) {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(task) = tasks.get(index) else { break };
+                    let result = work(task);
+                    if result.is_err() {
+                        // The others would be in vain.
+                        next.store(tasks.len(), Ordering::Relaxed);
+                    }
+                    let mut results = results.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                    results[index] = Some(result);
+                }
+            });
+        }
+    });
+    let results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    // Runs that did not take place are those after a failure, which is the result then.
+    results.into_iter().flatten().collect()
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 mod tests {
     use super::*;
 
@@ -136,5 +274,38 @@ mod tests {
         let exact = Mean { value: 2.0, error: 0.0 };
         assert_eq!(mean.text(Some(exact), 1), "2.5 ± 0.6 (+25.0 ± 32.3 %)");
         assert_eq!(Mean::of(&[7.0]).text(None, 2), "7.00 ± 0.00");
+    }
+
+    /// The same rows by one thread and by two, and from the parts of an earlier run.
+    #[test]
+    fn rows_do_not_depend_on_threads_or_interruptions() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/small.yaml");
+        let config = Config::load(file).unwrap();
+        let folder = std::env::temp_dir().join(format!("flexdrill_truth_{}", std::process::id()));
+        let table = |jobs: usize, parts: Option<PathBuf>| {
+            tables(&Plan {
+                config: &config,
+                rpm: 40.0,
+                duration: 0.1,
+                runs: 2,
+                steps: &[0.5, 1.0],
+                with_transfer: true,
+                first: 1,
+                jobs,
+                parts,
+            })
+            .unwrap()
+        };
+        let one = table(1, None);
+        assert_eq!(
+            one.lines().filter(|line| line.starts_with("| as it is")).count(),
+            2,
+            "{one}"
+        );
+        assert_eq!(table(2, Some(folder.clone())), one);
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 4);
+        std::fs::remove_file(folder.join("0_1_1.json")).unwrap();
+        assert_eq!(table(1, Some(folder.clone())), one);
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

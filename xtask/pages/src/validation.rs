@@ -7,10 +7,12 @@ use flexdrill_verify::{CASES, Row, VALIDATIONS, VerifyError, head};
 
 use crate::cell;
 
-/// A test of a law alone against a published figure: its name, package, and what its comment says.
+/// A test of a law alone against a published figure: its name, package and target, and what its comment says.
 struct OfLaw {
     name: String,
     package: String,
+    /// `--lib`, or `--test` with the name of a file in `tests/`.
+    target: String,
     comment: String,
 }
 
@@ -53,8 +55,8 @@ pub fn page() -> Result<String, VerifyError> {
     for law in of_laws() {
         let _ = write!(
             out,
-            "\n### {}\n{}\n\nCommand: `cargo test --release -p {} --lib {}`\n",
-            law.name, law.comment, law.package, law.name
+            "\n### {}\n{}\n\nCommand: `cargo test --release -p {} {} {}`\n",
+            law.name, law.comment, law.package, law.target, law.name
         );
     }
     out.push_str(
@@ -137,7 +139,7 @@ fn capital(text: &str) -> String {
         .unwrap_or_default()
 }
 
-/// The tests `val_*` in the sources of the crates, by file and line.
+/// The tests `val_*` in the sources of the crates and in their files `tests/val_*.rs`, by file and line.
 fn of_laws() -> Vec<OfLaw> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../crates");
     let mut found = Vec::new();
@@ -147,17 +149,27 @@ fn of_laws() -> Vec<OfLaw> {
             for path in sorted(&folder) {
                 if path.is_dir() {
                     folders.push(path);
-                } else if path.extension().is_some_and(|extension| extension == "rs") {
-                    let text = std::fs::read_to_string(&path).unwrap_or_default();
-                    tests_in(&text, &package, &mut found);
+                } else if is_rust(&path) {
+                    tests_in(&path, &package, "--lib", &mut found);
                 }
+            }
+        }
+        for path in sorted(&package.join("tests")) {
+            let file = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            if let Some(file) = file.filter(|file| file.starts_with("val_") && is_rust(&path)) {
+                tests_in(&path, &package, &format!("--test {file}"), &mut found);
             }
         }
     }
     found
 }
 
-fn tests_in(text: &str, package: &Path, found: &mut Vec<OfLaw>) {
+fn is_rust(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "rs")
+}
+
+fn tests_in(file: &Path, package: &Path, target: &str, found: &mut Vec<OfLaw>) {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
     let mut comment: Vec<&str> = Vec::new();
     for line in text.lines().map(str::trim) {
         if let Some(said) = line.strip_prefix("///") {
@@ -169,6 +181,7 @@ fn tests_in(text: &str, package: &Path, found: &mut Vec<OfLaw>) {
                     .file_name()
                     .map(|name| name.to_string_lossy().into_owned())
                     .unwrap_or_default(),
+                target: target.to_owned(),
                 comment: comment.join("\n"),
             });
         } else if !line.starts_with("#[") {

@@ -147,7 +147,7 @@ pub struct EnergyAudit {
     pub bit: f64,
     /// Energy taken by friction in both layers and in the joints' pins.
     pub friction: f64,
-    /// Part of it that the joints' pins took, by the mean of their power over each step.
+    /// Part of it that the joints' pins took.
     pub joint_friction: f64,
     /// Energy taken by the damping of contacts, joint stops and joints with play.
     pub contact_damping: f64,

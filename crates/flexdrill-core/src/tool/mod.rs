@@ -2,6 +2,7 @@
 
 pub(crate) mod description;
 mod paper;
+pub(crate) mod rig_validation;
 pub(crate) mod section;
 mod validation;
 pub(crate) mod well;

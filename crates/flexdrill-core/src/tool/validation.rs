@@ -36,6 +36,7 @@ impl ToolDescription {
         self.validate_mud()?;
         self.validate_supports()?;
         self.validate_weight_place()?;
+        self.validate_rig()?;
         self.validate_loads()?;
         self.validate_start()
     }

@@ -84,6 +84,9 @@ impl Simulation {
         settings
             .validate(tool.links * tool.elements_per_link)
             .map_err(BuildError::Settings)?;
+        if let Some(string) = &tool.string {
+            string.validate_step(settings.time_step).map_err(BuildError::Settings)?;
+        }
         let mut stepper = Stepper::new(
             tool,
             &StepperSettings {

@@ -4,6 +4,7 @@ use super::{NUDGES, StepErrorFailure};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::Transfer;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{ModelQuality, Simulation};
 use flexdrill_core::units::n_to_kn;
@@ -38,6 +39,27 @@ impl Motion {
     }
 }
 
+/// Sums of torque and weight at surface, kick-off and bit.
+#[derive(Debug, Default)]
+struct Transferred {
+    sums: [[f64; 3]; 2],
+    count: f64,
+}
+
+impl Transferred {
+    fn add(&mut self, transfer: &Transfer) {
+        for (sums, means) in self.sums.iter_mut().zip([&transfer.torque.mean, &transfer.weight.mean]) {
+            sums.iter_mut().zip(means).for_each(|(sum, mean)| *sum += mean);
+        }
+        self.count += 1.0;
+    }
+
+    /// Means of torque and weight; NaN without a window.
+    fn means(&self) -> [[f64; 3]; 2] {
+        self.sums.map(|sums| sums.map(|sum| sum / self.count))
+    }
+}
+
 /// What is compared, sampled at the end of every interval. Stations of the layers: all of pipe-guide, then all of
 /// guide-wall.
 #[derive(Debug, Clone, Default)]
@@ -52,6 +74,11 @@ pub struct Record {
     pub rms: Vec<f64>,
     /// Mean whirl ratio over time and stations, after the run-up.
     pub whirl_ratio: f64,
+    /// Mean torque at surface, kick-off and bit (N m) after the run-up, over the sliding windows of the simulation's
+    /// transfer that lie behind it. NaN where the tool has none, or where no window fits.
+    pub torque: [f64; 3],
+    /// Mean weight at surface, kick-off and bit (N) over the same windows.
+    pub weight: [f64; 3],
     /// Energy that the integration has gained or lost (J).
     pub energy_error: f64,
     /// Work of the drive (J).
@@ -83,6 +110,8 @@ impl Record {
         };
         let mut snapshot = simulation.new_snapshot();
         let mut ratios = (0.0, 0_u32);
+        let mut transfer = Transferred::default();
+        let first_window = 0.25 * motion.duration + simulation.settings().transfer.window;
         for interval in 0..intervals {
             let run_up = 4 * interval < intervals;
             let mut mean = vec![0.0; gaps];
@@ -112,8 +141,12 @@ impl Record {
                 for ratio in snapshot.whirl.whirl_ratio.iter().filter(|ratio| ratio.is_finite()) {
                     ratios = (ratios.0 + ratio, ratios.1 + 1);
                 }
+                if simulation.time() >= first_window {
+                    transfer.add(&snapshot.transfer);
+                }
             }
         }
+        [record.torque, record.weight] = transfer.means();
         record.whirl_ratio = ratios.0 / f64::from(ratios.1.max(1));
         record.rms.iter_mut().for_each(|square| *square = square.sqrt());
         record.energy_error = simulation.energy().error;

@@ -81,6 +81,8 @@ pub struct EnergyPoint {
     pub(crate) contact_dissipation: f64,
     /// Power taken by the pins of each joint (W); of joints with friction only.
     pub(crate) joint_friction: Vec<f64>,
+    /// Moments of the pins' friction on the six rotations of each joint (N m), which are in `friction` too.
+    pub(crate) joint_moments: Vec<[f64; 6]>,
     /// Torque of the drive (N m).
     pub drive_torque: f64,
     bit_torque: f64,
@@ -105,6 +107,11 @@ pub struct EnergyPoint {
 impl EnergyPoint {
     /// Room for `model` in a numbering of so many unknowns; a chain has so many `spans`, all stations have none.
     pub fn new(model: &Model, unknowns: usize, spans: usize) -> Self {
+        let rubbing_joints = if model.description.joint.friction.coefficient > 0.0 {
+            model.joints.len()
+        } else {
+            0
+        };
         Self {
             friction: vec![0.0; unknowns],
             geometric: vec![0.0; unknowns],
@@ -124,14 +131,8 @@ impl EnergyPoint {
             geometric_energy: 0.0,
             foresight: 0.0,
             contact_dissipation: 0.0,
-            joint_friction: vec![
-                0.0;
-                if model.description.joint.friction.coefficient > 0.0 {
-                    model.joints.len()
-                } else {
-                    0
-                }
-            ],
+            joint_friction: vec![0.0; rubbing_joints],
+            joint_moments: vec![[0.0; 6]; rubbing_joints],
             drive_torque: 0.0,
             bit_torque: 0.0,
             weight_on_bit: 0.0,
@@ -160,6 +161,7 @@ impl EnergyPoint {
             && self.loads.len() == other.loads.len()
             && self.reactions.len() == other.reactions.len()
             && self.joint_friction.len() == other.joint_friction.len()
+            && self.joint_moments.len() == other.joint_moments.len()
     }
 
     /// Takes another point's values without allocating.
@@ -176,6 +178,7 @@ impl EnergyPoint {
         self.loads.copy_from_slice(&other.loads);
         self.reactions.copy_from_slice(&other.reactions);
         self.joint_friction.copy_from_slice(&other.joint_friction);
+        self.joint_moments.copy_from_slice(&other.joint_moments);
         let Self {
             stored,
             kinetic,
@@ -319,9 +322,13 @@ impl EnergyPoint {
             stored += play.energy;
             self.contact_dissipation += play.dissipation;
         }
-        let of_joints = self.joint_friction.iter_mut().zip(&places.joints);
-        for ((power, joint), (moments, taken)) in of_joints.zip(interactions.joints.frictions()) {
-            *power = taken;
+        let of_joints = self
+            .joint_friction
+            .iter_mut()
+            .zip(&mut self.joint_moments)
+            .zip(&places.joints);
+        for (((power, kept), joint), (moments, taken)) in of_joints.zip(interactions.joints.frictions()) {
+            (*power, *kept) = (taken, moments);
             let rotations = (joint.above..joint.above + 3).chain(joint.below..joint.below + 3);
             rotations
                 .zip(moments)

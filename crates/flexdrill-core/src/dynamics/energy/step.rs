@@ -138,8 +138,15 @@ impl EnergyAudit {
         let feed = h * mean(e0.feed, e1.feed);
         self.feed += feed;
         self.friction += (feed - (e1.bristles - e0.bristles)) - friction;
-        let of_joints = |point: &EnergyPoint| point.joint_friction.iter().sum::<f64>();
-        self.joint_friction += h * mean(of_joints(e0), of_joints(e1));
+        // By the same rule as `friction`, of which it is a part: the mean of the pins' power differs by what the joint's
+        // swing turns within the step.
+        for ((m0, m1), joint) in e0.joint_moments.iter().zip(&e1.joint_moments).zip(&places.joints) {
+            let rotations = (joint.above..joint.above + 3).chain(joint.below..joint.below + 3);
+            let work = rotations
+                .zip(m0.iter().zip(m1))
+                .map(|(at, (m0, m1))| moved[at] * (m0 + m1));
+            self.joint_friction -= 0.5 * work.sum::<f64>();
+        }
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
         self.gravity += gravity;
         for (point, places) in model.masses.iter().zip(&places.masses) {

@@ -9,12 +9,11 @@ use super::friction::WallFriction;
 use super::history::{History, Mark};
 use super::hoist::{Hoist, HoistState};
 use super::top_drive::{DriveState, TopDrive};
+use crate::tool::rig_validation::ROWS_PER_STEP;
 use crate::tool::section::SectionProperties;
 
 /// Waves per piece: torsional down and up, axial down and up.
 const WAVES: usize = 4;
-/// Rows of the history per step: finer parts of a step do not get a row of their own.
-const ROWS_PER_STEP: f64 = 8.0;
 
 /// Waves of one kind in a piece.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

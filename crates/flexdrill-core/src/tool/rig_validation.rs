@@ -1,0 +1,168 @@
+//! What the string above the tool, its drive and hoist, and the rock must satisfy.
+
+use super::description::{Body, Direction, Location, ToolDescription, WeightPlace};
+use super::{DepthOfCut, Hoist, Piece, RockLaw, SpeedController, StringDescription, TopDrive, WallFriction, Weakening};
+use crate::validation::{Bound, ValidationError, count, require};
+
+/// Most pieces: one for each 50 m of the longest wells, over thirty times.
+const MOST_PIECES: usize = 10_000;
+/// Most blades, each with 2048 points of the hole's bottom.
+const MOST_BLADES: usize = 1000;
+/// Most rows that the waves of all pieces need while they travel, of 72 bytes each: 150 MB. 15 km of pipe need 75,000 in
+/// steps of 0.5 ms.
+const MOST_ROWS: f64 = 2e6;
+/// Rows of waves per step: finer parts of a step do not get a row of their own.
+pub(crate) const ROWS_PER_STEP: f64 = 8.0;
+
+type Checked = Result<(), ValidationError>;
+
+impl ToolDescription {
+    pub(super) fn validate_rig(&self) -> Checked {
+        match &self.rock {
+            RockLaw::Paper => {}
+            RockLaw::Weakening(weakening) => weakening.validate("rock")?,
+            RockLaw::DepthOfCut(cut) => cut.validate()?,
+        }
+        let hoist = self.string.as_ref().and_then(|string| string.hoist);
+        let cuts = matches!(self.rock, RockLaw::DepthOfCut(_));
+        require(
+            cuts || hoist.is_none(),
+            "string.hoist",
+            "a hoist needs a rock that holds the bit; leave the hoist out or set rock to DepthOfCut",
+        )?;
+        require(
+            !cuts || hoist.is_some(),
+            "rock",
+            "DepthOfCut gives the weight on bit as a result, so that the top of the tool must be able to move along the hole; \
+             give string.hoist or another law",
+        )?;
+        let Some(string) = &self.string else {
+            return Ok(());
+        };
+        string.validate()?;
+        require(
+            self.drive_top,
+            "string",
+            "the string turns the first link; set drive_top to true or leave the string out",
+        )?;
+        let holds_top = self.supports.iter().any(|support| {
+            let at_top = matches!(support.location, Location::Top | Location::All | Location::Station(0));
+            at_top && support.body == Body::Guide && support.directions.contains(&Direction::U)
+        });
+        require(
+            hoist.is_none() || (!holds_top && !self.guide_fixed),
+            "string.hoist",
+            "the hoist carries the guide's top along the hole; let no support hold u of the guide there, and set guide_fixed \
+             to false",
+        )?;
+        require(
+            hoist.is_none() || self.weight_place == WeightPlace::Bit,
+            "weight_place",
+            "the hoist holds the weight at the surface, and the rock gives that at the bit; set weight_place to bit",
+        )
+    }
+}
+
+impl StringDescription {
+    fn validate(&self) -> Checked {
+        count("string.pieces", self.pieces.len(), 1, MOST_PIECES)?;
+        for (index, piece) in self.pieces.iter().enumerate() {
+            piece.validate(&format!("string.pieces[{index}]"))?;
+        }
+        if let TopDrive::Controlled(controller) = &self.drive {
+            controller.validate()?;
+        }
+        if let Some(hoist) = &self.hoist {
+            hoist.validate()?;
+        }
+        Bound::Finite.check("string.weight", self.weight, "N")
+    }
+
+    /// Checks the times of travel against the step (s): waves are read from the past only, and are kept while they travel.
+    ///
+    /// # Errors
+    /// When a wave travels through a piece in less than a step, or so many steps that they need too much memory.
+    pub(crate) fn validate_step(&self, time_step: f64) -> Checked {
+        let mut longest = 0.0;
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let axial = self.hoist.map(|_| ("axial", piece.axial.delay));
+            for (kind, delay) in [("torsion", piece.torsion.delay)].into_iter().chain(axial) {
+                let field = format!("string.pieces[{index}].{kind}.delay");
+                Bound::Within(time_step, f64::MAX).check(&field, delay, "s")?;
+            }
+            longest += piece.torsion.delay.max(piece.axial.delay);
+        }
+        let shortest = longest * ROWS_PER_STEP / MOST_ROWS;
+        if time_step >= shortest {
+            return Ok(());
+        }
+        Err(ValidationError::Value {
+            field: "time_step".to_owned(),
+            value: time_step,
+            unit: "s",
+            bound: format!("at least {shortest:.2e} s: the waves in string.pieces are kept while they travel"),
+        })
+    }
+}
+
+impl Piece {
+    fn validate(&self, under: &str) -> Checked {
+        Bound::Positive.check(&format!("{under}.length"), self.length, "m")?;
+        for (kind, wave, unit) in [("torsion", self.torsion, "N m s"), ("axial", self.axial, "N s/m")] {
+            let field = |name: &str| format!("{under}.{kind}.{name}");
+            Bound::Positive.check(&field("impedance"), wave.impedance, unit)?;
+            Bound::Positive.check(&field("delay"), wave.delay, "s")?;
+            Bound::NotNegative.check(&field("drag"), wave.drag, unit)?;
+        }
+        self.friction
+            .map_or(Ok(()), |friction| friction.validate(&format!("{under}.friction")))
+    }
+}
+
+impl WallFriction {
+    fn validate(&self, under: &str) -> Checked {
+        let field = |name: &str| format!("{under}.{name}");
+        Bound::NotNegative.check(&field("sliding"), self.sliding, "N")?;
+        Bound::Within(1.0, f64::MAX).check(&field("static_ratio"), self.static_ratio, "")?;
+        Bound::NotNegative.check(&field("static_speed"), self.static_speed, "m/s")?;
+        Bound::Positive.check(&field("radius"), self.radius, "m")
+    }
+}
+
+impl SpeedController {
+    fn validate(&self) -> Checked {
+        Bound::Positive.check("string.drive.inertia", self.inertia, "kg m2")?;
+        Bound::NotNegative.check("string.drive.proportional", self.proportional, "N m s")?;
+        Bound::NotNegative.check("string.drive.integral", self.integral, "N m")?;
+        Bound::Positive.check("string.drive.torque_limit", self.torque_limit, "N m")
+    }
+}
+
+impl Hoist {
+    fn validate(&self) -> Checked {
+        Bound::Positive.check("string.hoist.stiffness", self.stiffness, "N/m")?;
+        Bound::Positive.check("string.hoist.response_time", self.response_time, "s")?;
+        Bound::Positive.check("string.hoist.fastest", self.fastest, "m/s")?;
+        Bound::Above(0.0, self.fastest).check("string.hoist.touch_down", self.touch_down, "m/s")?;
+        Bound::NotNegative.check("string.hoist.clearance", self.clearance, "m")
+    }
+}
+
+impl Weakening {
+    fn validate(&self, under: &str) -> Checked {
+        Bound::Within(1.0, f64::MAX).check(&format!("{under}.ratio"), self.ratio, "")?;
+        Bound::Positive.check(&format!("{under}.rate"), self.rate, "rad/s")
+    }
+}
+
+impl DepthOfCut {
+    fn validate(&self) -> Checked {
+        count("rock.blades", self.blades as usize, 1, MOST_BLADES)?;
+        Bound::Positive.check("rock.specific_energy", self.specific_energy, "Pa")?;
+        Bound::Positive.check("rock.cutter_inclination", self.cutter_inclination, "")?;
+        Bound::NotNegative.check("rock.wear_flat_force", self.wear_flat_force, "N")?;
+        Bound::NotNegative.check("rock.wear_flat_friction", self.wear_flat_friction, "")?;
+        Bound::Positive.check("rock.wear_flat_travel", self.wear_flat_travel, "m")?;
+        self.weakening.validate("rock.weakening")
+    }
+}
