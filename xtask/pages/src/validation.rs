@@ -11,7 +11,7 @@ use crate::cell;
 struct OfLaw {
     name: String,
     package: String,
-    /// `--lib`, or `--test` with the name of a file in `tests/`.
+    /// `--lib` with the name of the test, or `--test` with the name of a file in `tests/`.
     target: String,
     comment: String,
 }
@@ -55,8 +55,8 @@ pub fn page() -> Result<String, VerifyError> {
     for law in of_laws() {
         let _ = write!(
             out,
-            "\n### {}\n{}\n\nCommand: `cargo test --release -p {} {} {}`\n",
-            law.name, law.comment, law.package, law.target, law.name
+            "\n### {}\n{}\n\nCommand: `cargo test --release -p {} {}`\n",
+            law.name, law.comment, law.package, law.target
         );
     }
     out.push_str(
@@ -150,14 +150,14 @@ fn of_laws() -> Vec<OfLaw> {
                 if path.is_dir() {
                     folders.push(path);
                 } else if is_rust(&path) {
-                    tests_in(&path, &package, "--lib", &mut found);
+                    tests_in(&path, &package, None, &mut found);
                 }
             }
         }
         for path in sorted(&package.join("tests")) {
             let file = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             if let Some(file) = file.filter(|file| file.starts_with("val_") && is_rust(&path)) {
-                tests_in(&path, &package, &format!("--test {file}"), &mut found);
+                tests_in(&path, &package, Some(&file), &mut found);
             }
         }
     }
@@ -168,7 +168,8 @@ fn is_rust(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "rs")
 }
 
-fn tests_in(file: &Path, package: &Path, target: &str, found: &mut Vec<OfLaw>) {
+/// The tests in a source of `package`, `alone` in a binary of that name or in the library's.
+fn tests_in(file: &Path, package: &Path, alone: Option<&str>, found: &mut Vec<OfLaw>) {
     let text = std::fs::read_to_string(file).unwrap_or_default();
     let mut comment: Vec<&str> = Vec::new();
     for line in text.lines().map(str::trim) {
@@ -181,7 +182,7 @@ fn tests_in(file: &Path, package: &Path, target: &str, found: &mut Vec<OfLaw>) {
                     .file_name()
                     .map(|name| name.to_string_lossy().into_owned())
                     .unwrap_or_default(),
-                target: target.to_owned(),
+                target: alone.map_or_else(|| format!("--lib val_{name}"), |file| format!("--test {file}")),
                 comment: comment.join("\n"),
             });
         } else if !line.starts_with("#[") {

@@ -289,15 +289,16 @@ fn the_energy_of_drive_friction_and_rotor_closes() {
     assert!(error.abs() < 2e-3 * moved, "{error} J of {moved} J");
 }
 
-/// Aarsnes and Shor: break-off torque, wind-up and stick-slip of a string whose hole builds from 0 to 60 degrees between
-/// two depths, without a bit's torque. From the source's formulas: integral of mu sin(inc) rho g A r, 15.30 and 9.64 kN m,
-/// and its twist, 20.60 and 15.14 rad; held to 1 %, the printed digits and the hundred lumps. The source's period is that of
-/// a string that breaks loose and stops as one body, 2 (1 - f) twist / Omega + free period, 7.86 and 6.95 s; held to -15 to
-/// 0 %, since a front that breaks loose needs time to travel and the string begins to wind up before all of it stands. The
-/// whole string stands only where friction stays static up to a speed that it passes in every swing, here 0.3 m/s; the
-/// source's own speed is not known to us, and with 0.01 m/s the lower part keeps turning at the free period of 4.4 s. The
-/// source's amplitude, 2 (1 - f) of the break-off torque, 10.71 and 6.75 kN m from crest to trough at the drive, is a bound
-/// from below: ours is 1.3 to 2 times that, because the wave of the part that breaks loose last adds to it.
+/// Aarsnes and Shor: break-off torque, wind-up and stick-slip of a string whose hole builds from 0 to 60 degrees
+/// between two depths, without a bit's torque. From the source's formulas: integral of mu sin(inc) rho g A r, 15.30
+/// and 9.64 kN m, and its twist, 20.60 and 15.14 rad; held to 1 %, the printed digits and the hundred lumps. The
+/// source's period is that of a string that breaks loose and stops as one body, 2 (1 - f) twist / Omega + free
+/// period, 7.86 and 6.95 s; held to -15 to 0 %, since the string begins to wind up before all of it stands: ours is 4
+/// and 5 % shorter. The whole string stands in every swing only where friction is static up to more than the 0.31 m/s
+/// at which the drive turns it, here 0.4 m/s. The source's own speed is not known to us; with 0.01 m/s the lower part
+/// turns on and swings at the free period of 4.4 s. The source's amplitude at the drive, 2 (1 - f) of the break-off
+/// torque from crest to trough, 10.71 and 6.75 kN m, is not held but a bound from below: ours is 1.6 and 1.8 times
+/// that, because a distributed string breaks loose from the top down and overshoots.
 #[test]
 fn val_break_off_under_distributed_friction() {
     for (from, to, expected_torque, expected_twist) in
@@ -312,7 +313,7 @@ fn val_break_off_under_distributed_friction() {
             Some(WallFriction {
                 sliding: ratio * mu * normal,
                 static_ratio: 1.0 / ratio,
-                static_speed: 0.3,
+                static_speed: 0.4,
                 radius,
             })
         };
@@ -335,8 +336,8 @@ fn val_break_off_under_distributed_friction() {
             torque_limit: 1e6,
         });
         let mut end = Rotor::new(string(pieces, drive), 0.0);
-        // The torque at the drive swings about that of sliding. A swing begins where it has fallen below by a fifth of the
-        // break-off torque and rises above by as much.
+        // The torque at the drive swings about that of sliding. A swing begins where it has fallen below that by a fifth
+        // of the break-off torque and then rises above it by as much.
         let (middle, band) = (ratio * expected_torque, 0.2 * expected_torque);
         let (mut is_high, mut swings) = (true, Vec::new());
         let (mut low, mut high) = (f64::MAX, f64::MIN);
@@ -352,7 +353,7 @@ fn val_break_off_under_distributed_friction() {
             }
             is_high = torque > middle + band || (is_high && torque > middle - band);
         }
-        assert!(swings.len() > 8, "{swings:?}");
+        assert!(swings.len() > 6, "{swings:?}");
         let period = (swings[swings.len() - 1] - swings[0]) / (swings.len() - 1) as f64;
         let published = 2.0 * (1.0 - ratio) * expected_twist / speed + 4.42;
         let amplitude = (high - low) / (2.0 * (1.0 - ratio) * expected_torque);
