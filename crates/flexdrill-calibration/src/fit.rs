@@ -1,0 +1,251 @@
+//! From windows and surrogates to estimates.
+
+use nalgebra::DMatrix;
+
+use crate::identify::{CombinedPair, Estimate, identify};
+use crate::noise::{ErrorSource, covariance};
+use crate::smoother::{SmootherSettings, smooth};
+use crate::surrogate::Surrogate;
+use crate::unknown::Unknown;
+use crate::windows::{Channel, Motion, Windows};
+use crate::{BAND, CalibrationError};
+
+/// Standardised value up to which the twin is run on both sides of the prior's median: 98.8 % of the prior.
+pub const DESIGN: f64 = 2.5;
+/// Mean square of the standardised residuals above which the twin does not explain the log: twice the stated error.
+pub const EXPLAINS: f64 = 4.0;
+
+/// A measured quantity that the twin predicts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// What is measured.
+    pub channel: Channel,
+    /// In which state of motion.
+    pub motion: Motion,
+    /// The twin's figure: inputs are the standardised modelled unknowns, then speed (rad/s) and, while drilling, weight (N).
+    pub surrogate: Surrogate,
+    /// The unknown that is added to the twin's figure: the tare of the sensor.
+    pub tare: Option<usize>,
+}
+
+/// A window's mean of a quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observation {
+    /// Number of the quantity.
+    pub quantity: usize,
+    /// Number of the window.
+    pub window: usize,
+    /// Middle of the window (s from the beginning of the log).
+    pub time: f64,
+    /// Speed (rad/s) and, while drilling, weight (N).
+    pub load: Vec<f64>,
+    /// Mean.
+    pub value: f64,
+    /// Standard deviation of the mean.
+    pub scatter: f64,
+}
+
+/// Everything that is fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// The unknowns; those that the twin's runs depend on come first.
+    pub unknowns: Vec<Unknown>,
+    /// Number of unknowns that the twin's runs depend on.
+    pub modelled: usize,
+    /// Quantities.
+    pub quantities: Vec<Quantity>,
+    /// Standard deviation of each channel's drift after an hour, in the order of [`Channel::ALL`].
+    pub drift: [f64; 4],
+    /// Ranges of speed and weight in which the surrogates were fitted.
+    pub loads: [[f64; 2]; 2],
+    /// What was observed.
+    pub observations: Vec<Observation>,
+}
+
+/// How an observation is explained.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Explained {
+    /// Prediction with all unknowns at the medians of their priors.
+    pub prior: f64,
+    /// Mean prediction of the posterior.
+    pub predicted: f64,
+    /// Half of the width of the 90 % band of a measurement of this window.
+    pub band: f64,
+    /// Measured less predicted over its standard deviation.
+    pub standardised: f64,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Per unknown.
+    pub estimates: Vec<Estimate>,
+    /// Pairs of which one combination is known only.
+    pub pairs: Vec<CombinedPair>,
+    /// Per observation.
+    pub explained: Vec<Explained>,
+    /// Mean square of the standardised residuals: about 1 or less where the twin explains the log.
+    pub misfit: f64,
+    /// The posterior ensemble of standardised unknowns, one column per member.
+    pub posterior: DMatrix<f64>,
+}
+
+impl Outcome {
+    /// Whether the twin explains the log within the stated errors.
+    pub fn explains(&self) -> bool {
+        self.misfit <= EXPLAINS
+    }
+}
+
+/// Why a channel is not used although it was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// No steady time off bottom: an offset of the torque sensor cannot be told from friction and rock.
+    NoOffBottomTorque,
+}
+
+impl Refusal {
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::NoOffBottomTorque => {
+                "the log has no steady time off bottom with rotation, so the tare of the surface torque is not known: an \
+                 offset of the sensor looks like friction or rock. Rotate off bottom for a minute, at the speed of drilling"
+            }
+        }
+    }
+}
+
+/// Channels that are refused although drilling windows have them.
+pub fn refusals(windows: &Windows) -> Vec<(Channel, Refusal)> {
+    let channel = Channel::SurfaceTorque;
+    let drilled = windows.having(Motion::Drilling, channel).next().is_some();
+    let tared = windows.having(Motion::OffBottom, channel).next().is_some();
+    if drilled && !tared {
+        vec![(channel, Refusal::NoOffBottomTorque)]
+    } else {
+        Vec::new()
+    }
+}
+
+/// The observations of all windows, without channels that are refused.
+pub fn observations(windows: &Windows, quantities: &[Quantity]) -> Vec<Observation> {
+    let refused = refusals(windows);
+    let mut all = Vec::new();
+    for (index, window) in windows.steady.iter().enumerate() {
+        for (number, quantity) in quantities.iter().enumerate() {
+            if quantity.motion != window.motion || refused.iter().any(|(channel, _)| *channel == quantity.channel) {
+                continue;
+            }
+            if let Some(mean) = window.measured[quantity.channel as usize] {
+                all.push(Observation {
+                    quantity: number,
+                    window: index,
+                    time: 0.5 * (window.span[0] + window.span[1]),
+                    load: load(window.motion, window.rotary_speed, window.weight),
+                    value: mean.value,
+                    scatter: mean.scatter,
+                });
+            }
+        }
+    }
+    all
+}
+
+/// The loads that a surrogate of a state of motion has as inputs.
+pub fn load(motion: Motion, rotary_speed: f64, weight: f64) -> Vec<f64> {
+    match motion {
+        Motion::OffBottom => vec![rotary_speed.abs()],
+        Motion::Drilling => vec![rotary_speed.abs(), weight],
+    }
+}
+
+impl Problem {
+    /// The predictions of all observations from standardised unknowns.
+    pub fn predict(&self, z: &[f64]) -> Vec<f64> {
+        self.observations
+            .iter()
+            .map(|observation| {
+                let quantity = &self.quantities[observation.quantity];
+                let mut inputs = z[..self.modelled].to_vec();
+                inputs.extend(&observation.load);
+                let tare = quantity.tare.map_or(0.0, |tare| self.unknowns[tare].value(z[tare]));
+                quantity.surrogate.predict(&inputs) + tare
+            })
+            .collect()
+    }
+
+    /// The covariance of the errors of all observations.
+    ///
+    /// # Errors
+    /// When a number of an observation cannot be.
+    pub fn covariance(&self) -> Result<DMatrix<f64>, CalibrationError> {
+        let sources: Vec<ErrorSource> = self
+            .observations
+            .iter()
+            .map(|observation| {
+                let quantity = &self.quantities[observation.quantity];
+                let scaled = observation
+                    .load
+                    .iter()
+                    .zip(self.loads)
+                    .map(|(value, [low, high])| (value - low) / (high - low).max(f64::MIN_POSITIVE));
+                ErrorSource {
+                    sensor: quantity.channel as usize,
+                    surrogate: observation.quantity,
+                    time: observation.time.max(0.0),
+                    scatter: observation.scatter,
+                    model: quantity.surrogate.error,
+                    drift_in_an_hour: self.drift[quantity.channel as usize],
+                    load: scaled.collect(),
+                }
+            })
+            .collect();
+        covariance(&sources)
+    }
+
+    /// Fits the unknowns to the observations.
+    ///
+    /// # Errors
+    /// When nothing was observed, or a number cannot be.
+    pub fn fit(&self, settings: &SmootherSettings) -> Result<Outcome, CalibrationError> {
+        if self.observations.is_empty() {
+            return Err(CalibrationError::NothingObserved);
+        }
+        let observed: Vec<f64> = self.observations.iter().map(|observation| observation.value).collect();
+        let errors = self.covariance()?;
+        let posterior = smooth(self.unknowns.len(), &observed, &errors, settings, |z| self.predict(z))?;
+        let (estimates, pairs) = identify(&self.unknowns, &posterior);
+        let prior = self.predict(&vec![0.0; self.unknowns.len()]);
+        let members: Vec<Vec<f64>> = posterior
+            .column_iter()
+            .map(|member| self.predict(&member.iter().copied().collect::<Vec<_>>()))
+            .collect();
+        let count = members.len() as f64;
+        let explained: Vec<Explained> = (0..observed.len())
+            .map(|k| {
+                let predicted = members.iter().map(|member| member[k]).sum::<f64>() / count;
+                let spread = members
+                    .iter()
+                    .map(|member| (member[k] - predicted).powi(2))
+                    .sum::<f64>()
+                    / count;
+                let deviation = (spread + errors[(k, k)]).sqrt();
+                Explained {
+                    prior: prior[k],
+                    predicted,
+                    band: BAND * deviation,
+                    standardised: (observed[k] - predicted) / deviation,
+                }
+            })
+            .collect();
+        let squares: f64 = explained.iter().map(|explained| explained.standardised.powi(2)).sum();
+        Ok(Outcome {
+            estimates,
+            pairs,
+            misfit: squares / observed.len() as f64,
+            explained,
+            posterior,
+        })
+    }
+}
