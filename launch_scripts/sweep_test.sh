@@ -121,7 +121,7 @@ compare() {
 }
 
 slurm() {
-    mkdir -p "$work/slurm_state" "$work/spool1" "$work/spool2"
+    mkdir -p "$work/slurm_state"
     (umask 077 && head -c 128 /dev/urandom >"$work/munge.key")
     munged --key-file="$work/munge.key" --socket="$work/munge.socket" --pid-file="$work/munge.pid" \
         --log-file="$work/munge.log" --seed-file="$work/munge.seed"

@@ -111,7 +111,7 @@ fn of_start(map: &Map, number: usize, start: Start) -> Panel {
     for (expected, name, color) in [(false, "clear", CLEAR), (true, "alarm", ALARM)] {
         panel = cells(panel, map, name, color, |cell| {
             let of = cell.starts.get(number)?;
-            (of.expected == expected && !(of.is_unknown() && !expected)).then_some(of.confidence >= SURE)
+            (of.expected == expected && (expected || !of.is_unknown())).then_some(of.confidence >= SURE)
         });
     }
     panel = cells(panel, map, "unknown", UNKNOWN, |cell| {

@@ -141,8 +141,11 @@ const fn state(of: &OfStart) -> &'static str {
     }
 }
 
+/// Name of a column in SI, and the conversion from the axis's unit.
+type Converted = (&'static str, fn(f64) -> f64);
+
 /// A quantity in SI: its column's name, and the factor from the axis's unit.
-fn in_si(axis: &Axis) -> Option<(&'static str, fn(f64) -> f64)> {
+fn in_si(axis: &Axis) -> Option<Converted> {
     match axis.key.as_str() {
         ROTARY_SPEED => Some(("rotary_speed_rad_per_s", rpm_to_rad_per_s)),
         WEIGHT_ON_BIT => Some(("weight_on_bit_n", kn_to_n)),

@@ -223,7 +223,7 @@ fn maps_of_other_keys_are_made_and_wrong_axes_are_refused() {
                 "--out",
             ][..],
             1,
-            "inputs.rotary_speed.initial_rpm = 130 r/min",
+            "inputs.rotary_speed.initial_rpm = 120.9",
         ),
         (
             &[
@@ -236,7 +236,7 @@ fn maps_of_other_keys_are_made_and_wrong_axes_are_refused() {
                 "--out",
             ],
             1,
-            "inputs.weight_on_bit.initial_kn = 90 kN",
+            "inputs.weight_on_bit.initial_kn = 60.3",
         ),
         (
             &[

@@ -325,7 +325,11 @@ impl Spec {
             let values = along(values).unwrap_or_default();
             rows = rows
                 .iter()
-                .flat_map(|row| values.iter().map(|value| [row.as_slice(), &[value.clone()]].concat()))
+                .flat_map(|row: &Vec<Value>| {
+                    values
+                        .iter()
+                        .map(|value| [row.as_slice(), std::slice::from_ref(value)].concat())
+                })
                 .collect();
         }
         (self.grid.keys().cloned().collect(), rows)
@@ -465,7 +469,8 @@ fn along(values: &Value) -> Result<Vec<Value>, &'static str> {
         return Err("with `from` and `to`, both numbers");
     };
     let count = table.get("count").and_then(Value::as_u64).unwrap_or(0);
-    if !(2..=MOST_POINTS as u64).contains(&count) || !(from < to && to - from < f64::INFINITY) {
+    let rises = from < to && to - from < f64::INFINITY;
+    if !rises || !(2..=MOST_POINTS as u64).contains(&count) {
         return Err("from a smaller to a larger number, with a `count` of 2 to 200000");
     }
     Ok(evenly(from, to, count as usize).into_iter().map(Value::from).collect())

@@ -1,5 +1,11 @@
 //! What is written as a map reads as the same; what is not one is refused in words.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
 use flexdrill_alarms::Priority;
 use flexdrill_sweep::map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Start, State, Verdict};
 use serde_json::{Value, json};
