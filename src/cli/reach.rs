@@ -8,7 +8,7 @@ use clap::Args;
 use super::progress::Progress;
 use super::{WrongUse, numbers};
 use crate::cli::output::{say, tell};
-use crate::reach::{Load, Plan, picture, study, table};
+use crate::reach::{Kept, Load, Plan, picture, study, table};
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::FrictionLaw;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, rpm_to_rad_per_s};
@@ -40,6 +40,10 @@ pub struct ReachArgs {
     /// Longest model time of a run (s); one that is not steady by then is unknown.
     #[arg(long, default_value_t = 60.0, value_parser = numbers::seconds)]
     seconds: f64,
+    /// Keeps every point that is done in the folder `points` of --out, and takes those that are there: the same command
+    /// continues an interrupted study.
+    #[arg(long)]
+    resume: bool,
     /// Runs at the same time, one thread each. The results do not depend on it.
     #[arg(long, default_value_t = 1, value_parser = numbers::jobs())]
     jobs: usize,
@@ -66,7 +70,11 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
         );
     }
     let mut progress = Progress::share();
-    let rows = study(&config, &plan, |share| progress.at(share))?;
+    let kept = args
+        .resume
+        .then(|| Kept::open(&args.out.join("points"), &plan.load))
+        .transpose()?;
+    let rows = study(&config, &plan, kept.as_ref(), |share| progress.at(share))?;
     progress.done();
     write(&args.out, "reach.csv", &table::csv(&rows))?;
     write(

@@ -5,6 +5,7 @@
 //! closed form of a soft string ([`soft_string`]) and the depth from which the tool is compressed beyond buckling. A run
 //! that fails or does not become steady is unknown, with its cause.
 
+pub mod kept;
 pub mod picture;
 pub mod point;
 pub mod soft_string;
@@ -16,6 +17,7 @@ use std::sync::mpsc;
 
 use flexdrill_config::{Config, ConfigError};
 
+pub use kept::{KeepError, Kept};
 pub use point::{Found, Load, Point};
 use soft_string::SoftString;
 
@@ -49,13 +51,29 @@ pub struct Row {
     pub found: Result<Found, String>,
 }
 
+/// Why a study cannot be made. A run that fails is part of its results.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The configuration cannot be lengthened or loaded as the plan says.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A point cannot be kept.
+    #[error(transparent)]
+    Keep(#[from] KeepError),
+}
+
 /// Runs all points, on as many threads as the plan has. The rows are in the order of lengths, with rotation first, then
 /// of friction; they do not depend on the number of threads. At most one tool per thread is in memory. `progress` gets
-/// the share of the work that is done, 0 to 1.
+/// the share of the work that is done, 0 to 1. Points that are `kept` are not run, and every run is kept.
 ///
 /// # Errors
-/// When the configuration cannot be lengthened or loaded as the plan says.
-pub fn study(config: &Config, plan: &Plan, mut progress: impl FnMut(f64)) -> Result<Vec<Row>, ConfigError> {
+/// When the configuration cannot be lengthened or loaded as the plan says, or a point cannot be kept.
+pub fn study(
+    config: &Config,
+    plan: &Plan,
+    kept: Option<&Kept>,
+    mut progress: impl FnMut(f64),
+) -> Result<Vec<Row>, StudyError> {
     let mut points = Vec::new();
     for &links in &plan.links {
         for rotates in [true, false] {
@@ -70,10 +88,12 @@ pub fn study(config: &Config, plan: &Plan, mut progress: impl FnMut(f64)) -> Res
     let whole: usize = points.iter().map(|point| point.links).sum();
     let next = AtomicUsize::new(0);
     let found = Mutex::new(vec![None; points.len()]);
+    let unkept = Mutex::new(None);
     std::thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel::<f64>();
         for _ in 0..plan.jobs.clamp(1, points.len().max(1)) {
-            let (sender, points, order, next, found) = (sender.clone(), &points, &order, &next, &found);
+            let (sender, points, order, next) = (sender.clone(), &points, &order, &next);
+            let (found, unkept) = (&found, &unkept);
             scope.spawn(move || {
                 while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let point = &points[index];
@@ -83,7 +103,15 @@ pub fn study(config: &Config, plan: &Plan, mut progress: impl FnMut(f64)) -> Res
                         let _ = sender.send((share - reported) * point.links as f64);
                         reported = share;
                     };
-                    let result = point.run(&plan.load, &mut report);
+                    let result = kept.and_then(|kept| kept.read(point)).unwrap_or_else(|| {
+                        let result = point.run(&plan.load, &mut report);
+                        if let Some(Err(error)) = kept.map(|kept| kept.write(point, &result)) {
+                            *unkept.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(error);
+                            // What cannot be kept is not worth hours.
+                            next.store(order.len(), Ordering::Relaxed);
+                        }
+                        result
+                    });
                     report(1.0);
                     let mut found = found.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
                     found[index] = Some(result);
@@ -97,6 +125,9 @@ pub fn study(config: &Config, plan: &Plan, mut progress: impl FnMut(f64)) -> Res
             progress((done / whole as f64).min(1.0));
         }
     });
+    if let Some(error) = unkept.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
+        return Err(error.into());
+    }
     let found = found.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     Ok(points
         .iter()

@@ -9,8 +9,10 @@ use flexdrill::messages::{AlarmEvent, CdrError};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::BIT;
 use flexdrill_core::twin::Simulation;
-use flexdrill_core::units::rpm_to_rad_per_s;
+use flexdrill_core::units::{m_per_h_to_m_per_s, rpm_to_rad_per_s};
+use serde_json::{Value, json};
 
 /// Model time between two looks at the alarms (s), as in the node.
 const LOOK: f64 = 0.1;
@@ -24,12 +26,12 @@ struct Rig {
 }
 
 impl Rig {
-    fn new(set: &[(&str, f64)]) -> Self {
+    fn new(set: &[(&str, Value)]) -> Self {
         let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
         let config = set
             .iter()
             .fold(Config::load(root.join("config/rig.yaml")), |config, (key, value)| {
-                config.and_then(|config| config.with_value(key, *value))
+                config.and_then(|config| config.with_value(key, value.clone()))
             })
             .unwrap();
         let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
@@ -44,15 +46,22 @@ impl Rig {
     /// Runs on to a time (s) at a speed (r/min) and a weight (kN) and gives the alarms that came or were raised, with
     /// their times (s).
     fn run(&mut self, until: f64, rpm: f64, kn: f64) -> Vec<(f64, String)> {
-        let inputs = Inputs {
-            rotary_speed: rpm_to_rad_per_s(rpm),
-            weight_on_bit: 1e3 * kn,
-            ..Inputs::default()
-        };
+        self.run_with(
+            until,
+            &Inputs {
+                rotary_speed: rpm_to_rad_per_s(rpm),
+                weight_on_bit: 1e3 * kn,
+                ..Inputs::default()
+            },
+        )
+    }
+
+    /// The same with all inputs.
+    fn run_with(&mut self, until: f64, inputs: &Inputs) -> Vec<(f64, String)> {
         let mut called = Vec::new();
         while self.simulation.time() < until {
             for _ in 0..self.steps {
-                let outcome = self.simulation.advance(&inputs);
+                let outcome = self.simulation.advance(inputs);
                 assert!(matches!(outcome, StepOutcome::Advanced { .. }), "{outcome:?}");
             }
             self.simulation.snapshot(&mut self.snapshot, true);
@@ -112,4 +121,175 @@ fn a_bit_that_stops_is_called_within_three_turns() {
     );
     let bit = &rig.snapshot.bit;
     assert!(bit.stick_slip_index > 0.4, "{bit:?}");
+}
+
+/// Something that a rig does beside drilling steadily, from steady drilling on.
+struct Operation {
+    /// Values to change.
+    set: Vec<(&'static str, Value)>,
+    /// Drilling before: r/min, kN, m/h.
+    drilling: [f64; 3],
+    /// The operation: r/min, kN, m/h, MPa.
+    inputs: [f64; 4],
+    /// Model time of each (s).
+    seconds: [f64; 2],
+    /// The alarms that it must raise; no other may come.
+    raises: &'static [AlarmId],
+    /// Largest difference of the means of two windows at its end: weight at the bit (N), torque at the bit (N m).
+    steady: [f64; 2],
+}
+
+/// Runs drilling and operation: every step is taken, the audit closes, the motion becomes steady, the alarms are right.
+/// Gives the rig at the end.
+fn operate(operation: &Operation) -> Rig {
+    let mut rig = Rig::new(&operation.set);
+    let [rpm, kn, rate] = operation.drilling;
+    let inputs = |rpm: f64, kn: f64, rate: f64, mega: f64| Inputs {
+        rotary_speed: rpm_to_rad_per_s(rpm),
+        weight_on_bit: 1e3 * kn,
+        rate_of_penetration: m_per_h_to_m_per_s(rate),
+        standpipe_pressure: 1e6 * mega,
+    };
+    let before = rig.run_with(operation.seconds[0], &inputs(rpm, kn, rate, 0.0));
+    assert!(before.is_empty(), "while it drills: {before:?}");
+    let [rpm, kn, rate, mega] = operation.inputs;
+    let (from, length) = (rig.simulation.time(), operation.seconds[1]);
+    let window = rig.snapshot.transfer.duration;
+    let mut called = rig.run_with(from + length - window, &inputs(rpm, kn, rate, mega));
+    let earlier = rig.snapshot.transfer;
+    called.extend(rig.run_with(from + length, &inputs(rpm, kn, rate, mega)));
+    let later = &rig.snapshot.transfer;
+    let raised = |id: &AlarmId| called.iter().any(|(_, name)| name == id.id());
+    assert!(operation.raises.iter().all(raised), "{called:?}");
+    let wrong = |(_, name): &&(f64, String)| !operation.raises.iter().any(|id| name == id.id());
+    assert!(called.iter().find(wrong).is_none(), "{called:?}");
+    let changes = [
+        later.weight.mean[BIT] - earlier.weight.mean[BIT],
+        later.torque.mean[BIT] - earlier.torque.mean[BIT],
+    ];
+    for (change, most) in changes.iter().zip(operation.steady) {
+        assert!(change.abs() <= most, "{changes:?}, {later:?}");
+    }
+    // The bound of the random runs of the core's own tests: breaking loose and collisions in whole steps.
+    let energy = &rig.snapshot.energy;
+    let moved = [
+        energy.drive,
+        energy.hoist,
+        energy.feed,
+        energy.pressure,
+        energy.bit,
+        energy.friction,
+        energy.string,
+    ];
+    let moved: f64 = moved.iter().map(|work| work.abs()).sum();
+    assert!(energy.error.abs() < 1e-2 * moved, "{energy:?}");
+    rig
+}
+
+fn rig_feeds_by_rate() -> Vec<(&'static str, Value)> {
+    vec![("string.hoist.feed", json!("rate"))]
+}
+
+/// 40 r/min and 10 kN, 45 s: the auto-driller has been at its weight for some response times of 4 s.
+const DRILLING: ([f64; 3], f64) = ([40.0, 10.0, 0.0], 45.0);
+
+/// A hundredth of the weight, and what that carries of torque by the rock's law, twice: the bit chatters.
+const STEADY: [f64; 2] = [300.0, 4.0];
+
+#[test]
+fn a_weight_of_zero_lifts_the_bit_and_raises_nothing() {
+    let rig = operate(&Operation {
+        set: Vec::new(),
+        drilling: DRILLING.0,
+        inputs: [40.0, 0.0, 0.0, 0.0],
+        seconds: [DRILLING.1, 40.0],
+        raises: &[],
+        steady: STEADY,
+    });
+    let bit = &rig.snapshot.bit;
+    assert!(bit.weight_on_bit == 0.0 && bit.rotary_speed > 3.0, "{bit:?}");
+}
+
+#[test]
+fn a_bit_that_is_pulled_up_turning_raises_nothing() {
+    let rig = operate(&Operation {
+        set: rig_feeds_by_rate(),
+        drilling: [40.0, 10.0, 3.0],
+        inputs: [40.0, 0.0, -50.0, 0.0],
+        seconds: [45.0, 25.0],
+        raises: &[],
+        steady: STEADY,
+    });
+    let bit = &rig.snapshot.bit;
+    assert!(bit.weight_on_bit == 0.0 && bit.rotary_speed > 3.0, "{bit:?}");
+    // The wall holds a guide that is pulled up, so that the hook carries more than the string alone.
+    let advance = rig.simulation.advance_rate().unwrap();
+    assert!(
+        (advance / m_per_h_to_m_per_s(-50.0) - 1.0).abs() < 1e-3,
+        "{advance} m/s"
+    );
+    assert!(
+        rig.snapshot.transfer.weight.mean[0] < 0.0,
+        "{:?}",
+        rig.snapshot.transfer
+    );
+}
+
+/// Off bottom and under a weight below the wear flats' force, which a bit that turns back carries without cutting.
+#[test]
+fn a_tool_that_is_turned_back_raises_nothing() {
+    for kn in [0.0, 5.0] {
+        let rig = operate(&Operation {
+            set: Vec::new(),
+            drilling: DRILLING.0,
+            inputs: [-30.0, kn, 0.0, 0.0],
+            seconds: [DRILLING.1, 50.0],
+            raises: &[],
+            steady: STEADY,
+        });
+        let bit = &rig.snapshot.bit;
+        assert!(bit.rotary_speed < -2.0, "{bit:?}");
+        assert!((bit.weight_on_bit > 1e3) == (kn > 0.0), "{bit:?}");
+    }
+}
+
+/// The drive stalls at its limit: the bit stands though the drive is asked to turn, which is called as stick-slip.
+#[test]
+fn a_drive_at_its_limit_is_called_as_a_bit_that_stands() {
+    let rig = operate(&Operation {
+        set: vec![("string.top_drive.torque_limit", json!(120.0))],
+        drilling: DRILLING.0,
+        inputs: [40.0, 40.0, 0.0, 0.0],
+        seconds: [DRILLING.1, 60.0],
+        raises: &[AlarmId::StickSlip],
+        // The weight still rises as the auto-driller presses on a bit that stands.
+        steady: [2e3, 10.0],
+    });
+    let (speed, limited) = rig.simulation.top_drive().unwrap();
+    assert!(limited && speed.abs() < 0.1, "{speed} rad/s, at its limit: {limited}");
+    assert!(rig.snapshot.bit.rotary_speed.abs() < 0.1, "{:?}", rig.snapshot.bit);
+}
+
+/// 5 MPa come and go while it drills: the joints carry it, the lateral motion and the alarms do not change.
+#[test]
+fn a_pump_that_is_switched_on_and_off_raises_nothing() {
+    let set = vec![(
+        "environment.pressure",
+        json!({"end": "closed", "joint_seal_diameter": 0.062}),
+    )];
+    let mut rig = operate(&Operation {
+        set,
+        drilling: DRILLING.0,
+        inputs: [40.0, 10.0, 0.0, 5.0],
+        seconds: [DRILLING.1, 30.0],
+        raises: &[],
+        steady: STEADY,
+    });
+    let carried = |rig: &Rig| rig.snapshot.joints.axial_force.iter().sum::<f64>();
+    let under_pressure = carried(&rig);
+    let off = rig.simulation.time() + 30.0;
+    assert!(rig.run(off, 40.0, 10.0).is_empty());
+    // 15.1 kN on every ball of 62 mm; what stays is the pipe's own motion, some hundred newtons.
+    let per_joint = (under_pressure - carried(&rig)) / rig.snapshot.joints.axial_force.len() as f64;
+    assert!((per_joint - 15.1e3).abs() < 0.5e3, "{per_joint} N");
 }

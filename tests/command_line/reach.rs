@@ -88,6 +88,44 @@ fn table_picture_and_words_agree_with_any_number_of_threads() {
     }
 }
 
+/// An interrupted study continues with what is there, and gives the same files; a point of another load is none.
+#[test]
+fn a_study_continues_from_the_points_that_are_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let [whole, parts] = ["a", "b"].map(|name| folder.path().join(name));
+    let few = ["--lengths", "0.6", "--friction", "0.3"];
+    let more = ["--lengths", "0.6,1.2", "--friction", "0.3"];
+    let resume = |arguments: &[&str]| reach(&parts, &[arguments, &["--resume"]].concat());
+    assert!(resume(&few).status.success());
+    let points = || std::fs::read_dir(parts.join("points")).unwrap().count();
+    assert_eq!(points(), 2);
+    // A result that no run would have shows that the point is not run again.
+    let point = std::fs::read_dir(parts.join("points"))
+        .unwrap()
+        .next()
+        .unwrap()
+        .unwrap()
+        .path();
+    let text_of = std::fs::read_to_string(&point).unwrap();
+    let start = text_of.find("\"Ok\":[").unwrap();
+    std::fs::write(&point, format!("{}\"Err\":\"marked\"}}}}", &text_of[..start])).unwrap();
+    let marked = resume(&more);
+    assert!(text(&marked.stdout).contains(": marked"), "{marked:?}");
+    assert_eq!(points(), 4);
+    // Another load: every point anew, in the place of the old one.
+    assert!(text(&resume(&[&more[..], &["--rpm", "50"]].concat()).stdout).contains("torque at the bit"));
+    let again = resume(&more);
+    assert!(
+        again.status.success() && !text(&again.stdout).contains("marked"),
+        "{again:?}"
+    );
+    assert!(reach(&whole, &more).status.success());
+    for name in ["reach.csv", "reach.svg"] {
+        let [a, b] = [&whole, &parts].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(a == b, "{name}");
+    }
+}
+
 #[test]
 fn a_run_that_is_not_steady_is_unknown_with_its_cause() {
     let folder = tempfile::tempdir().unwrap();
