@@ -135,6 +135,6 @@ mod tests {
         };
         assert_eq!(read(&written(&found)), Some(found));
         assert_eq!(read(&written(&found)[1..]), None);
-        assert_eq!(read(&vec!["x".to_owned(); 10]), None);
+        assert_eq!(read(&["x"; 10].map(str::to_owned)), None);
     }
 }
