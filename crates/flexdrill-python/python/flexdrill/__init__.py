@@ -1,0 +1,99 @@
+"""flexdrill: the digital twin of a flexible drilling tool in an ultrashort-radius well.
+
+    import flexdrill
+
+    twin = flexdrill.Twin()                      # the paper's case; or a path, or nested mappings
+    run = twin.run(20, speed_rpm=40, weight_kn=10)
+    run.bit.torque_nm                            # an array over run.time_s
+    calm, hard = twin.fork(), twin.fork()        # two futures of the same state
+    calm.run(10, weight_kn=5)
+    hard.run(10, weight_kn=30)
+
+Inside everything is SI; names carry the unit: `_nm` is N m, `_rad_per_s` is rad/s. Inputs have the driller's units.
+"""
+
+from ._bag import Bag, Messages, read_bag
+from ._errors import (
+    ConfigError,
+    FlexdrillError,
+    InputError,
+    NotRecordedError,
+    Problem,
+    RecordError,
+    SavedStateError,
+    StartError,
+    StepError,
+    ValueOutOfBounds,
+)
+from ._groups import (
+    Ageing,
+    Applied,
+    Bit,
+    CodeArray,
+    Contacts,
+    CountArray,
+    Energy,
+    FloatArray,
+    Hazards,
+    Joints,
+    Quality,
+    Reactions,
+    Shape,
+    Solver,
+    Transfer,
+    Whirl,
+)
+from ._inputs import Input, Inputs, held
+from ._native import __version__
+from ._results import BODIES, GROUPS, HAZARDS, SEVERITIES, USUAL_GROUPS, WHIRL_KINDS, Recording, Snapshot
+from ._rollout import rollout
+from ._twin import Config, Friction, Twin, shipped_configs
+
+__all__ = [
+    "BODIES",
+    "GROUPS",
+    "HAZARDS",
+    "SEVERITIES",
+    "USUAL_GROUPS",
+    "WHIRL_KINDS",
+    "Ageing",
+    "Applied",
+    "Bag",
+    "Bit",
+    "CodeArray",
+    "Config",
+    "ConfigError",
+    "Contacts",
+    "CountArray",
+    "Energy",
+    "FlexdrillError",
+    "FloatArray",
+    "Friction",
+    "Hazards",
+    "Input",
+    "InputError",
+    "Inputs",
+    "Joints",
+    "Messages",
+    "NotRecordedError",
+    "Problem",
+    "Quality",
+    "Reactions",
+    "RecordError",
+    "Recording",
+    "SavedStateError",
+    "Shape",
+    "Snapshot",
+    "Solver",
+    "StartError",
+    "StepError",
+    "Transfer",
+    "Twin",
+    "ValueOutOfBounds",
+    "Whirl",
+    "__version__",
+    "held",
+    "read_bag",
+    "rollout",
+    "shipped_configs",
+]

@@ -1,0 +1,78 @@
+"""The package and the command line compute the same bits from the same configuration and inputs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flexdrill
+
+BINARY = os.environ.get("FLEXDRILL_BINARY", "")
+
+TIMES_S = [0.0, 1.0, 2.0, 3.0]
+SPEED_RPM = [40.0, 57.3, 12.1, 80.0]
+WEIGHT_KN = [5.0, 10.0, 10.0, 2.5]
+DURATION_S = 4.0
+
+
+@pytest.mark.skipif(not BINARY, reason="FLEXDRILL_BINARY does not name the program")
+@pytest.mark.parametrize("config", ["default.yaml", "coarse.yaml"])
+def test_a_replay_of_a_field_log(config: str, tmp_path: Path) -> None:
+    pytest.importorskip("rosbags")
+    twin = flexdrill.Twin(config)
+    (tmp_path / "config.json").write_text(_json(twin))
+    rows = [f"{time},{speed},{weight}\n" for time, speed, weight in zip(TIMES_S, SPEED_RPM, WEIGHT_KN)]
+    (tmp_path / "log.csv").write_text("time_s,rpm,wob\n" + "".join(rows))
+    (tmp_path / "columns.yaml").write_text(
+        "title: samples of a second\nseparator: ','\ncolumns:\n  time: {column: time_s, format: seconds}\n"
+        "  rotary_speed: {column: rpm, unit: r/min}\n  weight_on_bit: {direct: {column: wob, unit: kN}}\n"
+    )
+    subprocess.run(
+        [
+            *(BINARY, "replay", tmp_path / "log.csv", "--mapping", tmp_path / "columns.yaml"),
+            *("--config", tmp_path / "config.json", "--duration", str(DURATION_S), "--out", tmp_path / "run"),
+        ],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
+    bag = flexdrill.read_bag(tmp_path / "run")
+    run = twin.run(
+        DURATION_S,
+        speed_rpm=flexdrill.held(TIMES_S, SPEED_RPM),
+        weight_kn=flexdrill.held(TIMES_S, WEIGHT_KN),
+        record="all",
+        rate_hz=50,
+    )
+    assert len(run) == 201
+    equal = [
+        ("twin/bit_state", "torque", run.bit.torque_nm),
+        ("twin/bit_state", "rotary_speed", run.bit.rotary_speed_rad_per_s),
+        ("twin/bit_state", "stick_slip_index", run.bit.stick_slip_index),
+        ("twin/bit_state", "lateral_acceleration_peak", run.bit.lateral_acceleration_peak_m_per_s2),
+        ("twin/joint_deflections", "bend_angle", run.joints.bend_angle_rad),
+        ("twin/joint_deflections", "bend_direction", run.joints.bend_direction_rad),
+        ("twin/joint_deflections", "lateral_y", run.joints.lateral_y_m),
+        ("twin/joint_deflections", "torque", run.joints.torque_nm),
+        ("twin/contact_forces", "pipe_guide_normal", run.contacts.pipe_guide_normal_n),
+        ("twin/contact_forces", "pipe_guide_normal_peak", run.contacts.pipe_guide_normal_peak_n),
+        ("twin/contact_forces", "guide_wall_normal_rms", run.contacts.guide_wall_normal_rms_n),
+    ]
+    for topic, field, ours in equal:
+        theirs = bag[topic].fields[field]
+        assert isinstance(theirs, np.ndarray) and theirs.shape == ours.shape, (topic, field)
+        np.testing.assert_array_equal(theirs, ours, err_msg=f"{topic} {field}")
+    assert np.ptp(run.bit.torque_nm) > 10.0
+    # Whirl is published at 10 Hz: every fifth sample.
+    np.testing.assert_array_equal(bag["twin/whirl"].fields["whirl_rate"], run.whirl.whirl_rate_rad_per_s[::5])
+    assert bag["twin/session"].configuration_hash[0] == twin.configuration_hash
+
+
+def _json(twin: flexdrill.Twin) -> str:
+    import json
+
+    return json.dumps(twin.configuration)
