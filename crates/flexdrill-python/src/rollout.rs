@@ -59,9 +59,8 @@ pub fn rollout(members: Vec<Member<'_>>, threads: usize, mut watch: impl FnMut(u
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..threads.clamp(1, count.max(1))).map(|_| scope.spawn(work)).collect();
         // A thread that panicked ends without its members; the scope then passes the panic on.
-        let working = || {
-            ended.load(Ordering::Acquire) < count && !workers.iter().all(std::thread::ScopedJoinHandle::is_finished)
-        };
+        let working =
+            || ended.load(Ordering::Acquire) < count && !workers.iter().all(std::thread::ScopedJoinHandle::is_finished);
         while working() {
             if !watch(ended.load(Ordering::Acquire)) {
                 stop.store(true, Ordering::Relaxed);

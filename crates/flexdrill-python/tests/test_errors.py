@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from typing import cast
 
 import pytest
 from conftest import SMALL
@@ -99,7 +100,7 @@ def test_a_rollout_of_the_same_twin_twice(twin: flexdrill.Twin) -> None:
     with pytest.raises(flexdrill.ValueOutOfBounds, match="twice"):
         flexdrill.rollout([twin, twin], {}, 0.1)
     with pytest.raises(flexdrill.ValueOutOfBounds, match="is no input"):
-        flexdrill.rollout([twin], {"speed": 40}, 0.1)  # type: ignore[typeddict-unknown-key]
+        flexdrill.rollout([twin], cast(flexdrill.Inputs, {"speed": 40}), 0.1)
     with pytest.raises(flexdrill.ValueOutOfBounds, match="2 twins"):
         flexdrill.rollout([twin, twin.fork()], [{}], 0.1)
 

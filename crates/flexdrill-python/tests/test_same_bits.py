@@ -69,7 +69,7 @@ def test_a_replay_of_a_field_log(config: str, tmp_path: Path) -> None:
     assert np.ptp(run.bit.torque_nm) > 10.0
     # Whirl is published at 10 Hz: every fifth sample.
     np.testing.assert_array_equal(bag["twin/whirl"].fields["whirl_rate"], run.whirl.whirl_rate_rad_per_s[::5])
-    assert bag["twin/session"].configuration_hash[0] == twin.configuration_hash
+    assert bag["twin/session"].config_hash[0] == twin.configuration_hash
 
 
 def _json(twin: flexdrill.Twin) -> str:

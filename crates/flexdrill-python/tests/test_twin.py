@@ -76,13 +76,13 @@ def test_two_runs_equal_one(built: flexdrill.Twin) -> None:
 
 def test_numbers_arrays_and_functions_are_the_same_inputs(built: flexdrill.Twin) -> None:
     def speed(time_s: float) -> float:
-        return 30.0 if time_s < 0.1 - 1e-9 else 60.0
+        return 0.0 if time_s < 0.1 - 1e-9 else 60.0
 
-    of_array = built.fork().run(0.2, speed_rpm=[30, 60], weight_kn=5)
+    of_array = built.fork().run(0.2, speed_rpm=[0, 60], weight_kn=5)
     of_function = built.fork().run(0.2, speed_rpm=speed, weight_kn=np.array([5.0]))
-    held = built.fork().run(0.2, speed_rpm=flexdrill.held([0.0, 0.1], [30.0, 60.0]), weight_kn=5)
+    held = built.fork().run(0.2, speed_rpm=flexdrill.held([0.0, 0.1], [0.0, 60.0]), weight_kn=5)
     parts = built.fork()
-    parts.step(200, speed_rpm=30, weight_kn=5)
+    parts.step(200, speed_rpm=0, weight_kn=5)
     last = parts.run(0.1, speed_rpm=60)
     same(of_array, of_function)
     same(of_array, held)

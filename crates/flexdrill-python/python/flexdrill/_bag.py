@@ -133,7 +133,8 @@ def _messages(topic: str, kind: str, messages: list[tuple[int, Any]], start: int
     for _, message in messages:
         _add(columns, "", message)
     arrays = {name: _column(values) for name, values in columns.items()}
-    return Messages(topic, kind, (stamps - start) * 1e-9, stamps, arrays)
+    times: FloatArray = ((stamps - start) * 1e-9).astype(np.float64)
+    return Messages(topic, kind, times, stamps, arrays)
 
 
 def _add(columns: dict[str, list[Any]], prefix: str, message: Any) -> None:

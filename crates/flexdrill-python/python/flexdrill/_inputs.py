@@ -47,6 +47,18 @@ def period_steps(time_step_s: float) -> int:
     return max(1, round(PERIOD_S / time_step_s))
 
 
+def share_of(progress: Optional[Callable[[float], object]], whole: int) -> Optional[Callable[[int], object]]:
+    """Takes a count and passes on its share of the whole."""
+    if progress is None:
+        return None
+    hear = progress
+
+    def take(count: int) -> object:
+        return hear(count / whole)
+
+    return take
+
+
 def is_function(value: Optional[Input]) -> bool:
     """Whether an input is a function of time."""
     return callable(value)

@@ -33,13 +33,12 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[Any]
 
-HAZARDS: tuple[str, ...]
+HAZARDS: tuple[str, ...] = tuple(_native.names()[0])
 """Names of the hazards, in the order of `Hazards`."""
-SEVERITIES: tuple[str, ...]
+SEVERITIES: tuple[str, ...] = tuple(_native.names()[1])
 """Names of the levels, rising."""
-WHIRL_KINDS: tuple[str, ...]
+WHIRL_KINDS: tuple[str, ...] = tuple(_native.names()[2])
 """Names of the kinds of whirl."""
-HAZARDS, SEVERITIES, WHIRL_KINDS = (tuple(names) for names in _native.names())
 BODIES = ("pipe", "guide")
 """Names of the bodies."""
 

@@ -8,7 +8,7 @@ from typing import Optional, Union, cast
 
 from . import _native
 from ._errors import StepError, ValueOutOfBounds
-from ._inputs import Input, Inputs, all_changes, steps_of
+from ._inputs import Input, Inputs, all_changes, share_of, steps_of
 from ._results import Recording, wanted_groups
 from ._twin import Twin
 
@@ -49,9 +49,8 @@ def rollout(
         changes.append(all_changes(named, steps[-1], twin.time_s, twin.steps, twin.time_step_s))
         recorders.append(_native.Recorder(wanted_groups(record), rate_hz, twin.time_step_s))
     count = len(twins)
-    share = None if progress is None else (lambda ended: progress(ended / count))
-    natives = [twin._native for twin in twins]  # pyright: ignore[reportPrivateUsage]
-    failures = _native.rollout(natives, steps, changes, recorders, threads or os.cpu_count() or 1, share)
+    natives = [twin._native for twin in twins]
+    failures = _native.rollout(natives, steps, changes, recorders, threads or os.cpu_count() or 1, share_of(progress, count))
     return [
         Recording(recorder.finish(), cast("Optional[StepError]", failure))
         for recorder, failure in zip(recorders, failures)

@@ -11,7 +11,7 @@ from typing import Any, Optional, Union, cast
 
 from . import _native
 from ._errors import StepError
-from ._inputs import NAMES, Input, ask, constant_changes, is_function, period_steps, steps_of
+from ._inputs import NAMES, Input, ask, constant_changes, is_function, period_steps, share_of, steps_of
 from ._results import GROUPS, USUAL_GROUPS, Recording, Snapshot, wanted_groups
 
 Config = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -111,9 +111,8 @@ class Twin:
         inputs = (speed_rpm, weight_kn, rate_of_penetration_m_per_h, standpipe_pressure_mpa)
         steps = steps_of(seconds, self.time_step_s)
         recorder = _native.Recorder(wanted_groups(record), rate_hz, self.time_step_s)
-        share = None if progress is None else (lambda done: progress(done / steps))
         try:
-            self._advance(steps, inputs, recorder, share)
+            self._advance(steps, inputs, recorder, share_of(progress, steps))
         except StepError as failure:
             failure.recording = Recording(recorder.finish())
             raise

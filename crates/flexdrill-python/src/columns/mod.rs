@@ -115,7 +115,12 @@ mod tests {
     fn names_are_unique() {
         let mut names: Vec<String> = GROUPS
             .iter()
-            .flat_map(|group| group.columns.iter().map(|column| format!("{}.{}", group.name, column.name)))
+            .flat_map(|group| {
+                group
+                    .columns
+                    .iter()
+                    .map(|column| format!("{}.{}", group.name, column.name))
+            })
             .collect();
         let count = names.len();
         names.sort();

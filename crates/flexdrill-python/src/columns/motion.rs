@@ -12,7 +12,10 @@ pub(super) const TRANSFER: Group = Group {
         Column::new("torque_rms_nm", Few(|s, out| out.extend(s.transfer.torque.rms))),
         Column::new("weight_n", Few(|s, out| out.extend(s.transfer.weight.mean))),
         Column::new("weight_rms_n", Few(|s, out| out.extend(s.transfer.weight.rms))),
-        Column::new("friction_torque_nm", Few(|s, out| out.extend(s.transfer.friction_torque))),
+        Column::new(
+            "friction_torque_nm",
+            Few(|s, out| out.extend(s.transfer.friction_torque)),
+        ),
         Column::new("axial_drag_n", Few(|s, out| out.extend(s.transfer.mean.axial_drag))),
         Column::new("torque_efficiency", Number(|s| s.transfer.torque_efficiency)),
         Column::new("hook_load_n", Number(|s| s.transfer.mean.hook_load)),
@@ -76,7 +79,10 @@ pub(super) const HAZARDS: Group = Group {
             "severity",
             Codes(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.severity as u8))),
         ),
-        Column::new("value", Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.value)))),
+        Column::new(
+            "value",
+            Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.value))),
+        ),
         Column::new(
             "threshold",
             Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.threshold))),
@@ -94,7 +100,10 @@ pub(super) const HAZARDS: Group = Group {
             "confidence",
             Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.confidence))),
         ),
-        Column::new("since_s", Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.since)))),
+        Column::new(
+            "since_s",
+            Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.since))),
+        ),
     ],
 };
 

@@ -18,9 +18,12 @@ use flexdrill_core::motion::{HazardKind, Severity, WhirlKind};
 #[pyfunction]
 fn columns() -> Vec<(&'static str, &'static str, bool)> {
     let instant = INSTANT.columns.iter().map(|column| ("", column.name, column.fixed));
-    let grouped = GROUPS
-        .iter()
-        .flat_map(|group| group.columns.iter().map(|column| (group.name, column.name, column.fixed)));
+    let grouped = GROUPS.iter().flat_map(|group| {
+        group
+            .columns
+            .iter()
+            .map(|column| (group.name, column.name, column.fixed))
+    });
     instant.chain(grouped).collect()
 }
 

@@ -37,7 +37,7 @@ pub(super) fn rollout(
             .check_size(twin.inner.sizes(), plan.steps)
             .map_err(|error| errors::recorder(py, &error))?;
         members.push(Member {
-            twin: &mut twin.inner,
+            twin: twin.inner.as_mut(),
             plan,
             recorder,
         });
@@ -48,7 +48,9 @@ pub(super) fn rollout(
         let outcomes = run(members, threads, |ended| {
             let heard = Python::attach(|py| {
                 py.check_signals()?;
-                progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (ended,)).map(drop))
+                progress
+                    .as_ref()
+                    .map_or(Ok(()), |progress| progress.call1(py, (ended,)).map(drop))
             });
             match heard {
                 Ok(()) => interrupted.is_none(),
@@ -66,7 +68,9 @@ pub(super) fn rollout(
     let mut failures = Vec::with_capacity(count);
     for (outcome, keeper) in outcomes.into_iter().zip(&mut recorders) {
         keeper.put(outcome.recorder);
-        let failure = outcome.failure.map(|failure| errors::step(py, &failure).into_value(py).into_any());
+        let failure = outcome
+            .failure
+            .map(|failure| errors::step(py, &failure).into_value(py).into_any());
         failures.push(failure);
     }
     Ok(failures)

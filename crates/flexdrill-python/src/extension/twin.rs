@@ -24,7 +24,8 @@ pub(super) type Changes = [Vec<(u64, f64)>; InputKind::COUNT];
 /// One run with its configuration.
 #[pyclass(module = "flexdrill._native")]
 pub(super) struct Twin {
-    pub(super) inner: twin::Twin,
+    /// Boxed, because Python aligns its objects to 16 bytes and the vectors in a twin need 64.
+    pub(super) inner: Box<twin::Twin>,
 }
 
 #[pymethods]
@@ -37,7 +38,9 @@ impl Twin {
             .into_iter()
             .map(|(key, json)| match serde_json::from_str(&json) {
                 Ok(value) => Ok((key, value)),
-                Err(error) => Err(pyo3::exceptions::PyValueError::new_err(format!("{key} = {json}: {error}"))),
+                Err(error) => Err(pyo3::exceptions::PyValueError::new_err(format!(
+                    "{key} = {json}: {error}"
+                ))),
             })
             .collect::<PyResult<_>>()?;
         let config = if values.is_empty() {
@@ -49,7 +52,7 @@ impl Twin {
         };
         let built = py.detach(|| twin::Twin::new(Arc::new(config)));
         Ok(Self {
-            inner: built.map_err(|error| errors::build(py, &error))?,
+            inner: Box::new(built.map_err(|error| errors::build(py, &error))?),
         })
     }
 
@@ -58,7 +61,7 @@ impl Twin {
     fn from_bytes(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         let restored = py.detach(|| saved::from_bytes(bytes));
         Ok(Self {
-            inner: restored.map_err(|error| errors::saved(py, &error))?,
+            inner: Box::new(restored.map_err(|error| errors::saved(py, &error))?),
         })
     }
 
@@ -70,7 +73,7 @@ impl Twin {
 
     /// Another twin in the same state.
     fn fork(&self, py: Python<'_>) -> Self {
-        let inner = py.detach(|| self.inner.fork());
+        let inner = py.detach(|| Box::new(self.inner.fork()));
         Self { inner }
     }
 
@@ -170,7 +173,10 @@ impl Twin {
     #[getter]
     fn input_limits(&self) -> [[f64; 2]; InputKind::COUNT] {
         let config = self.inner.config();
-        config.inputs.rules_of(config.used_inputs()).map(|rule| [rule.min, rule.max])
+        config
+            .inputs
+            .rules_of(config.used_inputs())
+            .map(|rule| [rule.min, rule.max])
     }
 
     /// Stations of the joints.

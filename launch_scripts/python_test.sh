@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# The Python package as its users get it: launch_scripts/python_test.sh [--quick]
+# Builds wheel and sdist (into target/python/dist), installs the wheel into a clean environment, and runs tests, type
+# checks and notebooks against it; the notebooks' pictures go to target/python/notebooks. Does its own set-up (as root or
+# with sudo): Python's venv, and the tools that crates/flexdrill-python/tests/requirements.txt names.
+#   --quick   build for this machine only instead of manylinux2014; without the sdist and the notebooks
+# FLEXDRILL_BINARY names the program whose bits are compared with the package's; default: the one in target/release.
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+quick=""
+case ${1:-} in
+"") ;;
+--quick) quick=yes ;;
+*) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+esac
+need_packages build-essential python3-venv
+need_rust
+cd "$root"
+crate=$root/crates/flexdrill-python
+out=$root/target/python
+dist=$out/dist
+binary=${FLEXDRILL_BINARY:-${CARGO_TARGET_DIR:-$root/target}/release/flexdrill}
+
+say "step 1 of 5: tools in $out/tools, versions pinned"
+tools=$out/tools
+[ -x "$tools/bin/python" ] && "$tools/bin/python" -c '' 2>/dev/null || {
+    rm -rf "$tools"
+    mkdir -p "$out"
+    python3 -m venv "$tools" || fail "python3 -m venv failed; the package python3-venv of this very Python is needed"
+}
+if ! cmp -s "$crate/tests/requirements.txt" "$tools/installed.txt"; then
+    timeout 900 "$tools/bin/python" -m pip install --quiet --disable-pip-version-check -r "$crate/tests/requirements.txt" ||
+        fail "pip could not install what crates/flexdrill-python/tests/requirements.txt names; is there a network?"
+    cp "$crate/tests/requirements.txt" "$tools/installed.txt"
+fi
+
+say "step 2 of 5: the wheel"
+rm -rf "$dist"
+PATH="$tools/bin:$PATH"
+if [ -n "$quick" ]; then
+    maturin build --release --locked --compatibility linux --manifest-path "$crate/Cargo.toml" --out "$dist"
+else
+    # The linker of Zig links against an old glibc, so that the wheel runs on every distribution in use.
+    maturin build --release --locked --zig --compatibility manylinux2014 --manifest-path "$crate/Cargo.toml" --out "$dist"
+    maturin sdist --manifest-path "$crate/Cargo.toml" --out "$dist"
+fi
+wheel=$(find "$dist" -name '*.whl')
+"$tools/bin/python" "$crate/tests/check_package.py" "$dist"
+
+say "step 3 of 5: tests in a clean environment"
+clean=$out/clean
+rm -rf "$clean"
+python3 -m venv "$clean"
+"$clean/bin/python" -m pip install --quiet --disable-pip-version-check "$wheel[bags,xarray]" \
+    $(grep -E '^(pytest|rosbags|xarray|gymnasium|matplotlib|scipy)==' "$crate/tests/requirements.txt")
+[ ! -x "$binary" ] || export FLEXDRILL_BINARY=$binary
+[ -x "$binary" ] || echo "SKIPPED: the program's bits against the package's: $binary is not there"
+(cd "$out" && timeout 900 "$clean/bin/python" -m pytest -q -p no:cacheprovider "$crate/tests")
+
+say "step 4 of 5: types of the package and of all examples, by mypy and pyright in strict mode"
+# Against the installed package, as its users see it.
+(
+    cd "$crate"
+    "$tools/bin/mypy" --python-executable "$clean/bin/python" python/flexdrill
+    "$tools/bin/mypy" --python-executable "$clean/bin/python" tests examples notebooks
+    "$tools/bin/pyright" --pythonpath "$clean/bin/python"
+)
+
+if [ -n "$quick" ]; then
+    say "step 5 of 5: left out"
+    exit 0
+fi
+say "step 5 of 5: notebooks"
+"$tools/bin/python" "$crate/notebooks/execute.py" --python "$clean/bin/python" --out "$out/notebooks"
