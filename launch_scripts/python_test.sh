@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The Python package as its users get it: launch_scripts/python_test.sh [--quick]
-# Builds wheel and sdist (into target/python/dist), installs the wheel into a clean environment, and runs tests, type
-# checks and notebooks against it; the notebooks' pictures go to target/python/notebooks. Does its own set-up (as root or
+# Builds wheel and sdist (into target/python/dist), installs the wheel into a clean environment, and runs tests, types
+# and notebooks against it; the notebooks' pictures go to target/python/notebooks. Does its own set-up (as root or
 # with sudo): Python's venv, and the tools that crates/flexdrill-python/tests/requirements.txt names.
 #   --quick   build for this machine only instead of manylinux2014; without the sdist and the notebooks
 # FLEXDRILL_BINARY names the program whose bits are compared with the package's; default: the one in target/release.
@@ -19,6 +19,7 @@ cd "$root"
 crate=$root/crates/flexdrill-python
 out=$root/target/python
 dist=$out/dist
+[ -z "${FLEXDRILL_BINARY:-}" ] || FLEXDRILL_BINARY=$(realpath "$FLEXDRILL_BINARY")
 binary=${FLEXDRILL_BINARY:-${CARGO_TARGET_DIR:-$root/target}/release/flexdrill}
 
 say "step 1 of 5: tools in $out/tools, versions pinned"
@@ -52,7 +53,7 @@ clean=$out/clean
 rm -rf "$clean"
 python3 -m venv "$clean"
 "$clean/bin/python" -m pip install --quiet --disable-pip-version-check "$wheel[bags,xarray]" \
-    $(grep -E '^(pytest|rosbags|xarray|gymnasium|matplotlib|scipy)==' "$crate/tests/requirements.txt")
+    $(grep -E '^(pytest|rosbags|xarray|gymnasium|matplotlib|scipy|scipy-stubs)==' "$crate/tests/requirements.txt")
 [ ! -x "$binary" ] || export FLEXDRILL_BINARY=$binary
 [ -x "$binary" ] || echo "SKIPPED: the program's bits against the package's: $binary is not there"
 (cd "$out" && timeout 900 "$clean/bin/python" -m pytest -q -p no:cacheprovider "$crate/tests")

@@ -21,9 +21,15 @@ LONGEST_S = 900
 def execute(source: Path, python: str, out: Path) -> int:
     """Returns how many pictures the notebook drew."""
     target = out / f"{source.stem}.ipynb"
-    environment = {**os.environ, "FLEXDRILL_ROOT": str(HERE.parents[2]), "MPLBACKEND": "module://matplotlib_inline.backend_inline"}
+    environment = {
+        **os.environ,
+        "FLEXDRILL_ROOT": str(HERE.parents[2]),
+        "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+    }
     subprocess.run(
-        [sys.executable, "-m", "jupytext", "--quiet", "--to", "ipynb", "--output", target, source], check=True, timeout=120
+        [sys.executable, "-m", "jupytext", "--quiet", "--to", "ipynb", "--output", target, source],
+        check=True,
+        timeout=120,
     )
     subprocess.run(
         [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", "--log-level=ERROR",

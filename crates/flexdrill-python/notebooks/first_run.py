@@ -1,7 +1,7 @@
 # %% [markdown]
 # # First run, and an orbit
-# The paper's tool: 33 links in a quarter circle of 3.2 m, 40 r/min, 10 kN. The run starts from rest; the drive needs two
-# seconds to its speed.
+# The paper's tool: 33 links in a quarter circle of 3.2 m, 40 r/min, 10 kN. The run starts from rest; the drive needs
+# two seconds to its speed.
 
 # %%
 import matplotlib.pyplot as plt

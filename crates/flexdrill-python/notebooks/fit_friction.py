@@ -2,10 +2,12 @@
 # # Fitting friction
 # A drive torque was measured while the tool turned off bottom and on bottom. Which friction between pipe and guide, and
 # which friction factor of the bit, explain it? Off bottom
-# the torque is that of the friction alone, on bottom nearly all of it is the bit's. Here a twin with known coefficients makes the measurement, with noise, so
-# that the answer can be checked.
+# the torque is that of the friction alone, on bottom nearly all of it is the bit's. Here a twin with known
+# coefficients makes the measurement, with noise, so that the answer can be checked.
 
 # %%
+from typing import cast
+
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import least_squares
@@ -35,14 +37,24 @@ measured = drive_torques(*TRUE) + noise
 
 # %%
 GUESS = (0.2, 0.2)
+
+
+def misfit(friction: flexdrill.FloatArray) -> flexdrill.FloatArray:
+    """Differences over their standard deviations."""
+    difference = drive_torques(float(friction[0]), float(friction[1])) - measured
+    scaled: flexdrill.FloatArray = difference / SCATTER_NM
+    return scaled
+
+
 fit = least_squares(
-    lambda friction: (drive_torques(*friction) - measured) / SCATTER_NM,
+    misfit,
     GUESS,
     bounds=([0.0, 0.0], [1.0, 1.0]),
-    diff_step=0.2,  # so that the scatter does not hide the slope
+    diff_step=[0.2, 0.2],  # so that the scatter does not hide the slope
     max_nfev=5,
 )
-covariance = np.linalg.inv(fit.jac.T @ fit.jac)
+jacobian = cast(flexdrill.FloatArray, fit.jac)
+covariance = np.linalg.inv(jacobian.T @ jacobian)
 for name, value, error, true in zip(("pipe on guide", "bit"), fit.x, np.sqrt(np.diag(covariance)), TRUE):
     print(f"{name}: {value:.3f} +- {2 * error:.3f}, true {true:.3f}")
 

@@ -1,7 +1,7 @@
 # %% [markdown]
 # # A figure of the paper
-# Lin et al. (Scientific Reports 2024) draw the contact forces of a station over eight turns: once a turn the pipe presses
-# on the guide with tens of kN. The paper gives neither the tool's dimensions nor its weight on bit;
+# Lin et al. (Scientific Reports 2024) draw the contact forces of a station over eight turns: once a turn the pipe
+# presses on the guide with tens of kN. The paper gives neither the tool's dimensions nor its weight on bit;
 # `paper.yaml` is the set that agrees best. The manual says which findings agree and which do not.
 
 # %%

@@ -1,7 +1,7 @@
 # %% [markdown]
 # # What if: forks of one state
-# The tool drills at 60 r/min with much friction between pipe and guide. Which change calms it: less speed, or more weight?
-# Each candidate runs in three forks that differ by 1e-5 m/s of lateral velocity, so that chance is seen.
+# The tool drills at 60 r/min with much friction between pipe and guide. Which change calms it: less speed, or more
+# weight? Each candidate runs in three forks that differ by 1e-5 m/s of lateral velocity, so that chance is seen.
 
 # %%
 import matplotlib.pyplot as plt
@@ -33,11 +33,11 @@ runs = flexdrill.rollout(forks, inputs, 8, record=["bit", "contacts", "hazards"]
 figure, axes = plt.subplots(1, len(candidates), figsize=(12, 4), sharey=True, layout="constrained")
 for column, (name, axis) in enumerate(zip(candidates, axes)):
     axis.plot(before.time_s, before.contacts.pipe_guide_normal_peak_n.max(axis=1) / 1e3, color="0.6", linewidth=0.6)
-    peaks = []
+    peaks: list[float] = []
     for run in runs[column * members : (column + 1) * members]:
         largest = run.contacts.pipe_guide_normal_peak_n.max(axis=1) / 1e3
         axis.plot(run.time_s, largest, linewidth=0.6)
-        peaks.append(np.median(largest[len(largest) // 2 :]))
+        peaks.append(float(np.median(largest[len(largest) // 2 :])))
     axis.set(title=f"{name}: median {np.median(peaks):.2f} kN", xlabel="time (s)")
 axes[0].set(ylabel="largest force of pipe on guide (kN)")
 plt.show()

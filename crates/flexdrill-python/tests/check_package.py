@@ -1,4 +1,5 @@
-"""Checks what was built: python check_package.py DIST. Size and contents of the wheel, and that the sdist is complete."""
+"""Checks what was built: python check_package.py DIST. Size and contents of the wheel, and that the sdist is
+complete."""
 
 from __future__ import annotations
 

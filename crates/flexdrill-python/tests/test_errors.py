@@ -30,7 +30,9 @@ def test_a_configuration_names_every_problem() -> None:
         ({**SMALL, "unknown": 1}, {}, "unknown"),
     ],
 )
-def test_a_configuration_that_cannot_be_read(config: flexdrill.Config, overrides: dict[str, object], words: str) -> None:
+def test_a_configuration_that_cannot_be_read(
+    config: flexdrill.Config, overrides: dict[str, object], words: str
+) -> None:
     with pytest.raises(flexdrill.ConfigError, match=words):
         flexdrill.Twin(config, **overrides)
 

@@ -66,9 +66,7 @@ def test_two_runs_equal_one(built: flexdrill.Twin) -> None:
     # Seven steps are no whole period of 5 ms.
     first = parts.run(0.1035, speed_rpm=60, weight_kn=5)
     second = parts.run(0.1965)
-    np.testing.assert_array_equal(
-        one.bit.torque_nm, np.concatenate([first.bit.torque_nm, second.bit.torque_nm])
-    )
+    np.testing.assert_array_equal(one.bit.torque_nm, np.concatenate([first.bit.torque_nm, second.bit.torque_nm]))
     np.testing.assert_array_equal(
         one.joints.lateral_z_m, np.concatenate([first.joints.lateral_z_m, second.joints.lateral_z_m])
     )

@@ -37,7 +37,8 @@ class Messages:
     type_name: str
     """Type of the messages."""
     time_s: FloatArray
-    """Time of each message since the first of the bag, by the stamp of its header, without one by the time of recording."""
+    """Time of each message since the first of the bag, by the stamp of its header, without one by the time of
+    recording."""
     stamp_ns: npt.NDArray[np.int64]
     """The same since 1970."""
     fields: Mapping[str, Union[Array, list[Any]]]
@@ -88,8 +89,8 @@ class Bag(Mapping[str, Messages]):
 
 
 def read_bag(path: Union[str, os.PathLike[str]], topics: Optional[Sequence[str]] = None) -> Bag:
-    """Reads a bag (an MCAP file, or the folder of MCAP or SQLite that rosbag2 makes), all topics or those whose names end
-    in one of `topics`.
+    """Reads a bag (an MCAP file, or the folder of MCAP or SQLite that rosbag2 makes), all topics or those whose names
+    end in one of `topics`.
 
     Raises `ImportError` without rosbags, and rosbags' errors when the bag cannot be read.
     """

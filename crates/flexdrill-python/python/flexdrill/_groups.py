@@ -166,8 +166,8 @@ class Reactions:
 
 @dataclass(frozen=True)
 class Transfer(Generic[F]):
-    """Torque and weight from the surface to the bit, means over a sliding window; NaN where the tool has no such figure.
-    Three values stand for surface, kick-off and bit."""
+    """Torque and weight from the surface to the bit, means over a sliding window; NaN where the tool has no such
+    figure. Three values stand for surface, kick-off and bit."""
 
     window_s: F
     """Time that the window holds."""

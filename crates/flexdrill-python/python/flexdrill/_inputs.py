@@ -15,7 +15,9 @@ from ._groups import FloatArray
 if TYPE_CHECKING:
     from ._native import Changes
 
-Input = Union[float, Sequence[float], npt.NDArray[np.floating[Any]], Callable[[float], float]]
+Values = Union[Sequence[float], npt.NDArray[np.floating[Any]]]
+"""Several numbers."""
+Input = Union[float, Values, Callable[[float], float]]
 """A number acts during the whole run. The n values of an array act for one n-th of the run each. A function takes the
 model time (s) and is asked every 5 ms. Without an input the last one stays."""
 
@@ -101,7 +103,7 @@ def all_changes(inputs: Mapping[str, Input], steps: int, begun_s: float, begun: 
     return cast("Changes", tuple(out))
 
 
-def held(times_s: Sequence[float], values: Sequence[float]) -> Callable[[float], float]:
+def held(times_s: Values, values: Values) -> Callable[[float], float]:
     """A function of time that holds each value from its time on, as the samples of a rig act: for `Twin.run` and
     `rollout`. Before the first time the first value acts."""
     times: FloatArray = np.asarray(times_s, dtype=np.float64)

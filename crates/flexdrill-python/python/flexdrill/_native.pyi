@@ -22,6 +22,7 @@ def rollout(
     threads: int,
     progress: Optional[Callable[[int], object]] = None,
 ) -> list[Optional[BaseException]]: ...
+
 @final
 class Recorder:
     def __new__(cls, groups: Sequence[str], rate_hz: Optional[float], time_step_s: float) -> Recorder: ...

@@ -28,14 +28,16 @@ def rollout(
 
     `inputs` is one mapping per twin, or one for all, with the arguments of `Twin.run`. A function of time is asked for
     all its values before the runs begin. `threads` is the number of processors unless it is given; it changes no bit. A
-    run whose step fails ends there, and its recording has the `failure`; the others go on. `progress` is called with the
-    share of the runs that ended.
+    run whose step fails ends there, and its recording has the `failure`; the others go on. `progress` is called with
+    the share of the runs that ended.
 
     Raises `InputError` before anything runs when an input is outside the limits of a twin's configuration.
     """
     many: Sequence[Inputs] = [inputs] * len(twins) if isinstance(inputs, Mapping) else inputs
     if len(many) != len(twins):
-        raise ValueOutOfBounds(f"inputs has {len(many)} entries: must be one mapping, or one for each of {len(twins)} twins")
+        raise ValueOutOfBounds(
+            f"inputs has {len(many)} entries: must be one mapping, or one for each of {len(twins)} twins"
+        )
     if len({id(twin) for twin in twins}) != len(twins):
         raise ValueOutOfBounds("a twin is listed twice: it can only be advanced by one run; list a fork")
     if threads is not None and threads < 1:
@@ -50,7 +52,9 @@ def rollout(
         recorders.append(_native.Recorder(wanted_groups(record), rate_hz, twin.time_step_s))
     count = len(twins)
     natives = [twin._native for twin in twins]
-    failures = _native.rollout(natives, steps, changes, recorders, threads or os.cpu_count() or 1, share_of(progress, count))
+    failures = _native.rollout(
+        natives, steps, changes, recorders, threads or os.cpu_count() or 1, share_of(progress, count)
+    )
     return [
         Recording(recorder.finish(), cast("Optional[StepError]", failure))
         for recorder, failure in zip(recorders, failures)

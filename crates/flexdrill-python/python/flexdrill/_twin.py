@@ -98,9 +98,9 @@ class Twin:
         """Runs for a time, rounded to whole model steps, and returns the samples.
 
         Inputs are targets, towards which the model moves within the slew limits of the configuration. Each is a number,
-        an array whose n values act for one n-th of the run each, or a function of the model time (s) that is asked every
-        5 ms. Without one the last target stays. `record` names the groups (`GROUPS`, or "all"), `rate_hz` the samples per
-        second. `progress` is called with the share that is done, 0 to 1.
+        an array whose n values act for one n-th of the run each, or a function of the model time (s) that is asked
+        every 5 ms. Without one the last target stays. `record` names the groups (`GROUPS`, or "all"), `rate_hz` the
+        samples per second. `progress` is called with the share that is done, 0 to 1.
 
         Python's lock is released while the model runs; Ctrl-C ends the run. Two runs one after the other equal one over
         both times, to the bit.
@@ -236,12 +236,13 @@ class Twin:
     # --- Other twins -----------------------------------------------------------------------------------------------
 
     def fork(self) -> Twin:
-        """Another twin in the same state. With the same inputs it moves to the same bits; neither knows of the other."""
+        """Another twin in the same state. With the same inputs it moves to the same bits; neither knows of the
+        other."""
         return Twin._of(self._native.fork())
 
     def disturb(self, seed: int) -> None:
-        """Adds lateral velocities of up to 1e-5 m/s to the pipe, by random numbers that follow from `seed`. Forks of one
-        state then part as the motion is sensitive to it: the members of an ensemble."""
+        """Adds lateral velocities of up to 1e-5 m/s to the pipe, by random numbers that follow from `seed`. Forks of
+        one state then part as the motion is sensitive to it: the members of an ensemble."""
         self._native.disturb(seed)
 
     def to_bytes(self) -> bytes:
