@@ -3,7 +3,7 @@
 # Builds wheel and sdist (into target/python/dist), installs the wheel into a clean environment, and runs tests, types
 # and notebooks against it; the notebooks' pictures go to target/python/notebooks. Does its own set-up (as root or
 # with sudo): Python's venv, and the tools that crates/flexdrill-python/tests/requirements.txt names.
-#   --quick   build for this machine only instead of manylinux2014; without the sdist and the notebooks
+#   --quick   without the environment and the notebooks
 # FLEXDRILL_BINARY names the program whose bits are compared with the package's; default: the one in target/release.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
@@ -38,13 +38,9 @@ fi
 say "step 2 of 5: the wheel"
 rm -rf "$dist"
 PATH="$tools/bin:$PATH"
-if [ -n "$quick" ]; then
-    maturin build --release --locked --compatibility linux --manifest-path "$crate/Cargo.toml" --out "$dist"
-else
-    # The linker of Zig links against an old glibc, so that the wheel runs on every distribution in use.
-    maturin build --release --locked --zig --compatibility manylinux2014 --manifest-path "$crate/Cargo.toml" --out "$dist"
-    maturin sdist --manifest-path "$crate/Cargo.toml" --out "$dist"
-fi
+# maturin names the oldest glibc that the wheel runs with, as the manylinux tags have it.
+maturin build --release --locked --manifest-path "$crate/Cargo.toml" --out "$dist"
+maturin sdist --manifest-path "$crate/Cargo.toml" --out "$dist"
 wheel=$(find "$dist" -name '*.whl')
 "$tools/bin/python" "$crate/tests/check_package.py" "$dist"
 
@@ -53,7 +49,7 @@ clean=$out/clean
 rm -rf "$clean"
 python3 -m venv "$clean"
 "$clean/bin/python" -m pip install --quiet --disable-pip-version-check "$wheel[bags,xarray]" \
-    $(grep -E '^(pytest|rosbags|xarray|gymnasium|matplotlib|scipy|scipy-stubs)==' "$crate/tests/requirements.txt")
+    $(grep -E '^(pytest|rosbags|xarray|gymnasium|matplotlib|scipy|scipy-stubs|jupytext|nbconvert|ipykernel)==' "$crate/tests/requirements.txt")
 [ ! -x "$binary" ] || export FLEXDRILL_BINARY=$binary
 [ -x "$binary" ] || echo "SKIPPED: the program's bits against the package's: $binary is not there"
 (cd "$out" && timeout 900 "$clean/bin/python" -m pytest -q -p no:cacheprovider "$crate/tests")
@@ -71,5 +67,6 @@ if [ -n "$quick" ]; then
     say "step 5 of 5: left out"
     exit 0
 fi
-say "step 5 of 5: notebooks"
-"$tools/bin/python" "$crate/notebooks/execute.py" --python "$clean/bin/python" --out "$out/notebooks"
+say "step 5 of 5: the environment, and the notebooks"
+"$clean/bin/python" -W ignore "$crate/examples/drilling_env.py"
+"$clean/bin/python" "$crate/notebooks/execute.py" --out "$out/notebooks"
