@@ -3,10 +3,12 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::clocks::Clocks;
-use crate::rig_inputs::{Driver, DriverId, Intake, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped};
+use crate::rig_inputs::{
+    Carried, Driver, DriverId, Intake, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped,
+};
 use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{InputKind, Stamp};
-use flexdrill_messages::RigInputs as RigInputsMessage;
+use flexdrill_messages::{RigInputs as RigInputsMessage, RigMeasured};
 use flexdrill_realtime::link::Targets;
 
 /// Characters of a message's source that are kept, since every status carries them.
@@ -69,13 +71,13 @@ impl RigInputs {
     }
 
     /// Counts samples whose bytes are no message of their type.
-    pub fn count_unreadable(&self, kinds: &[InputKind]) {
-        self.locked().count_unreadable(kinds);
+    pub fn count_unreadable(&self, carried: Carried) {
+        self.locked().count_unreadable(carried);
     }
 
     /// Counts samples that were dropped unread.
-    pub fn count_overrun(&self, kinds: &[InputKind], samples: u64) {
-        self.locked().count_overrun(kinds, samples);
+    pub fn count_overrun(&self, carried: Carried, samples: u64) {
+        self.locked().count_overrun(carried, samples);
     }
 
     /// Sets the solver's targets to the inputs of the present time.
@@ -111,6 +113,14 @@ impl RigInputs {
                 .filter_map(|(kind, value)| value.map(|(value, stamp)| (kind, value, Some((stamp, source.clone()))))),
             id,
         )
+    }
+
+    /// Accepts a message of `rig/measured`, or returns the refusal.
+    pub fn accept_measured(&self, message: &RigMeasured) -> Option<SampleRefused> {
+        let time = self.clocks.age_time();
+        let stamp = self.clocks.stamp_time();
+        let accepted = self.locked().accept_measured(message, stamp, time, self.max_skew);
+        accepted.err()
     }
 
     fn accept(

@@ -58,6 +58,7 @@ pub(super) struct PreparedNode {
     tasks: Vec<Task>,
     plain_samples: Vec<(InputKind, Arc<Inbox<Sample>>)>,
     stamped_samples: Arc<Inbox<Sample>>,
+    measured_samples: Arc<Inbox<Sample>>,
     received: (ReceivedSender, ReceivedQueue),
     /// What viewers may steer; none without viewers.
     viewers: Option<Arc<Viewers>>,
@@ -148,6 +149,7 @@ impl PreparedNode {
             plain.push((kind, name, samples));
         }
         let (stamped_name, stamped) = subscribe(&topics::RIG_INPUTS)?;
+        let (_, measured) = subscribe(&topics::RIG_MEASURED)?;
         if let Some(newest) = clocks.simulated() {
             let (_, ticks) = subscribe(&topics::CLOCK)?;
             tasks.push(Box::pin(clock_topic::follow(inputs.clone(), ticks, Arc::clone(newest))));
@@ -176,6 +178,7 @@ impl PreparedNode {
             tasks,
             plain_samples: plain.into_iter().map(|(kind, _, samples)| (kind, samples)).collect(),
             stamped_samples: stamped,
+            measured_samples: measured,
             received: received::queue(),
             viewers,
             checkpoint,
@@ -220,6 +223,7 @@ impl PreparedNode {
             tasks.spawn(receive::receive_plain(receiver(), kind, samples));
         }
         tasks.spawn(receive::receive_stamped(receiver(), self.stamped_samples));
+        tasks.spawn(receive::receive_measured(receiver(), self.measured_samples));
         tasks.spawn(receive::update_targets(self.inputs.clone()));
 
         let finish = Arc::new(AtomicBool::new(false));

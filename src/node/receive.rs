@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::inputs::RigInputs;
 use super::received::{Received, ReceivedSender, plain_topic};
-use crate::rig_inputs::{Driver, DriverId, SampleRefused};
+use crate::rig_inputs::{Carried, Driver, DriverId, SampleRefused};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
@@ -59,8 +59,8 @@ impl SampleReceiver {
         }
     }
 
-    fn count_overrun(&self, topic: &TopicInfo, kinds: &[InputKind], samples: u64) {
-        self.inputs.count_overrun(kinds, samples);
+    fn count_overrun(&self, topic: &TopicInfo, carried: Carried, samples: u64) {
+        self.inputs.count_overrun(carried, samples);
         if let Some(record) = &self.record {
             record.miss(topic, samples);
         }
@@ -78,11 +78,11 @@ impl From<Peer> for Driver {
 }
 
 /// Receives the samples of one topic for as long as it is polled. `accept` judges a message and returns the refusals;
-/// `kinds` are the inputs that the topic carries.
+/// `carried` is what the topic carries.
 async fn receive<M: Message>(
     receiver: SampleReceiver,
     topic: &'static TopicInfo,
-    kinds: &'static [InputKind],
+    carried: Carried,
     samples: &Inbox<Sample>,
     accept: impl Fn(&SampleReceiver, M, DriverId) -> Vec<SampleRefused>,
 ) {
@@ -96,7 +96,7 @@ async fn receive<M: Message>(
         let clock = monotonic::now() as f64 * 1e-9;
         let before = std::mem::replace(&mut dropped, samples.dropped());
         if dropped > before {
-            receiver.count_overrun(topic, kinds, dropped - before);
+            receiver.count_overrun(topic, carried, dropped - before);
             if let Some(more) = overrun_lines.ending(clock) {
                 tracing::warn!(
                     "{}: {} samples came faster than the node reads them and were dropped; check whether a publisher floods \
@@ -109,7 +109,7 @@ async fn receive<M: Message>(
         let (message, id) = match decode(sample) {
             Ok((message, writer)) => (message, DriverId(writer)),
             Err(error) => {
-                receiver.inputs.count_unreadable(kinds);
+                receiver.inputs.count_unreadable(carried);
                 if let Some(more) = unreadable_lines.ending(clock) {
                     tracing::warn!("{}: a sample could not be read: {error}{more}", topic.name);
                 }
@@ -121,6 +121,7 @@ async fn receive<M: Message>(
             let cause = match &refused {
                 SampleRefused::Driver(_) => usize::MAX,
                 SampleRefused::Value(rejection) => rejection.reason.index(),
+                SampleRefused::Measured(refused) => usize::MAX - 1 - refused.index(),
             };
             if let Some(more) = refused_lines.ending(cause, clock) {
                 tracing::warn!("{refused}{more}");
@@ -150,7 +151,7 @@ pub async fn receive_plain(receiver: SampleReceiver, kind: InputKind, samples: A
     receive(
         receiver,
         plain_topic(kind),
-        kinds,
+        Carried::Inputs(kinds),
         &samples,
         move |receiver, Float64 { data: value }, id| {
             receiver.record(Received::Plain { kind, value });
@@ -165,12 +166,28 @@ pub async fn receive_stamped(receiver: SampleReceiver, samples: Arc<Inbox<Sample
     receive(
         receiver,
         &topics::RIG_INPUTS,
-        &InputKind::ALL,
+        Carried::Inputs(&InputKind::ALL),
         &samples,
         |receiver, message, id| {
             let refused = receiver.inputs.accept_stamped(&message, id);
             receiver.record(Received::Stamped(message));
             refused
+        },
+    )
+    .await;
+}
+
+/// Receives the messages on `rig/measured` for as long as it is polled.
+pub async fn receive_measured(receiver: SampleReceiver, samples: Arc<Inbox<Sample>>) {
+    receive(
+        receiver,
+        &topics::RIG_MEASURED,
+        Carried::Measured,
+        &samples,
+        |receiver, message, _| {
+            let refused = receiver.inputs.accept_measured(&message);
+            receiver.record(Received::Measured(message));
+            refused.into_iter().collect()
         },
     )
     .await;

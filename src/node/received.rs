@@ -5,18 +5,19 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use flexdrill_core::inputs::InputKind;
-use flexdrill_messages::RigInputs;
 use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::{RigInputs, RigMeasured};
 
 /// Most samples that wait for the recording.
 const CAPACITY: usize = 1024;
 /// The topics of the samples.
-const TOPICS: [&TopicInfo; 5] = [
+const TOPICS: [&TopicInfo; 6] = [
     &topics::ROTARY_SPEED_RPM,
     &topics::WEIGHT_ON_BIT_KN,
     &topics::RATE_OF_PENETRATION,
     &topics::STANDPIPE_PRESSURE,
     &topics::RIG_INPUTS,
+    &topics::RIG_MEASURED,
 ];
 
 /// A sample as received.
@@ -31,6 +32,8 @@ pub enum Received {
     },
     /// A message with stamp, quality and source.
     Stamped(RigInputs),
+    /// What the rig measures besides.
+    Measured(RigMeasured),
 }
 
 impl Received {
@@ -39,6 +42,7 @@ impl Received {
         match self {
             Received::Plain { kind, .. } => plain_topic(*kind),
             Received::Stamped(_) => &topics::RIG_INPUTS,
+            Received::Measured(_) => &topics::RIG_MEASURED,
         }
     }
 }

@@ -4,9 +4,11 @@ use std::fmt;
 
 use super::driver::{Driver, DriverId};
 use super::drivers::{DriverSummary, Drivers, NotDriving, Rule};
+use super::measured::{Measured, MeasuredRefused};
 use super::safe_value_watch::{SafeValueEvent, SafeValueWatch};
 use flexdrill_config::InputsConfig;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, Stamp};
+use flexdrill_messages::RigMeasured;
 
 /// What a message on `rig/inputs` states about its source.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -39,6 +41,17 @@ pub enum SampleRefused {
     Driver(Box<NotDriving>),
     /// Its value or its stamp is refused.
     Value(Rejection),
+    /// A message of `rig/measured` is refused.
+    Measured(MeasuredRefused),
+}
+
+/// What a topic carries.
+#[derive(Debug, Clone, Copy)]
+pub enum Carried {
+    /// These inputs.
+    Inputs(&'static [InputKind]),
+    /// What the rig measures besides.
+    Measured,
 }
 
 impl fmt::Display for SampleRefused {
@@ -46,6 +59,7 @@ impl fmt::Display for SampleRefused {
         match self {
             Self::Driver(refused) => refused.fmt(f),
             Self::Value(rejection) => rejection.fmt(f),
+            Self::Measured(refused) => refused.fmt(f),
         }
     }
 }
@@ -62,6 +76,7 @@ pub struct Intake {
     overrun: [u64; InputKind::COUNT],
     /// Of the newest good sample.
     sources: [SampleSource; InputKind::COUNT],
+    measured: Measured,
 }
 
 impl Intake {
@@ -75,6 +90,7 @@ impl Intake {
             unreadable: [0; InputKind::COUNT],
             overrun: [0; InputKind::COUNT],
             sources: Default::default(),
+            measured: Measured::default(),
         }
     }
 
@@ -133,10 +149,36 @@ impl Intake {
         Ok(())
     }
 
+    /// Accepts a message of `rig/measured` that arrived at `time` (s, the conditioner's clock). `now` is the present
+    /// instant of the stamps (ns), `max_skew` how far ahead of it a stamp may be (s).
+    ///
+    /// # Errors
+    /// When its stamp or one of its values is refused.
+    pub fn accept_measured(
+        &mut self,
+        message: &RigMeasured,
+        now: i64,
+        time: f64,
+        max_skew: f64,
+    ) -> Result<(), SampleRefused> {
+        let accepted = self.measured.accept(message, now, time, max_skew);
+        accepted.map_err(SampleRefused::Measured)
+    }
+
+    /// What the rig measures besides the inputs.
+    pub fn measured(&self) -> &Measured {
+        &self.measured
+    }
+
     /// Counts a sample whose bytes are no message of its type.
-    pub fn count_unreadable(&mut self, kinds: &[InputKind]) {
-        for kind in kinds {
-            self.unreadable[kind.index()] += 1;
+    pub fn count_unreadable(&mut self, carried: Carried) {
+        match carried {
+            Carried::Inputs(kinds) => {
+                for kind in kinds {
+                    self.unreadable[kind.index()] += 1;
+                }
+            }
+            Carried::Measured => self.measured.count_unreadable(),
         }
     }
 
@@ -146,9 +188,14 @@ impl Intake {
     }
 
     /// Counts samples that were dropped unread because they came faster than the node reads them.
-    pub fn count_overrun(&mut self, kinds: &[InputKind], samples: u64) {
-        for kind in kinds {
-            self.overrun[kind.index()] += samples;
+    pub fn count_overrun(&mut self, carried: Carried, samples: u64) {
+        match carried {
+            Carried::Inputs(kinds) => {
+                for kind in kinds {
+                    self.overrun[kind.index()] += samples;
+                }
+            }
+            Carried::Measured => self.measured.count_overrun(samples),
         }
     }
 
@@ -171,6 +218,7 @@ impl Intake {
     pub fn clock_set(&mut self, now: f64) {
         self.drivers.clock_set(now);
         self.conditioner.clock_set(now);
+        self.measured.clock_set();
     }
 }
 

@@ -2,15 +2,18 @@
 //! conditioner of the core), and the log lines about safe values ([`SafeValueWatch`]). The room knows no middleware and
 //! no clock: the caller passes times in.
 //!
-//! [`Intake`] owns all of them: it accepts a sample, or refuses it with a reason.
+//! [`Intake`] owns all of them: it accepts a sample, or refuses it with a reason. It also keeps what the rig measures
+//! besides ([`Measured`]).
 
 mod driver;
 mod drivers;
 mod intake;
+mod measured;
 mod safe_value_watch;
 pub mod stamped;
 
 pub use driver::{Driver, DriverId};
 pub use drivers::{DriverSummary, Drivers, NotDriving, Rule};
-pub use intake::{Intake, RigSample, SampleRefused, SampleSource};
+pub use intake::{Carried, Intake, RigSample, SampleRefused, SampleSource};
+pub use measured::{Measured, MeasuredRefused, MeasuredValue};
 pub use safe_value_watch::{SafeValueEvent, SafeValueWatch};

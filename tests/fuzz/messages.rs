@@ -76,6 +76,7 @@ types! {
     ours::JointDeflections,
     ours::Reactions,
     ours::RigInputs,
+    ours::RigMeasured,
     ours::SafeWindow,
     ours::SessionInfo,
     ours::Transfer,

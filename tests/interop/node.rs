@@ -287,6 +287,7 @@ fn types_are_described_to_both_kinds_of_clients() {
     let inputs = [
         "std_msgs/msg/Float64",
         "flexdrill/msg/RigInputs",
+        "flexdrill/msg/RigMeasured",
         "rosgraph_msgs/msg/Clock",
     ];
     let outputs = OUTPUTS.map(|(_, kind, _)| kind);

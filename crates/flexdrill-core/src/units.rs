@@ -87,6 +87,11 @@ pub fn kft_lbf_to_kn_m(kft_lbf: f64) -> f64 {
     klbf_to_kn(kft_lbf) * 0.3048
 }
 
+/// Multiples of the standard gravity to m/s2, exact by definition.
+pub fn standard_gravities_to_m_per_s2(gravities: f64) -> f64 {
+    gravities * 9.806_65
+}
+
 /// Sine and cosine of an angle (rad), alike on every machine.
 pub fn sine_and_cosine(angle: f64) -> (f64, f64) {
     libm::sincos(angle)

@@ -22,6 +22,7 @@ mod condition;
 mod error;
 mod hookload;
 mod mapping;
+mod measured;
 mod parts;
 mod range;
 mod read;
@@ -34,9 +35,11 @@ mod time_format;
 pub use condition::Condition;
 pub use error::FieldLogError;
 pub use mapping::{
-    Columns, Decimal, Direct, Hookload, Mapping, Quality, RotarySpeedColumn, TimeColumn, WeightOnBitColumn,
+    Columns, Decimal, Direct, Hookload, Mapping, MeasuredColumn, Quality, RotarySpeedColumn, TimeColumn,
+    WeightOnBitColumn,
 };
 pub use mapping::{SpeedUnit, TorqueColumn, TorqueUnit, WeightUnit};
+pub use measured::{MeasuredRow, MeasuredSequence};
 pub use range::{Position, Range};
 pub use read::{read, read_range};
 pub use report::{Issue, IssueKind, Report, Summary, Tare, TorqueSummary};

@@ -2,6 +2,7 @@
 
 mod units;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,7 @@ use crate::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
+use flexdrill_core::inputs::{MeasuredKind, Unit};
 
 /// The meaning of a log's columns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,6 +61,20 @@ pub struct Columns {
     /// Pressure inside minus outside at the tool's top. Default none: the configured constant is assumed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standpipe_pressure: Option<PressureColumn>,
+    /// What the rig measures besides the inputs, by quantity. Torque, rate, pressure and hookload of the other columns
+    /// are measured quantities too, unless this list has them. Default none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub measured: BTreeMap<MeasuredKind, MeasuredColumn>,
+}
+
+/// A measured quantity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredColumn {
+    /// Name in the header.
+    pub column: String,
+    /// Required.
+    pub unit: Unit,
 }
 
 /// Rate of penetration, negative while the tool is pulled back.
@@ -286,6 +302,20 @@ impl Mapping {
                     c.number("scale", hookload.scale, scale, "", scale_reason);
                     hookload.check(c);
                 }),
+            });
+            c.below("measured", |c| {
+                for (kind, column) in &self.columns.measured {
+                    c.below(kind.name(), |c| {
+                        c.require(
+                            column.unit.dimension() == kind.dimension(),
+                            "unit",
+                            column.unit.name(),
+                            "",
+                            format!("one of {}", kind.dimension().units()),
+                            "the unit belongs to another quantity",
+                        );
+                    });
+                }
             });
         });
         c.below("quality", |c| self.quality.check(c));

@@ -8,7 +8,7 @@ use crate::mapping::{Mapping, WeightOnBitColumn};
 use crate::report::{Issues, Report, Summary, TorqueSummary};
 use crate::spikes::{remove_spikes, report_frozen};
 use crate::table::{Row, read_table};
-use crate::{FieldLogError, InputSequence, Range, Tare, TimedInput};
+use crate::{FieldLogError, InputSequence, MeasuredSequence, Range, Tare, TimedInput};
 use flexdrill_core::inputs::InputKind;
 
 /// Reads a whole log.
@@ -85,7 +85,13 @@ pub fn read_range(
             begin = end;
         }
     }
-    Ok((sequence(part, mapping), report))
+    let mut sequence = sequence(part, mapping);
+    sequence.measured = MeasuredSequence::new(table.measured_kinds.clone());
+    for row in part {
+        let time = row.time - part[0].time;
+        sequence.measured.push(time, row.number, table.measured_of(row));
+    }
+    Ok((sequence, report))
 }
 
 /// Largest log that is read (bytes): two months at 1 Hz with thirty columns. It is held in memory.
@@ -192,6 +198,7 @@ fn sequence(rows: &[Row], mapping: &Mapping) -> InputSequence {
     }
     InputSequence {
         inputs,
+        measured: MeasuredSequence::default(),
         duration: rows.last().map_or(0.0, |row| row.time - begin),
     }
 }

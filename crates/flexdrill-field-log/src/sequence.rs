@@ -1,5 +1,6 @@
 //! The timed inputs of a log.
 
+use crate::MeasuredSequence;
 use flexdrill_core::inputs::InputKind;
 
 /// One sample, as the input's topic would carry it.
@@ -20,6 +21,8 @@ pub struct TimedInput {
 pub struct InputSequence {
     /// The samples.
     pub inputs: Vec<TimedInput>,
+    /// What the log measures besides.
+    pub measured: MeasuredSequence,
     /// Time from the first to the last row that was read (s), samples or not.
     pub duration: f64,
 }

@@ -1,10 +1,11 @@
 //! The rows of the CSV file, as numbers.
 
 use crate::mapping::{Mapping, WeightOnBitColumn};
+use crate::measured::{self, Shared, Source};
 use crate::parts::{TimeAxis, Timed, order};
 use crate::report::{IssueKind, Issues};
 use crate::{Condition, FieldLogError};
-use flexdrill_core::inputs::InputKind;
+use flexdrill_core::inputs::{InputKind, MeasuredKind};
 
 /// One row with a readable, advancing time.
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +22,8 @@ pub(crate) struct Row {
     pub(crate) off_bottom: Option<bool>,
     /// Torque of the drive (kN m).
     pub(crate) torque: Option<f64>,
+    /// Index of the row's measured values in [`Table::measured`].
+    pub(crate) measured: usize,
 }
 
 /// Largest value accepted (in the log's unit): far above any measurement, and finite after any unit and scale.
@@ -37,6 +40,7 @@ struct ColumnIndices {
     torque: Option<usize>,
     rate: Option<usize>,
     pressure: Option<usize>,
+    measured: Vec<(MeasuredKind, Source)>,
 }
 
 /// The rows of a log.
@@ -47,6 +51,20 @@ pub(crate) struct Table {
     pub(crate) parts: Vec<u64>,
     /// Every row of the file with anything in it, as an editor numbers them.
     pub(crate) written: Vec<u64>,
+    /// The measured quantities of the mapping.
+    pub(crate) measured_kinds: Vec<MeasuredKind>,
+    /// One per row and measured quantity (SI), NaN where the row has none.
+    pub(crate) measured: Vec<f64>,
+}
+
+impl Table {
+    /// The measured values of a row.
+    pub(crate) fn measured_of(&self, row: &Row) -> &[f64] {
+        let count = self.measured_kinds.len();
+        self.measured
+            .get(row.measured * count..(row.measured + 1) * count)
+            .unwrap_or_default()
+    }
 }
 
 /// Reads all rows and adds the problems of single rows to `issues`. Each line is parsed alone, so that a stray quote
@@ -119,11 +137,15 @@ pub(crate) fn read_table(
     let parts = order(&mut timed, &axis, issues);
     let mut rows = Vec::with_capacity(timed.len());
     let mut of_file = readable.iter();
+    let mut measured = Vec::new();
     for Timed { number, time } in timed {
         let Some((_, line)) = of_file.find(|(row, _)| row.number == number) else {
             continue;
         };
-        rows.push(columns.row(&reader.read(line), number, time, mapping, issues));
+        let record = reader.read(line);
+        let timed = Timed { number, time };
+        let row = columns.row(&record, timed, rows.len(), mapping, issues, &mut measured);
+        rows.push(row);
     }
     if rows.is_empty() {
         return Err(FieldLogError::NoRows {
@@ -133,7 +155,13 @@ pub(crate) fn read_table(
             hint: unreadable,
         });
     }
-    Ok(Table { rows, parts, written })
+    Ok(Table {
+        rows,
+        parts,
+        written,
+        measured_kinds: columns.measured.iter().map(|(kind, _)| *kind).collect(),
+        measured,
+    })
 }
 
 /// Longest line that is read (bytes): a thousand columns of a thousand characters. Reading a line takes 18 times its
@@ -341,10 +369,20 @@ impl ColumnIndices {
             weight,
             drilling,
             off_bottom,
+            measured: measured::sources(mapping, find)?,
         })
     }
 
-    fn row(&self, record: &csv::ByteRecord, number: u64, time: f64, mapping: &Mapping, issues: &mut Issues) -> Row {
+    /// The row of that `index`; its measured values are added to `measured`.
+    fn row(
+        &self,
+        record: &csv::ByteRecord,
+        Timed { number, time }: Timed,
+        index: usize,
+        mapping: &Mapping,
+        issues: &mut Issues,
+        measured: &mut Vec<f64>,
+    ) -> Row {
         let mut value = |index: usize, column: &str| -> Option<f64> {
             let Some(text) = text(record, index) else {
                 issues.add(IssueKind::Unreadable, column, number, || "not text".to_string());
@@ -400,7 +438,23 @@ impl ColumnIndices {
         let pressure = self.pressure.zip(columns.standpipe_pressure.as_ref());
         let pressure = pressure
             .and_then(|(index, pressure)| value(index, &pressure.column).map(|value| pressure.unit.to_mpa(value)));
+        let shared = Shared {
+            torque_kn_m: torque,
+            rate_m_per_h: rate,
+            pressure_mpa: pressure,
+            hookload_kn: weight,
+        };
+        for (kind, source) in &self.measured {
+            let found = match (*source, columns.measured.get(kind)) {
+                (Source::Column(index, unit), Some(column)) => {
+                    value(index, &column.column).map(|value| unit.to_si(value))
+                }
+                (source, _) => shared.value(source),
+            };
+            measured.push(found.unwrap_or(f64::NAN));
+        }
         Row {
+            measured: index,
             torque,
             number,
             time,

@@ -1342,6 +1342,69 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_m_per_h", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_mpa", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// What the rig and the tool's own sensors measure besides the inputs that drive the twin. The twin compares these values
+    /// with its own and never drives the model by them. Every value is optional: NaN where it is not given. Topic rig/measured.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct RigMeasured {
+        /// Stamp: time of the measurement, on the rig's clock. Frame: not used.
+        pub header: super::std_msgs::Header,
+        /// Torque of the drive at the surface (N m).
+        pub surface_torque: f64,
+        /// Standpipe pressure, inside minus outside at the tool's top (Pa).
+        pub standpipe_pressure: f64,
+        /// Load on the hook (N), the weight of the string in the mud minus the weight on bit and the friction along the hole.
+        pub hook_load: f64,
+        /// Rate of penetration (m/s), negative while the tool is pulled back.
+        pub rate_of_penetration: f64,
+        /// Measured depth of the bit, from the rig's own zero (m).
+        pub bit_depth: f64,
+        /// Measured depth of the hole, from the rig's own zero (m).
+        pub hole_depth: f64,
+        /// Rotary speed above the bit, measured in the hole (rad/s).
+        pub downhole_rotary_speed: f64,
+        /// Torque above the bit, measured in the hole (N m).
+        pub downhole_torque: f64,
+        /// Weight on bit, measured in the hole (N).
+        pub downhole_weight_on_bit: f64,
+        /// Axial acceleration in the hole, root mean square of the sensor's window (m/s2).
+        pub axial_vibration: f64,
+        /// Lateral acceleration in the hole, root mean square of the sensor's window (m/s2).
+        pub lateral_vibration: f64,
+        /// Largest axial acceleration in the sensor's window (m/s2).
+        pub axial_shock: f64,
+        /// Largest lateral acceleration in the sensor's window (m/s2).
+        pub lateral_shock: f64,
+        /// Quality of all values: GOOD, SUSPECT or BAD.
+        pub quality: u8,
+        /// Sensor or program of origin, for displays; may be empty.
+        pub source: std::string::String,
+    }
+
+    impl RigMeasured {
+        /// The source considers the values correct.
+        pub const GOOD: u8 = 0;
+        /// The source has doubts; comparisons leave the values out, and the recording keeps them.
+        pub const SUSPECT: u8 = 1;
+        /// The values are wrong or not measured.
+        pub const BAD: u8 = 2;
+    }
+
+    impl Message for RigMeasured {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "RigMeasured";
+        const ROS_TYPE: &'static str = "flexdrill/msg/RigMeasured";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::RigMeasured_";
+        const RIHS01: &'static str = "RIHS01_6fa55954461bcaa8b975b3061722ff51cf1b849e5072380bd54c3bfc77203263";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/RigMeasured.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigMeasured", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "surface_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hook_load", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_vibration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_vibration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_shock", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_shock", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// The map of rotary speed and weight on bit that the node has loaded (map.file): where alarms must be expected, and where
     /// not. It belongs to the tool of this run.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -3894,6 +3957,7 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::JointDeflections as super::Message>::INFO,
     <flexdrill::Reactions as super::Message>::INFO,
     <flexdrill::RigInputs as super::Message>::INFO,
+    <flexdrill::RigMeasured as super::Message>::INFO,
     <flexdrill::SafeWindow as super::Message>::INFO,
     <flexdrill::SessionInfo as super::Message>::INFO,
     <flexdrill::Transfer as super::Message>::INFO,

@@ -6,6 +6,7 @@ pub mod fill;
 mod grown;
 mod journal;
 pub mod large_array;
+mod measured;
 mod message;
 pub mod outputs;
 mod time;

@@ -2,8 +2,8 @@
 
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, Forecast, JointDeflections, Message,
-    Reactions, RigInputs, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning,
-    diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
+    Reactions, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState,
+    WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -105,6 +105,8 @@ pub const STANDPIPE_PRESSURE: TopicInfo = TopicInfo::new(
 );
 /// Input: all values with stamp, quality and source.
 pub const RIG_INPUTS: TopicInfo = TopicInfo::new("rig/inputs", RigInputs::INFO, Cadence::Received, BEST_EFFORT);
+/// Received: what the rig measures besides the inputs. It drives nothing.
+pub const RIG_MEASURED: TopicInfo = TopicInfo::new("rig/measured", RigMeasured::INFO, Cadence::Received, BEST_EFFORT);
 /// Input: the rig's clock, with `use_sim_time` only.
 pub const CLOCK: TopicInfo = TopicInfo::new("/clock", rosgraph_msgs::Clock::INFO, Cadence::Received, BEST_EFFORT);
 /// Output: per joint.
@@ -191,12 +193,13 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 25] = [
+pub const ALL: [TopicInfo; 26] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
     STANDPIPE_PRESSURE,
     RIG_INPUTS,
+    RIG_MEASURED,
     CLOCK,
     JOINT_DEFLECTIONS,
     CONTACT_FORCES,

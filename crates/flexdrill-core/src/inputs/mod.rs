@@ -5,16 +5,20 @@
 
 mod conditioner;
 mod kind;
+mod measured;
 mod rejection;
 mod route;
 mod rule;
 mod state;
+mod unit;
 mod wanted;
 
 pub use conditioner::{Conditioner, Counts};
 pub use kind::InputKind;
+pub use measured::MeasuredKind;
 pub use rejection::{Rejection, RejectionReason};
 pub use route::{InputRoute, Stamp};
 pub use rule::{InputRule, InputRules};
 pub use state::InputState;
+pub use unit::{Dimension, Unit};
 pub use wanted::Inputs;

@@ -955,6 +955,74 @@ export function decodeRigInputs(reader: CdrReader): RigInputs {
 }
 
 /**
+ * What the rig and the tool's own sensors measure besides the inputs that drive the twin. The twin compares these values
+ * with its own and never drives the model by them. Every value is optional: NaN where it is not given. Topic rig/measured.
+ */
+export interface RigMeasured {
+  /** Stamp: time of the measurement, on the rig's clock. Frame: not used. */
+  header: Header;
+  /** Torque of the drive at the surface (N m). */
+  surface_torque: number;
+  /** Standpipe pressure, inside minus outside at the tool's top (Pa). */
+  standpipe_pressure: number;
+  /** Load on the hook (N), the weight of the string in the mud minus the weight on bit and the friction along the hole. */
+  hook_load: number;
+  /** Rate of penetration (m/s), negative while the tool is pulled back. */
+  rate_of_penetration: number;
+  /** Measured depth of the bit, from the rig's own zero (m). */
+  bit_depth: number;
+  /** Measured depth of the hole, from the rig's own zero (m). */
+  hole_depth: number;
+  /** Rotary speed above the bit, measured in the hole (rad/s). */
+  downhole_rotary_speed: number;
+  /** Torque above the bit, measured in the hole (N m). */
+  downhole_torque: number;
+  /** Weight on bit, measured in the hole (N). */
+  downhole_weight_on_bit: number;
+  /** Axial acceleration in the hole, root mean square of the sensor's window (m/s2). */
+  axial_vibration: number;
+  /** Lateral acceleration in the hole, root mean square of the sensor's window (m/s2). */
+  lateral_vibration: number;
+  /** Largest axial acceleration in the sensor's window (m/s2). */
+  axial_shock: number;
+  /** Largest lateral acceleration in the sensor's window (m/s2). */
+  lateral_shock: number;
+  /** Quality of all values: GOOD, SUSPECT or BAD. */
+  quality: number;
+  /** Sensor or program of origin, for displays; may be empty. */
+  source: string;
+}
+export const RigMeasured = {
+  /** The source considers the values correct. */
+  GOOD: 0,
+  /** The source has doubts; comparisons leave the values out, and the recording keeps them. */
+  SUSPECT: 1,
+  /** The values are wrong or not measured. */
+  BAD: 2,
+} as const;
+/** Reads a `flexdrill/msg/RigMeasured`. */
+export function decodeRigMeasured(reader: CdrReader): RigMeasured {
+  return {
+    header: decodeHeader(reader),
+    surface_torque: reader.float64(),
+    standpipe_pressure: reader.float64(),
+    hook_load: reader.float64(),
+    rate_of_penetration: reader.float64(),
+    bit_depth: reader.float64(),
+    hole_depth: reader.float64(),
+    downhole_rotary_speed: reader.float64(),
+    downhole_torque: reader.float64(),
+    downhole_weight_on_bit: reader.float64(),
+    axial_vibration: reader.float64(),
+    lateral_vibration: reader.float64(),
+    axial_shock: reader.float64(),
+    lateral_shock: reader.float64(),
+    quality: reader.uint8(),
+    source: reader.string(),
+  };
+}
+
+/**
  * The map of rotary speed and weight on bit that the node has loaded (map.file): where alarms must be expected, and where
  * not. It belongs to the tool of this run.
  */
@@ -1964,6 +2032,7 @@ export const DECODERS = {
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/RigInputs": decodeRigInputs,
+  "flexdrill/msg/RigMeasured": decodeRigMeasured,
   "flexdrill/msg/SafeWindow": decodeSafeWindow,
   "flexdrill/msg/SessionInfo": decodeSessionInfo,
   "flexdrill/msg/Transfer": decodeTransfer,

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use flexdrill_messages::{
     Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, FigureBand, Forecast,
-    ForecastBand, JointDeflections, Message, Reactions, RigInputs, SafeWindow, SessionInfo, Transfer, TwinStatus,
-    WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
+    ForecastBand, JointDeflections, Message, Reactions, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer,
+    TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
@@ -169,6 +169,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<Forecast>(&mut maker),
         reference::<ForecastBand>(&mut maker),
         reference::<SafeWindow>(&mut maker),
+        reference::<RigMeasured>(&mut maker),
     ];
     let fresh = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(REFERENCE);
