@@ -14,6 +14,7 @@
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
 //! - [`window`]: the map of speed and weight, and where a point is on it.
+//! - [`bridge`]: a rig's own protocols joined to the twin's topics.
 //! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
 //!
 //! Below them are crates, most of them also under a short name here: [`flexdrill_dashboard`], [`flexdrill_report`],
@@ -22,6 +23,7 @@
 
 pub mod ahead;
 pub mod alarms;
+pub mod bridge;
 pub mod cli;
 pub mod health;
 pub mod map;

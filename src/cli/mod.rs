@@ -1,6 +1,7 @@
 //! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
 
 mod bench;
+mod bridge;
 mod built_in;
 mod check;
 mod dashboard;
@@ -47,6 +48,7 @@ struct Cli {
 enum Command {
     Run(run::RunArgs),
     Rig(rig::RigArgs),
+    Bridge(bridge::BridgeArgs),
     Replay(replay::ReplayArgs),
     Report(report::ReportArgs),
     Check(check::CheckArgs),
@@ -222,7 +224,8 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
     match command {
         Command::Run(args) => run::run(&args, ros_args),
         Command::Rig(args) => rig::run(&args, ros_args),
-        _ if !ros_args.is_empty() => Err(WrongUse::new("only `run` and `rig` accept --ros-args").into()),
+        Command::Bridge(args) => bridge::run(&args, ros_args),
+        _ if !ros_args.is_empty() => Err(WrongUse::new("only `run`, `rig` and `bridge` accept --ros-args").into()),
         Command::Replay(args) => replay::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),

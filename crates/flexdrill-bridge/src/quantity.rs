@@ -1,0 +1,117 @@
+//! The quantities that a rig sends: those that drive the twin, and those that it only measures.
+
+use std::fmt;
+
+use flexdrill_core::inputs::{Dimension, InputKind, MeasuredKind};
+use serde::{Deserialize, Serialize};
+
+/// A quantity of the rig by its name. Rate of penetration and standpipe pressure are both measured and an input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Quantity {
+    /// Speed of the top drive.
+    RotarySpeed,
+    /// Weight on bit at the surface.
+    WeightOnBit,
+    /// A measured quantity.
+    Measured(MeasuredKind),
+}
+
+/// A name that belongs to no quantity.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{name:?} is no quantity; it is one of {}", names())]
+pub struct NoQuantity {
+    /// The name.
+    pub name: String,
+}
+
+/// All names, for messages.
+fn names() -> String {
+    Quantity::all().map(Quantity::name).collect::<Vec<_>>().join(", ")
+}
+
+impl Quantity {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        [Self::RotarySpeed, Self::WeightOnBit]
+            .into_iter()
+            .chain(MeasuredKind::ALL.into_iter().map(Self::Measured))
+    }
+
+    /// The name in mappings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::RotarySpeed => InputKind::RotarySpeed.name(),
+            Self::WeightOnBit => InputKind::WeightOnBit.name(),
+            Self::Measured(kind) => kind.name(),
+        }
+    }
+
+    /// What it measures.
+    pub const fn dimension(self) -> Dimension {
+        match self {
+            Self::RotarySpeed => Dimension::RotarySpeed,
+            Self::WeightOnBit => Dimension::Force,
+            Self::Measured(kind) => kind.dimension(),
+        }
+    }
+
+    /// The input that it drives, if any.
+    pub const fn input(self) -> Option<InputKind> {
+        match self {
+            Self::RotarySpeed => Some(InputKind::RotarySpeed),
+            Self::WeightOnBit => Some(InputKind::WeightOnBit),
+            Self::Measured(MeasuredKind::RateOfPenetration) => Some(InputKind::RateOfPenetration),
+            Self::Measured(MeasuredKind::StandpipePressure) => Some(InputKind::StandpipePressure),
+            Self::Measured(_) => None,
+        }
+    }
+
+    /// Smallest and largest plausible value (SI). The node's own limits of its inputs are narrower.
+    pub const fn plausible(self) -> [f64; 2] {
+        match self {
+            Self::RotarySpeed => MeasuredKind::DownholeRotarySpeed.plausible(),
+            Self::WeightOnBit => MeasuredKind::DownholeWeightOnBit.plausible(),
+            Self::Measured(kind) => kind.plausible(),
+        }
+    }
+}
+
+impl TryFrom<String> for Quantity {
+    type Error = NoQuantity;
+
+    fn try_from(name: String) -> Result<Self, NoQuantity> {
+        let found = Self::all().find(|quantity| quantity.name() == name);
+        found.ok_or(NoQuantity { name })
+    }
+}
+
+impl From<Quantity> for String {
+    fn from(quantity: Quantity) -> Self {
+        quantity.name().to_owned()
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_lead_back_and_inputs_keep_their_dimension() {
+        for quantity in Quantity::all() {
+            assert_eq!(Quantity::try_from(quantity.name().to_owned()), Ok(quantity));
+            if let Some(input) = quantity.input() {
+                assert_eq!(input.name(), quantity.name());
+                assert_eq!(input.si_unit(), quantity.dimension().si().name());
+            }
+        }
+        let wrong = Quantity::try_from("torque".to_owned()).unwrap_err();
+        assert!(wrong.to_string().contains("surface_torque"), "{wrong}");
+    }
+}

@@ -1,0 +1,551 @@
+//! What a frame means: records with their sequence, items as quantities, everything else reported.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use flexdrill_core::inputs::InputKind;
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::std_msgs::Header as RosHeader;
+use flexdrill_messages::{RigInputs, RigMeasured};
+
+use super::frame::RawFrame;
+use super::header::{Header, LAST_HEADER_ITEM};
+use super::item::{ItemCode, number};
+use super::mapping::{ItemMapping, Mapping, StampSource};
+use super::sequence::{Sequence, SequenceWatch};
+use super::shown;
+use crate::Quantity;
+
+/// Faults of one frame that are described; more are counted.
+const MOST_FAULTS: usize = 16;
+/// Bytes of a fault that are shown.
+const SHOWN: usize = 40;
+/// Longest source in a message (characters).
+const LONGEST_SOURCE: usize = 64;
+
+/// Why a complete frame gave no value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum NotUsed {
+    /// It has no item: some sources ask or show life with such frames.
+    Empty,
+    /// All its records came before.
+    Repeated,
+    /// All its records are older than what came before.
+    Late,
+    /// It has no item that the mapping names.
+    NothingMapped,
+    /// All its values are missing, unreadable or outside their range.
+    NoGoodValue,
+}
+
+impl NotUsed {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Empty,
+        Self::Repeated,
+        Self::Late,
+        Self::NothingMapped,
+        Self::NoGoodValue,
+    ];
+
+    /// In words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Empty => "empty",
+            Self::Repeated => "repeated",
+            Self::Late => "late",
+            Self::NothingMapped => "no mapped item",
+            Self::NoGoodValue => "no good value",
+        }
+    }
+}
+
+/// What became of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrameUse {
+    /// It gave values.
+    Used {
+        /// How many.
+        values: u32,
+    },
+    /// It gave none.
+    NotUsed(NotUsed),
+}
+
+/// Kinds of lines and items that could not be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ItemFaultKind {
+    /// The line does not begin with an item's four digits.
+    NoItem,
+    /// The line is too long, or the frame has more faults than are described.
+    LongLine,
+    /// The value of a mapped item is no number.
+    NoNumber,
+    /// The value is outside its range.
+    OutOfRange,
+    /// The item is in the frame twice.
+    Twice,
+    /// An item of the header cannot be read.
+    Header,
+}
+
+impl ItemFaultKind {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::NoItem,
+        Self::LongLine,
+        Self::NoNumber,
+        Self::OutOfRange,
+        Self::Twice,
+        Self::Header,
+    ];
+
+    /// In words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NoItem => "line without an item",
+            Self::LongLine => "line too long",
+            Self::NoNumber => "no number",
+            Self::OutOfRange => "out of range",
+            Self::Twice => "item twice in a frame",
+            Self::Header => "unreadable header item",
+        }
+    }
+}
+
+/// A line or item that could not be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ItemFault {
+    /// What is wrong.
+    pub kind: ItemFaultKind,
+    /// The item, if the line has one.
+    pub code: Option<ItemCode>,
+    /// The text, escaped and cut.
+    pub text: String,
+    /// What was expected.
+    pub wanted: String,
+}
+
+impl fmt::Display for ItemFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(code) = self.code {
+            write!(f, "item {code}: ")?;
+        }
+        write!(f, "{}: \"{}\"", self.kind.name(), self.text)?;
+        if !self.wanted.is_empty() {
+            write!(f, "; {}", self.wanted)?;
+        }
+        Ok(())
+    }
+}
+
+/// A record in a frame.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordSeen {
+    /// Its number.
+    pub record: u8,
+    /// Its header.
+    pub header: Header,
+    /// What its sequence number says.
+    pub sequence: Sequence,
+}
+
+/// What a frame means.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Its records, in the order of their numbers.
+    pub records: Vec<RecordSeen>,
+    /// Values for `rig/inputs`, if it has any.
+    pub inputs: Option<RigInputs>,
+    /// Values for `rig/measured`, if it has any.
+    pub measured: Option<RigMeasured>,
+    /// What became of it.
+    pub outcome: FrameUse,
+    /// Items that mean "no value".
+    pub nulls: u32,
+    /// Items that the mapping does not name.
+    pub unmapped: u32,
+    /// Lines and items that could not be used.
+    pub faults: Vec<ItemFault>,
+    /// Faults beyond those.
+    pub more_faults: u32,
+}
+
+/// Reads the frames of one connection.
+#[derive(Debug)]
+pub struct Decoder {
+    table: BTreeMap<ItemCode, ItemMapping>,
+    nulls: Vec<f64>,
+    stamp: StampSource,
+    utc_offset: i32,
+    /// The other end of the line, for the source of the messages.
+    peer: String,
+    sequences: BTreeMap<u8, SequenceWatch>,
+}
+
+/// A value of a frame (SI).
+#[derive(Debug, Clone, Copy)]
+struct Value {
+    value: f64,
+    fallback: bool,
+}
+
+/// A frame while it is read.
+#[derive(Default)]
+struct Draft {
+    values: BTreeMap<Quantity, Value>,
+    faults: Vec<ItemFault>,
+    more_faults: u32,
+    nulls: u32,
+    unmapped: u32,
+    mapped: u32,
+}
+
+impl Draft {
+    fn fault(&mut self, kind: ItemFaultKind, code: Option<ItemCode>, text: &[u8], wanted: impl FnOnce() -> String) {
+        if self.faults.len() >= MOST_FAULTS {
+            self.more_faults += 1;
+            return;
+        }
+        self.faults.push(ItemFault {
+            kind,
+            code,
+            text: shown(&text[..text.len().min(SHOWN)]),
+            wanted: wanted(),
+        });
+    }
+}
+
+impl Decoder {
+    /// A decoder at the beginning of a connection. `peer` names the other end of the line.
+    pub fn new(mapping: &Mapping, peer: &str) -> Self {
+        Self {
+            table: mapping.table(),
+            nulls: mapping.nulls.clone(),
+            stamp: mapping.stamp,
+            utc_offset: mapping.utc_offset(),
+            peer: peer.to_owned(),
+            sequences: BTreeMap::new(),
+        }
+    }
+
+    /// Reads a frame that arrived at `arrived` (ns since 1970).
+    pub fn decode(&mut self, frame: &RawFrame, arrived: i64) -> Reading {
+        let mut draft = Draft::default();
+        let mut items: BTreeMap<ItemCode, &[u8]> = BTreeMap::new();
+        for line in &frame.lines {
+            match ItemCode::of_line(line) {
+                Some((code, value)) if items.contains_key(&code) => {
+                    draft.fault(ItemFaultKind::Twice, Some(code), value, || {
+                        "the first is used".to_owned()
+                    });
+                }
+                Some((code, value)) => {
+                    items.insert(code, value);
+                }
+                None => draft.fault(ItemFaultKind::NoItem, None, line, || {
+                    "a line needs four digits and a value, such as 0108 1234.5".to_owned()
+                }),
+            }
+        }
+        draft.more_faults += frame.long_lines;
+        let records = self.records(&items, &mut draft);
+        let newest: Vec<u8> = records
+            .iter()
+            .filter(|seen| seen.sequence.is_newest())
+            .map(|seen| seen.record)
+            .collect();
+        for (&code, &value) in items.iter().filter(|(code, _)| code.item > LAST_HEADER_ITEM) {
+            if newest.contains(&code.record) {
+                self.item(code, value, &mut draft);
+            }
+        }
+        let outcome = outcome(&records, &newest, &draft);
+        let stamp = self.stamp(&records, arrived);
+        let header = RosHeader {
+            stamp: Time::from_nanoseconds(stamp),
+            ..RosHeader::default()
+        };
+        let source = self.source(&records);
+        Reading {
+            inputs: rig_inputs(&draft, header.clone(), &source),
+            measured: rig_measured(&draft, header, &source),
+            records,
+            outcome,
+            nulls: draft.nulls,
+            unmapped: draft.unmapped,
+            faults: draft.faults,
+            more_faults: draft.more_faults,
+        }
+    }
+
+    /// The records of a frame, each with its header and what its sequence number says.
+    fn records(&mut self, items: &BTreeMap<ItemCode, &[u8]>, draft: &mut Draft) -> Vec<RecordSeen> {
+        let mut records: Vec<RecordSeen> = Vec::new();
+        for (code, value) in items {
+            if records.last().is_none_or(|seen| seen.record != code.record) {
+                records.push(RecordSeen {
+                    record: code.record,
+                    header: Header::default(),
+                    sequence: Sequence::Unnumbered,
+                });
+            }
+            if let Some(seen) = records.last_mut().filter(|_| code.item <= LAST_HEADER_ITEM) {
+                let before = seen.header.unreadable.len();
+                // A header item may be null like any other.
+                if !number(value).is_some_and(|value| self.nulls.contains(&value)) {
+                    seen.header.add(code.item, value);
+                }
+                if seen.header.unreadable.len() > before {
+                    draft.fault(ItemFaultKind::Header, Some(*code), value, || {
+                        "sequence, date YYMMDD, time HHMMSS and activity are whole numbers".to_owned()
+                    });
+                }
+            }
+        }
+        for seen in &mut records {
+            if let Some(sequence) = seen.header.sequence {
+                seen.sequence = self.sequences.entry(seen.record).or_default().classify(sequence);
+            }
+        }
+        records
+    }
+
+    fn item(&self, code: ItemCode, text: &[u8], draft: &mut Draft) {
+        let Some(mapping) = self.table.get(&code) else {
+            draft.unmapped += 1;
+            return;
+        };
+        draft.mapped += 1;
+        if text.is_empty() {
+            draft.nulls += 1;
+            return;
+        }
+        let Some(value) = number(text) else {
+            draft.fault(ItemFaultKind::NoNumber, Some(code), text, || {
+                format!("{} in {} is a number with a point", mapping.quantity, mapping.unit)
+            });
+            return;
+        };
+        if self.nulls.contains(&value) {
+            draft.nulls += 1;
+            return;
+        }
+        let si = mapping.unit.to_si(value);
+        let [least, most] = match mapping.valid {
+            Some(valid) => valid,
+            None => mapping.quantity.plausible().map(|bound| mapping.unit.from_si(bound)),
+        };
+        if !(least..=most).contains(&value) || !si.is_finite() {
+            draft.fault(ItemFaultKind::OutOfRange, Some(code), text, || {
+                let unit = mapping.unit;
+                format!(
+                    "{} is {least} to {most} {unit}; check the unit of the mapping",
+                    mapping.quantity
+                )
+            });
+            return;
+        }
+        let new = Value {
+            value: si,
+            fallback: mapping.fallback,
+        };
+        let old = draft.values.entry(mapping.quantity).or_insert(new);
+        if old.fallback && !new.fallback {
+            *old = new;
+        }
+    }
+
+    fn stamp(&self, records: &[RecordSeen], arrived: i64) -> i64 {
+        let of_header = || {
+            records
+                .iter()
+                .filter_map(|seen| seen.header.instant(self.utc_offset))
+                .max()
+        };
+        match self.stamp {
+            StampSource::Arrival => arrived,
+            StampSource::Header => of_header().unwrap_or(arrived),
+        }
+    }
+
+    /// The source of the messages: the line and the well.
+    fn source(&self, records: &[RecordSeen]) -> String {
+        let well = records
+            .iter()
+            .map(|seen| shown(&seen.header.well))
+            .find(|well| !well.is_empty());
+        let text = match well {
+            Some(well) => format!("wits {}, well {well}", self.peer),
+            None => format!("wits {}", self.peer),
+        };
+        text.chars().take(LONGEST_SOURCE).collect()
+    }
+}
+
+fn outcome(records: &[RecordSeen], newest: &[u8], draft: &Draft) -> FrameUse {
+    let values = u32::try_from(draft.values.len()).unwrap_or(u32::MAX);
+    FrameUse::NotUsed(if values > 0 {
+        return FrameUse::Used { values };
+    } else if records.is_empty() {
+        NotUsed::Empty
+    } else if newest.is_empty() {
+        if records
+            .iter()
+            .any(|seen| matches!(seen.sequence, Sequence::OutOfOrder { .. }))
+        {
+            NotUsed::Late
+        } else {
+            NotUsed::Repeated
+        }
+    } else if draft.mapped == 0 {
+        NotUsed::NothingMapped
+    } else {
+        NotUsed::NoGoodValue
+    })
+}
+
+fn rig_inputs(draft: &Draft, header: RosHeader, source: &str) -> Option<RigInputs> {
+    let value = |kind: InputKind| {
+        let found = draft.values.iter().find(|(quantity, _)| quantity.input() == Some(kind));
+        found.map(|(_, value)| (kind.from_si(value.value), value.fallback))
+    };
+    let given = InputKind::ALL.map(value);
+    if given.iter().all(Option::is_none) {
+        return None;
+    }
+    let [speed, weight, rate, pressure] = given.map(|given| given.map_or(f64::NAN, |(value, _)| value));
+    Some(RigInputs {
+        header,
+        rotary_speed_rpm: speed,
+        weight_on_bit_kn: weight,
+        quality: quality(given.iter().flatten().any(|(_, fallback)| *fallback)),
+        source: source.to_owned(),
+        rate_of_penetration_m_per_h: rate,
+        standpipe_pressure_mpa: pressure,
+    })
+}
+
+fn rig_measured(draft: &Draft, header: RosHeader, source: &str) -> Option<RigMeasured> {
+    let mut doubtful = false;
+    let mut message = RigMeasured::not_given(header, RigMeasured::GOOD, source.to_owned());
+    for (quantity, value) in &draft.values {
+        if let Quantity::Measured(kind) = quantity {
+            message.set(*kind, value.value);
+            doubtful |= value.fallback;
+        }
+    }
+    message.quality = quality(doubtful);
+    (!message.is_empty()).then_some(message)
+}
+
+/// The codes of both messages are the same.
+const fn quality(doubtful: bool) -> u8 {
+    if doubtful { RigInputs::SUSPECT } else { RigInputs::GOOD }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_core::inputs::MeasuredKind;
+
+    const ARRIVED: i64 = 1_700_000_000_500_000_000;
+
+    fn frame(text: &str) -> RawFrame {
+        RawFrame {
+            lines: text.lines().map(|line| line.trim().as_bytes().to_vec()).collect(),
+            ..RawFrame::default()
+        }
+    }
+
+    fn decode(mapping: &str, text: &str) -> Reading {
+        let mapping = Mapping::from_text("site.yaml", mapping).unwrap();
+        Decoder::new(&mapping, "rig:5555").decode(&frame(text), ARRIVED)
+    }
+
+    const FRAME: &str = "0101 Well 7\n01031\n01041\n0105231114\n0106221320\n01071\n01082510.4\n01102512\n011318.5\n011438.2\n\
+                         01162.5\n01189.75\n0120 60\n012112500\n01399999\n";
+
+    #[test]
+    fn a_metric_frame_becomes_inputs_and_measured_values() {
+        let reading = decode("", FRAME);
+        assert_eq!(reading.outcome, FrameUse::Used { values: 8 });
+        let inputs = reading.inputs.unwrap();
+        assert_eq!((inputs.rotary_speed_rpm, inputs.quality), (60.0, RigInputs::GOOD));
+        // 2.5 KDN are 25 kN, and no 2.5 kN.
+        assert!((inputs.weight_on_bit_kn - 25.0).abs() < 1e-12);
+        assert!((inputs.rate_of_penetration_m_per_h - 18.5).abs() < 1e-12);
+        assert!((inputs.standpipe_pressure_mpa - 12.5).abs() < 1e-12);
+        assert_eq!(inputs.source, "wits rig:5555, well Well 7");
+        assert_eq!(inputs.header.stamp.to_nanoseconds(), ARRIVED);
+        let measured = reading.measured.unwrap();
+        assert_eq!(measured.value(MeasuredKind::HookLoad), Some(382e3));
+        assert_eq!(measured.value(MeasuredKind::SurfaceTorque), Some(9750.0));
+        assert_eq!(measured.value(MeasuredKind::BitDepth), Some(2510.4));
+        assert_eq!(measured.value(MeasuredKind::DownholeTorque), None);
+        assert_eq!((reading.unmapped, reading.nulls, reading.faults.len()), (1, 0, 0));
+        assert_eq!(reading.records[0].sequence, Sequence::First);
+    }
+
+    #[test]
+    fn a_field_frame_is_the_same_in_other_units() {
+        let reading = decode(
+            "units: field\nstamp: header\n",
+            "0105231114\n0106221320\n0116 5\n0118 2\n0121 1000\n0113 60",
+        );
+        let inputs = reading.inputs.unwrap();
+        assert!((inputs.weight_on_bit_kn - 22.241_108).abs() < 1e-6);
+        assert!((inputs.standpipe_pressure_mpa - 6.894_757).abs() < 1e-6);
+        assert!((inputs.rate_of_penetration_m_per_h - 18.288).abs() < 1e-9);
+        assert_eq!(inputs.header.stamp.to_nanoseconds(), 1_700_000_000_000_000_000);
+        assert!((reading.measured.unwrap().surface_torque - 2711.636).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_maximum_serves_only_without_its_mean_and_is_doubtful() {
+        let both = decode("", "0114 40\n0115 44\n0120 30").measured.unwrap();
+        assert_eq!((both.hook_load, both.quality), (400e3, RigMeasured::GOOD));
+        let alone = decode("", "0115 44\n0120 30");
+        assert_eq!(alone.measured.unwrap().quality, RigMeasured::SUSPECT);
+        assert_eq!(alone.inputs.unwrap().quality, RigInputs::GOOD);
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_reported_and_leaves_the_rest() {
+        let text = "0108 -999.25\n0110\n0114 1,5\n0116 900000\nhello\u{1b}[2J\n0118 2\n0118 3\n0104 x";
+        let reading = decode("", text);
+        assert_eq!(reading.outcome, FrameUse::Used { values: 1 });
+        assert_eq!(reading.measured.unwrap().surface_torque, 2000.0);
+        assert_eq!(reading.nulls, 2);
+        let texts: Vec<String> = reading.faults.iter().map(ToString::to_string).collect();
+        let all = texts.join("\n");
+        for words in [
+            "0114: no number: \"1,5\"",
+            "0116: out of range",
+            "hello\\x1b[2J",
+            "0118: item twice",
+            "0104: unread",
+        ] {
+            assert!(all.contains(words), "{words} in {all}");
+        }
+        assert!(!all.contains('\u{1b}'));
+    }
+
+    #[test]
+    fn a_frame_without_values_says_why() {
+        let not_used = |text: &str| match decode("", text).outcome {
+            FrameUse::NotUsed(reason) => reason,
+            FrameUse::Used { values } => panic!("{values} used of {text}"),
+        };
+        assert_eq!(not_used(""), NotUsed::Empty);
+        assert_eq!(not_used("0199 1"), NotUsed::NothingMapped);
+        assert_eq!(not_used("0120 -9999"), NotUsed::NoGoodValue);
+        let mut decoder = Decoder::new(&Mapping::default(), "rig");
+        let mut outcome = |text: &str| decoder.decode(&frame(text), ARRIVED).outcome;
+        assert_eq!(outcome("0104 5\n0120 40"), FrameUse::Used { values: 1 });
+        assert_eq!(outcome("0104 5\n0120 40"), FrameUse::NotUsed(NotUsed::Repeated));
+        assert_eq!(outcome("0104 3\n0120 40"), FrameUse::NotUsed(NotUsed::Late));
+        // Another record counts for itself.
+        assert_eq!(outcome("0904 3\n0917 4"), FrameUse::Used { values: 1 });
+    }
+}

@@ -1,0 +1,377 @@
+//! The mapping file: which item is which quantity, in which unit, and which figures of the twin are sent back.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use flexdrill_config::ConfigError;
+use flexdrill_config::checker::{Bound, Checker};
+use flexdrill_config::reading;
+use flexdrill_core::inputs::{MeasuredKind, Unit};
+use serde::{Deserialize, Serialize};
+
+use super::header::LAST_HEADER_ITEM;
+use super::item::ItemCode;
+use crate::{Figure, Quantity};
+
+/// The units of the items that a mapping does not name.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum UnitSystem {
+    /// m, m/h, kdaN (thousand decanewtons, 10 kN, which WITS writes KDN), kN m, kPa.
+    #[default]
+    Metric,
+    /// ft, ft/h, klbf, kft.lbf, psi.
+    Field,
+}
+
+/// Where the stamp of a frame comes from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StampSource {
+    /// The time of arrival, on this machine's clock.
+    #[default]
+    Arrival,
+    /// Date and time in the frame (items 05 and 06), which are whole seconds on the source's clock; the time of arrival
+    /// where a frame has none.
+    Header,
+}
+
+/// The meaning of the items of a site.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Mapping {
+    /// For people. Default empty.
+    pub title: String,
+    /// Units of the default items. Default metric.
+    pub units: UnitSystem,
+    /// Values that mean "no value". Default -9999, -8888 and -999.25.
+    pub nulls: Vec<f64>,
+    /// Where the stamp comes from. Default the time of arrival.
+    pub stamp: StampSource,
+    /// How far the source's clock is ahead of UTC (h), for stamps from the header and for frames that are written. Default 0.
+    pub utc_offset_h: f64,
+    /// Items in addition to the defaults or in their place; an empty one removes a default.
+    pub items: BTreeMap<ItemCode, Option<ItemMapping>>,
+    /// Figures of the twin that are sent back over the same connection. Default none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub write: Option<WriteMapping>,
+}
+
+impl Default for Mapping {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            units: UnitSystem::default(),
+            nulls: vec![-9999.0, -8888.0, -999.25],
+            stamp: StampSource::default(),
+            utc_offset_h: 0.0,
+            items: BTreeMap::new(),
+            write: None,
+        }
+    }
+}
+
+/// The meaning of an item.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ItemMapping {
+    /// Required.
+    pub quantity: Quantity,
+    /// Required. A KDN is a kdaN: 10 kN.
+    pub unit: Unit,
+    /// Smallest and largest valid value, in the unit. Default: what a rig can have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub valid: Option<[f64; 2]>,
+    /// Used only where no other item of the frame has the quantity, and then marked as doubtful: for maxima next to
+    /// means. Default false.
+    #[serde(default)]
+    pub fallback: bool,
+}
+
+/// What is sent back.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WriteMapping {
+    /// Time between two frames (s). Default 1.
+    #[serde(default = "one")]
+    pub every_s: f64,
+    /// Name of the well in the header. Default empty.
+    #[serde(default)]
+    pub well: String,
+    /// Required; of one or more records of the site's choice.
+    pub items: BTreeMap<ItemCode, WriteItem>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// A figure that is sent back.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WriteItem {
+    /// Required.
+    pub figure: Figure,
+    /// Required.
+    pub unit: Unit,
+    /// Digits after the point. Default 2.
+    #[serde(default = "two")]
+    pub decimals: u8,
+}
+
+fn two() -> u8 {
+    2
+}
+
+const REQUIRED: &[&str] = &["write.items"];
+
+/// The default items: number, quantity, units (metric, field), whether it is a fallback.
+const DEFAULTS: [(u8, u8, Quantity, [Unit; 2], bool); 14] = {
+    use Quantity::{Measured, RotarySpeed, WeightOnBit};
+    const DEPTH: [Unit; 2] = [Unit::Metre, Unit::Foot];
+    const FORCE: [Unit; 2] = [Unit::Kilodecanewton, Unit::Kilopound];
+    const TORQUE: [Unit; 2] = [Unit::KilonewtonMetre, Unit::KilofootPound];
+    [
+        (1, 8, Measured(MeasuredKind::BitDepth), DEPTH, false),
+        (1, 10, Measured(MeasuredKind::HoleDepth), DEPTH, false),
+        (
+            1,
+            13,
+            Measured(MeasuredKind::RateOfPenetration),
+            [Unit::MetrePerHour, Unit::FootPerHour],
+            false,
+        ),
+        (1, 14, Measured(MeasuredKind::HookLoad), FORCE, false),
+        (1, 15, Measured(MeasuredKind::HookLoad), FORCE, true),
+        (1, 16, WeightOnBit, FORCE, false),
+        (1, 17, WeightOnBit, FORCE, true),
+        (1, 18, Measured(MeasuredKind::SurfaceTorque), TORQUE, false),
+        (1, 19, Measured(MeasuredKind::SurfaceTorque), TORQUE, true),
+        (1, 20, RotarySpeed, [Unit::TurnPerMinute, Unit::TurnPerMinute], false),
+        (
+            1,
+            21,
+            Measured(MeasuredKind::StandpipePressure),
+            [Unit::Kilopascal, Unit::Psi],
+            false,
+        ),
+        (9, 15, Measured(MeasuredKind::DownholeWeightOnBit), FORCE, false),
+        (9, 17, Measured(MeasuredKind::DownholeTorque), TORQUE, false),
+        // Some sources repeat the depth of the bit in the record of the tool in the hole.
+        (9, 10, Measured(MeasuredKind::BitDepth), DEPTH, true),
+    ]
+};
+
+impl Mapping {
+    /// Reads and checks a mapping file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not YAML of this schema, or does not make sense.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
+        let (name, text) = reading::read(path.as_ref())?;
+        Self::from_text(&name, &text)
+    }
+
+    /// Reads and checks a mapping; errors name it `name`.
+    ///
+    /// # Errors
+    /// When the text is not YAML of this schema, or does not make sense.
+    pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
+        reading::checked(name, text, REQUIRED, Self::check)
+    }
+
+    /// All items with their meaning: the defaults, changed as the mapping says.
+    pub fn table(&self) -> BTreeMap<ItemCode, ItemMapping> {
+        let system = match self.units {
+            UnitSystem::Metric => 0,
+            UnitSystem::Field => 1,
+        };
+        let mut table: BTreeMap<ItemCode, ItemMapping> = DEFAULTS
+            .iter()
+            .map(|&(record, item, quantity, units, fallback)| {
+                let mapping = ItemMapping {
+                    quantity,
+                    unit: units[system],
+                    valid: None,
+                    fallback,
+                };
+                (ItemCode { record, item }, mapping)
+            })
+            .collect();
+        for (code, item) in &self.items {
+            match item {
+                Some(item) => {
+                    table.insert(*code, *item);
+                }
+                None => {
+                    table.remove(code);
+                }
+            }
+        }
+        table
+    }
+
+    /// How far the source's clock is ahead of UTC (s).
+    pub fn utc_offset(&self) -> i32 {
+        (self.utc_offset_h * 3600.0).round() as i32
+    }
+
+    fn check(&self, c: &mut Checker) {
+        let reason = "time zones end at 14 h; the sign is that of the zone's name, +1 in Oslo in winter";
+        c.number(
+            "utc_offset_h",
+            self.utc_offset_h,
+            Bound::within(-14.0, 14.0),
+            "h",
+            reason,
+        );
+        c.below("items", |c| {
+            for (code, item) in &self.items {
+                let Some(item) = item else { continue };
+                c.below(&code.to_string(), |c| item.check(c, *code));
+            }
+        });
+        if let Some(write) = &self.write {
+            c.below("write", |c| write.check(c));
+        }
+    }
+}
+
+/// Items of the header carry no quantity.
+fn check_number(c: &mut Checker, code: ItemCode, key: &str) {
+    c.require(
+        code.item > LAST_HEADER_ITEM,
+        key,
+        code,
+        "",
+        "an item above 07",
+        "items 01 to 07 are the header of every record",
+    );
+}
+
+impl ItemMapping {
+    fn check(&self, c: &mut Checker, code: ItemCode) {
+        check_number(c, code, "quantity");
+        let dimension = self.quantity.dimension();
+        c.require(
+            self.unit.dimension() == dimension,
+            "unit",
+            self.unit,
+            "",
+            format!("one of {}", dimension.units()),
+            "the unit belongs to another quantity",
+        );
+        if let Some([least, most]) = self.valid {
+            c.require(
+                least.is_finite() && most.is_finite() && least < most,
+                "valid",
+                format!("[{least}, {most}]"),
+                "",
+                "[smallest, largest]",
+                "values outside are left out",
+            );
+        }
+    }
+}
+
+impl WriteMapping {
+    fn check(&self, c: &mut Checker) {
+        let reason = "the line has to carry the frames, and the twin sends most figures at 10 Hz or more";
+        c.number("every_s", self.every_s, Bound::within(0.1, 3600.0), "s", reason);
+        c.require(
+            !self.items.is_empty(),
+            "items",
+            "none",
+            "",
+            "at least one figure",
+            "a frame without an item says nothing",
+        );
+        c.below("items", |c| {
+            for (code, item) in &self.items {
+                c.below(&code.to_string(), |c| {
+                    check_number(c, *code, "figure");
+                    let dimension = item.figure.dimension();
+                    c.require(
+                        item.unit.dimension() == dimension,
+                        "unit",
+                        item.unit,
+                        "",
+                        format!("one of {}", dimension.units()),
+                        "the unit belongs to another figure",
+                    );
+                    c.require(
+                        item.decimals <= 6,
+                        "decimals",
+                        item.decimals,
+                        "",
+                        "0 to 6",
+                        "sensors give no more",
+                    );
+                });
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn code(text: &str) -> ItemCode {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn defaults_follow_the_unit_system_and_a_site_changes_them() {
+        let metric = Mapping::default().table();
+        assert_eq!(metric[&code("0116")].unit, Unit::Kilodecanewton);
+        let field = Mapping::from_text("site.yaml", "units: field\n").unwrap().table();
+        assert_eq!(field[&code("0116")].unit, Unit::Kilopound);
+        assert_eq!(field[&code("0121")].unit, Unit::Psi);
+        let text = "items:\n  \"0116\": {quantity: weight_on_bit, unit: KDN, valid: [-1, 20]}\n  \"0117\":\n  \"2508\": \
+                    {quantity: lateral_shock, unit: g}\n";
+        let site = Mapping::from_text("site.yaml", text).unwrap().table();
+        assert_eq!(site[&code("0116")].unit, Unit::Kilodecanewton);
+        assert_eq!(site[&code("0116")].valid, Some([-1.0, 20.0]));
+        assert!(!site.contains_key(&code("0117")));
+        assert_eq!(
+            site[&code("2508")].quantity,
+            Quantity::Measured(MeasuredKind::LateralShock)
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_with_its_line() {
+        for (text, words) in [
+            ("units: imperial\n", "imperial"),
+            ("items: {\"0116\": {quantity: weight_on_bit, unit: psi}}\n", "kdaN"),
+            ("items: {\"0104\": {quantity: weight_on_bit, unit: kN}}\n", "header"),
+            ("items: {\"116\": {quantity: weight_on_bit, unit: kN}}\n", "four digits"),
+            ("items: {\"0116\": {quantity: weight, unit: kN}}\n", "surface_torque"),
+            (
+                "items: {\"0116\": {quantity: weight_on_bit, unit: kN, valid: [5, 1]}}\n",
+                "smallest",
+            ),
+            ("utc_offset_h: 30\n", "14"),
+            ("write: {items: {}}\n", "at least one"),
+            (
+                "write: {every_s: 0, items: {\"4008\": {figure: bit_torque, unit: kN.m}}}\n",
+                "0.1",
+            ),
+            ("write: {items: {\"4008\": {figure: bit_torque, unit: deg}}}\n", "kN.m"),
+            ("colour: red\n", "colour"),
+        ] {
+            let error = Mapping::from_text("site.yaml", text).unwrap_err().to_string();
+            assert!(error.contains("site.yaml:1") && error.contains(words), "{text}{error}");
+        }
+    }
+
+    #[test]
+    fn a_mapping_is_written_as_it_is_read() {
+        let text = "write: {items: {\"4008\": {figure: max_bend_angle, unit: deg}}}\nitems: {\"0117\": }\n";
+        let mapping = Mapping::from_text("site.yaml", text).unwrap();
+        assert_eq!(mapping.items[&code("0117")], None);
+        let write = mapping.write.unwrap();
+        assert_eq!((write.every_s, write.items[&code("4008")].decimals), (1.0, 2));
+    }
+}

@@ -1,0 +1,37 @@
+//! WITS level 0: text frames of items, without acknowledgement and without checksum.
+//!
+//! The way of the bytes: [`FrameReader`] splits them into frames, [`Decoder`] gives a frame's items their meaning after
+//! the site's [`Mapping`] and watches each record's sequence number, [`FrameWriter`] writes frames. A [`capture`] keeps
+//! the bytes of a line with their times, so that they can be read again as they came.
+
+pub mod capture;
+mod count;
+mod decode;
+mod frame;
+mod header;
+mod item;
+mod line;
+mod mapping;
+mod sequence;
+mod write;
+
+pub use count::Counts;
+pub use decode::{Decoder, FrameUse, ItemFault, ItemFaultKind, NotUsed, Reading, RecordSeen};
+pub use frame::{DiscardReason, Discarded, FrameReader, LONGEST_FRAME, LONGEST_LINE, Piece, RawFrame};
+pub use header::{Header, LAST_HEADER_ITEM};
+pub use item::{ItemCode, NoItemCode};
+pub use line::{Line, LineEvent};
+pub use mapping::{ItemMapping, Mapping, StampSource, UnitSystem, WriteItem, WriteMapping};
+pub use sequence::{Sequence, SequenceWatch};
+pub use write::{FrameWriter, RigFrames, TwinFrames};
+
+/// Foreign bytes as text for a log or a display: what cannot be shown is escaped.
+pub fn shown(bytes: &[u8]) -> String {
+    let text: String = bytes
+        .iter()
+        .flat_map(|byte| std::ascii::escape_default(*byte))
+        .map(char::from)
+        .collect();
+    // Quotes need no escape here.
+    text.replace("\\'", "'").replace("\\\"", "\"")
+}

@@ -1,0 +1,133 @@
+//! `flexdrill bridge`: joins a rig's own protocol to the twin's topics.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use clap::{Args, Subcommand};
+
+use super::{WrongUse, signals};
+use crate::bridge::BridgeNode;
+use crate::bridge::wits::WitsBridge;
+use crate::cli::output::say;
+use crate::dds::network::Network;
+use crate::ros::args::RosArgs;
+use crate::ros::logging;
+use flexdrill_bridge::lines::{Place, Times};
+use flexdrill_bridge::wits::Mapping;
+
+/// Name of the node unless it is remapped.
+const WITS_NODE_NAME: &str = "flexdrill_bridge_wits";
+
+/// Join a rig's own protocol to the twin's topics.
+#[derive(Debug, Args)]
+pub(super) struct BridgeArgs {
+    #[command(subcommand)]
+    protocol: Protocol,
+}
+
+#[derive(Debug, Subcommand)]
+enum Protocol {
+    Wits(WitsArgs),
+}
+
+/// Read WITS level 0 from a line, and send the twin's figures back.
+#[derive(Debug, Args)]
+struct WitsArgs {
+    #[command(flatten)]
+    line: LineArgs,
+    /// Bits per second of a serial line; 8 data bits, no parity, one stop bit.
+    #[arg(long, value_name = "RATE", default_value_t = 9600, requires = "serial")]
+    baud: u32,
+    /// Mapping of items to quantities and units (YAML). Default: the usual items in metric units.
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// Keep the bytes of the line with their times in a new file.
+    #[arg(long, value_name = "FILE")]
+    capture: Option<PathBuf>,
+    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
+    #[arg(long, value_name = "ID")]
+    domain: Option<u16>,
+    /// Namespace of the node and its topics.
+    #[arg(long, value_name = "NS", default_value = "/")]
+    namespace: String,
+}
+
+/// The line; exactly one.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+struct LineArgs {
+    /// Connect to the rig's server.
+    #[arg(long, value_name = "HOST:PORT")]
+    connect: Option<String>,
+    /// Let the rig connect to this address. Whoever reaches it can drive the twin.
+    #[arg(long, value_name = "ADDRESS:PORT")]
+    listen: Option<SocketAddr>,
+    /// Read a serial line.
+    #[arg(long, value_name = "DEVICE")]
+    serial: Option<PathBuf>,
+}
+
+/// # Errors
+/// When the line, a file or the network cannot be used.
+pub(super) fn run(args: &BridgeArgs, ros_args: &[String]) -> anyhow::Result<()> {
+    let Protocol::Wits(args) = &args.protocol;
+    let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
+    logging::start(&ros_args);
+    let mapping = match &args.map {
+        Some(file) => Mapping::load(file)?,
+        None => Mapping::default(),
+    };
+    let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+    let identity = ros_args
+        .remapping
+        .identity(&args.namespace, WITS_NODE_NAME)
+        .map_err(WrongUse::new)?;
+    for note in notes {
+        tracing::warn!("{note}");
+    }
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    runtime.block_on(async {
+        let (place, name) = args.line.place(args.baud).await?;
+        let receives = mapping.write.is_some();
+        let node = BridgeNode::new(&network, &identity, &ros_args.remapping, WITS_NODE_NAME, receives)?;
+        say!(
+            "wits {name} to {}, domain {}; Ctrl-C ends it",
+            node.topics().join(", "),
+            network.domain_id
+        );
+        let node_name = identity.full_name();
+        let mut bridge = WitsBridge::new(node, node_name, name, mapping, args.capture.as_deref())?;
+        let shutdown = signals::shutdown(false)?;
+        tokio::select! {
+            () = shutdown => {}
+            () = bridge.run(place, Times::default()) => {}
+        }
+        anyhow::Ok(())
+    })?;
+    say!("stopped");
+    Ok(())
+}
+
+impl LineArgs {
+    /// The line, and its name for people. A port to listen on is opened at once, so that a wrong one ends the program.
+    async fn place(&self, baud: u32) -> anyhow::Result<(Place, String)> {
+        if let Some(address) = &self.connect {
+            return Ok((Place::Connect(address.clone()), format!("from {address}")));
+        }
+        if let Some(device) = &self.serial {
+            let place = Place::Serial {
+                device: device.clone(),
+                baud,
+            };
+            return Ok((place, format!("from {} at {baud} bit/s", device.display())));
+        }
+        let Some(address) = self.listen else {
+            return Err(WrongUse::new("one of --connect, --listen and --serial is needed").into());
+        };
+        let listening = tokio::net::TcpListener::bind(address).await;
+        let listener = listening.with_context(|| format!("--listen {address}"))?;
+        let name = format!("at {}", listener.local_addr()?);
+        Ok((Place::Listen(listener), name))
+    }
+}
