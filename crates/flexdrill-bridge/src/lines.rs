@@ -159,36 +159,36 @@ pub async fn run(place: Place, times: Times, events: mpsc::Sender<LineState>, ou
     match place {
         Place::Listen(listener) => listen(&listener, &ends).await,
         Place::Connect(address) => {
-            let limit = times.connect;
-            redial(&ends, Some(times.silence), &address, async || {
-                let connecting = tokio::time::timeout(limit, TcpStream::connect(&address));
-                let stream = connecting.await.map_err(|_| {
-                    io::Error::new(
-                        io::ErrorKind::TimedOut,
-                        format!("no answer within {} s", limit.as_secs_f64()),
-                    )
-                })??;
-                stream.set_nodelay(true)?;
-                Ok(stream)
+            let (name, limit) = (address.clone(), times.connect);
+            redial(&ends, Some(times.silence), &name, move || {
+                connect(address.clone(), limit)
             })
             .await;
         }
         Place::Serial { device, baud } => {
             let name = device.display().to_string();
+            let open = move || std::future::ready(serial2_tokio::SerialPort::open(&device, baud));
             // A line without data is no fault: the rig may be switched off.
-            redial(&ends, None, &name, async || {
-                serial2_tokio::SerialPort::open(&device, baud)
-            })
-            .await;
+            redial(&ends, None, &name, open).await;
         }
     }
 }
 
-async fn redial<S: AsyncRead + AsyncWrite + Unpin>(
+async fn connect(address: String, limit: Duration) -> io::Result<TcpStream> {
+    let connecting = tokio::time::timeout(limit, TcpStream::connect(address));
+    let stream = connecting.await.map_err(|_| {
+        let text = format!("no answer within {} s", limit.as_secs_f64());
+        io::Error::new(io::ErrorKind::TimedOut, text)
+    })??;
+    stream.set_nodelay(true)?;
+    Ok(stream)
+}
+
+async fn redial<S: AsyncRead + AsyncWrite + Unpin, F: Future<Output = io::Result<S>>>(
     ends: &Ends,
     silence: Option<Duration>,
     name: &str,
-    open: impl AsyncFn() -> io::Result<S>,
+    open: impl Fn() -> F,
 ) {
     let mut back_off = BackOff::new(ends.times.wait);
     let mut connection = 0;
