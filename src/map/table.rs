@@ -157,7 +157,7 @@ fn in_si(axis: &Axis) -> Option<Converted> {
 /// axes and, for speed and weight, in SI. Where no value is clear, the bounds are empty.
 ///
 /// # Errors
-/// As [`csv`].
+/// As [`csv()`].
 pub fn bounds(map: &Map, envelope: &Envelope, of: Of) -> Result<Vec<u8>, SweepError> {
     let (of, at, bounds) = match of {
         Of::X => (&map.x, &map.y, &envelope.of_x),

@@ -122,7 +122,7 @@ impl BackOff {
     }
 
     /// The next wait.
-    pub fn next(&mut self) -> Duration {
+    pub fn next_wait(&mut self) -> Duration {
         let next = self.next;
         self.next = (2 * next).min(self.wait[1]);
         next
@@ -204,7 +204,7 @@ async fn redial<S: AsyncRead + AsyncWrite + Unpin, F: Future<Output = io::Result
                 why
             }
         };
-        let wait = back_off.next();
+        let wait = back_off.next_wait();
         if ends.events.send(LineState::Waiting { why, wait }).await.is_err() {
             return;
         }

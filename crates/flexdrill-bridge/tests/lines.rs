@@ -168,10 +168,10 @@ async fn a_dead_peer_is_given_up_and_an_absent_one_is_called_with_growing_waits(
 #[test]
 fn waits_double_up_to_their_bound_and_begin_again() {
     let mut back_off = BackOff::new([Duration::from_secs(1), Duration::from_secs(5)]);
-    let waits: Vec<u64> = (0..5).map(|_| back_off.next().as_secs()).collect();
+    let waits: Vec<u64> = (0..5).map(|_| back_off.next_wait().as_secs()).collect();
     assert_eq!(waits, [1, 2, 4, 5, 5]);
     back_off.reset();
-    assert_eq!(back_off.next().as_secs(), 1);
+    assert_eq!(back_off.next_wait().as_secs(), 1);
 }
 
 #[tokio::test]

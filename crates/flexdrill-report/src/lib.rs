@@ -56,7 +56,7 @@ pub fn write(summary: &Summary, folder: &Path) -> Result<PathBuf, ReportError> {
     write_page(&html(summary)?, folder)
 }
 
-/// Writes the page of two recordings into `folder`, as [`write`] does. `tolerance` is the share of a value up to which a
+/// Writes the page of two recordings into `folder`, as [`write()`] does. `tolerance` is the share of a value up to which a
 /// difference is not marked.
 ///
 /// # Errors

@@ -72,11 +72,11 @@ fn drag(around: f64) -> f64 {
 }
 
 /// Source: J. Appl. Mech. 83 (5), 051003: a rod pushed into a tube reaches up to 5 times further with rotation (abstract;
-/// measured). The abstract has neither the speeds along and around nor the stiffness of the rod, so that there is no
-/// single figure of ours to set beside it to 15 %. In the twin the reach F / (mu w f) of a push F grows by 1 / f =
+/// measured). The abstract has neither the speeds along and around nor the stiffness of the rod, so no single figure of
+/// ours can be compared with it to 15 %. In the twin the reach F / (mu w f) of a push F grows by 1 / f =
 /// sqrt(1 + (u / v)^2), and only the speeds decide: 5 at u / v = 4.90, and more beyond. A measured rod does not gain more
-/// than 5, because it also locks up by buckling. The twin's ratio without buckling is therefore a bound from above, and
-/// that it passes 5 is what this test holds, beside the ratio itself.
+/// than 5, because it also locks up by buckling. The twin's ratio without buckling is therefore a bound from above. This
+/// test holds the ratio itself, and that it passes 5.
 ///
 /// Tolerance 3 %: without rotation the rod loses 4 % of its speed along, mu g t / v, in the 2 ms that are averaged; with
 /// rotation f falls with it, on average by 2 % at most.

@@ -35,7 +35,7 @@ impl Header {
     pub(crate) fn add(&mut self, item: u8, value: &[u8]) {
         let whole = || {
             let value = number(value)?;
-            (value >= 0.0 && value < 1e15 && value.fract() == 0.0).then_some(value as u64)
+            ((0.0..1e15).contains(&value) && value.fract() == 0.0).then_some(value as u64)
         };
         let mut read = true;
         match item {

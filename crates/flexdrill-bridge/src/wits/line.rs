@@ -6,7 +6,7 @@ use super::{Counts, Decoder, Discarded, FrameReader, Mapping, Piece, RawFrame, R
 #[derive(Debug, Clone, PartialEq)]
 pub enum LineEvent {
     /// A frame and what it means.
-    Frame(RawFrame, Reading),
+    Frame(RawFrame, Box<Reading>),
     /// Bytes that belong to no frame.
     Discarded(Discarded),
 }
@@ -46,7 +46,7 @@ fn event(decoder: &mut Decoder, piece: Piece, arrived: i64, counts: &mut Counts)
         Piece::Frame(frame) => {
             let reading = decoder.decode(&frame, arrived);
             counts.frame(frame.bytes, &reading);
-            LineEvent::Frame(frame, reading)
+            LineEvent::Frame(frame, Box::new(reading))
         }
         Piece::Discarded(discarded) => {
             counts.discarded(&discarded);

@@ -228,7 +228,7 @@ impl Mapping {
         c.below("items", |c| {
             for (code, item) in &self.items {
                 let Some(item) = item else { continue };
-                c.below(&code.to_string(), |c| item.check(c, *code));
+                c.below(code.to_string(), |c| item.check(c, *code));
             }
         });
         if let Some(write) = &self.write {
@@ -288,7 +288,7 @@ impl WriteMapping {
         );
         c.below("items", |c| {
             for (code, item) in &self.items {
-                c.below(&code.to_string(), |c| {
+                c.below(code.to_string(), |c| {
                     check_number(c, *code, "figure");
                     let dimension = item.figure.dimension();
                     c.require(
