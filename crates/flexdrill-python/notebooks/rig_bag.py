@@ -1,7 +1,8 @@
 # %% [markdown]
 # # Reading a rig's bag
 # Any recording of the node or of `ros2 bag record` will do. Here the program replays the demonstration's field log into
-# one. `FLEXDRILL_BINARY` names the program, `FLEXDRILL_ROOT` the repository.
+# one: rotation off bottom, and from 50 s on drilling. `FLEXDRILL_BINARY` names the program, `FLEXDRILL_ROOT` the
+# repository.
 
 # %%
 import os
@@ -17,7 +18,7 @@ import flexdrill
 program = os.environ.get("FLEXDRILL_BINARY", "flexdrill")
 log = Path(os.environ.get("FLEXDRILL_ROOT", ".")) / "config/field_logs/demo.csv"
 folder = Path(tempfile.mkdtemp())
-subprocess.run([program, "replay", log, "--duration", "20", "--out", folder / "rig"], check=True, capture_output=True)
+subprocess.run([program, "replay", log, "--duration", "75", "--out", folder / "rig"], check=True, capture_output=True)
 bag = flexdrill.read_bag(folder / "rig", ["twin/bit_state", "twin/contact_forces", "twin/applied_inputs"])
 print(bag)
 
@@ -43,7 +44,8 @@ plt.show()
 
 # %%
 other = flexdrill.Twin(tool__joint__limit_deg=4)
-speed_rpm = flexdrill.held(applied.time_s, applied.rotary_speed * rpm)
-weight_kn = flexdrill.held(applied.time_s, applied.weight_on_bit / 1e3)
-run = other.run(10, speed_rpm=speed_rpm, weight_kn=weight_kn, record=["joints"])
+begin_s = 45.0
+speed_rpm = flexdrill.held(applied.time_s - begin_s, applied.rotary_speed * rpm)
+weight_kn = flexdrill.held(applied.time_s - begin_s, applied.weight_on_bit / 1e3)
+run = other.run(25, speed_rpm=speed_rpm, weight_kn=weight_kn, record=["joints"])
 print(f"largest stop moment {run.joints.stop_moment_nm.max():.0f} N m")
