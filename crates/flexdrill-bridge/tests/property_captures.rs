@@ -140,9 +140,9 @@ fn every_frame_of_ten_thousand_damaged_captures_is_used_or_reported() {
         used += counts.used;
         reported += counts.frames_not_used() + counts.discarded.iter().sum::<u64>();
     }
-    // The mutations reach both ends: most frames survive, and some do not.
+    // The mutations reach both ends: of six frames most survive, and every second capture loses one.
     assert!(
-        used > 2 * CAPTURES && reported > CAPTURES,
+        used > 2 * CAPTURES && reported > CAPTURES / 2,
         "{used} used, {reported} reported"
     );
 }
