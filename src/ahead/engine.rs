@@ -321,8 +321,8 @@ fn seed(seed: u64, candidate: usize, member: u32) -> u64 {
 /// Whether members run at the lowest priority.
 static YIELDS: AtomicBool = AtomicBool::new(true);
 
-/// Lets the members of this process run at its own priority, for a process that has no live run: a sweep that yields to
-/// everything stands still on a machine that is shared.
+/// Lets the members run at the priority of the process, for a process that has no live run: at the lowest priority a
+/// sweep would make no progress on a busy machine.
 pub fn keep_priority() {
     YIELDS.store(false, Ordering::Relaxed);
 }

@@ -99,7 +99,7 @@ pub(super) enum Ended {
     Failed(StepFailure),
     /// The speed or the weight did not reach the candidate's.
     NotReached,
-    /// It was told to stop.
+    /// A stop was requested.
     Stopped,
 }
 

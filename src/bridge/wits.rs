@@ -93,7 +93,7 @@ impl WitsBridge {
                         self.log("figures", || format!("{unreadable} messages of the twin could not be read"));
                     }
                     let frame = writing.as_mut().and_then(|frames| frames.frame(&twin, lines::now()));
-                    // Without a connection nobody takes the frame.
+                    // Without a connection the frame is dropped.
                     if let Some(frame) = frame
                         && outgoing.send(Arc::from(frame)).is_ok()
                     {

@@ -23,7 +23,7 @@ const LONGEST_WAY: f64 = 300.0;
 enum Ended {
     /// What would have come is unknown.
     Unknown(String),
-    /// It was told to stop.
+    /// A stop was requested.
     Stopped,
 }
 

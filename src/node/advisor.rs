@@ -35,9 +35,9 @@ struct Exchange {
     asked: Option<Asked>,
     /// The last search that came to its end, and what it found.
     answered: Option<(Asked, Option<Tested>)>,
-    /// Of the search that runs.
+    /// Ends the running search.
     stop: Option<Arc<AtomicBool>>,
-    /// Of the forecast that runs: it gives way to goals and searches.
+    /// Ends the running forecast, which yields to goals and searches.
     forecast: Option<Arc<AtomicBool>>,
 }
 

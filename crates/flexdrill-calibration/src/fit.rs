@@ -100,7 +100,7 @@ impl Outcome {
 /// Why a channel is not used although it was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// No steady time off bottom: an offset of the torque sensor cannot be told from friction and rock.
+    /// No steady time off bottom: the offset of the torque sensor is not separable from friction and rock.
     NoOffBottomTorque,
 }
 

@@ -211,7 +211,7 @@ impl Boundary {
         supports
     }
 
-    /// Whether a support beside the preset's holds the guide's top along the hole.
+    /// Whether a support other than the preset's holds the guide's top along the hole.
     pub(super) fn holds_guide_top(&self, mesh: &Mesh) -> bool {
         self.supports.iter().any(|held| {
             let at = held.at.location(mesh);

@@ -8,7 +8,7 @@ use crate::mapping::{Mapping, WeightOnBitColumn};
 /// Where a measured quantity comes from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Source {
-    /// A column of its own, by its index in the header.
+    /// A column that only this quantity uses, by its index in the header.
     Column(usize, Unit),
     /// The column of the drive's torque.
     Torque,

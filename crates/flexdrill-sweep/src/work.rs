@@ -1,7 +1,7 @@
 //! Filling a directory: points that have no result are computed, on some threads, and their results are written.
 //!
-//! Workers need not know of one another. Each takes the points in an order of its own, so that two on the same points
-//! seldom compute the same one, and the last one that does writes the same bytes again.
+//! Workers do not communicate. Each computes the points in a random order, so that two workers on the same points seldom
+//! compute the same one; where they do, both write the same bytes.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

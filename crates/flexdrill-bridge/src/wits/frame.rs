@@ -117,7 +117,7 @@ impl FrameReader {
         }
     }
 
-    /// Ends the connection: what is left belongs to no frame.
+    /// Ends the connection and discards the bytes of an unfinished frame.
     pub fn finish(&mut self, mut give: impl FnMut(Piece)) {
         self.flush_outside(&mut give);
         if let Some(frame) = self.frame.take() {
