@@ -1,8 +1,8 @@
 //! Which runs of a map to make next, so that few show where the boundary is.
 //!
-//! Both starts have a process of their own ([`crate::gauss`]). Runs are chosen in rounds, where a run tells most of the
-//! boundary; within a round each choice counts as seen for the next, so that a round does not crowd. The choice depends on
-//! the results only, not on who computed them or when.
+//! Both starts have a process of their own ([`crate::gauss`]). Runs are chosen in rounds: next to the boundary first, which
+//! is what a map is read for, then where a run tells most of it. Within a round each choice counts as seen for the next, so
+//! that a round does not crowd. The choice depends on the results only, not on who computed them or when.
 
 use crate::gauss::{Process, Surface};
 use crate::plan::Grid;
@@ -91,12 +91,14 @@ impl Choice {
                 .map(|surface| 1.0 - surface.confidence())
                 .sum()
         };
-        if of(&surfaces) <= WRONG * cells {
+        if of(&surfaces) <= WRONG * cells && self.on_boundary(&surfaces).is_none() {
             return wanted;
         }
         let mut imagined = self.clone();
         while wanted.len() < self.round().min(left) {
-            let Some(run) = best(&surfaces) else { break };
+            let Some(run) = imagined.on_boundary(&surfaces).or_else(|| best(&surfaces)) else {
+                break;
+            };
             wanted.push(run);
             // What is most likely there: it only takes the uncertainty around it away.
             let mean = surfaces[run.start][run.cell].map_or(0.0, |surface| surface.mean);
@@ -105,6 +107,45 @@ impl Choice {
         }
         wanted.sort_unstable();
         wanted
+    }
+
+    /// Of the runs that are missing next to a cell of the other class, the one that tells most: a boundary is known when no
+    /// such run is missing.
+    fn on_boundary(&self, surfaces: &[Vec<Option<Surface>>]) -> Option<Wanted> {
+        let mut beside = surfaces.to_vec();
+        for (known, cells) in self.known.iter().zip(&mut beside) {
+            let expected = |cell: usize| match (known[cell], cells[cell]) {
+                (Some(Class::Expected), _) => Some(true),
+                (Some(Class::Clear), _) => Some(false),
+                (Some(Class::Unknown), _) | (None, None) => None,
+                (None, Some(surface)) => Some(surface.mean > 0.0),
+            };
+            let of = |cell: usize| {
+                let other = |near: usize| expected(near).is_some_and(|near| Some(near) != expected(cell));
+                self.neighbours(cell).any(other)
+            };
+            let at: Vec<bool> = (0..cells.len()).map(of).collect();
+            for (surface, at) in cells.iter_mut().zip(at) {
+                if !at {
+                    *surface = None;
+                }
+            }
+        }
+        best(&beside)
+    }
+
+    /// The cells that share a side with a cell.
+    fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let Grid { columns, rows } = self.grid;
+        let (column, row) = (cell % columns, cell / columns);
+        [
+            (column > 0).then(|| cell - 1),
+            (column + 1 < columns).then(|| cell + 1),
+            (row > 0).then(|| cell - columns),
+            (row + 1 < rows).then(|| cell + columns),
+        ]
+        .into_iter()
+        .flatten()
     }
 
     /// A coarse grid, all starts.
