@@ -11,6 +11,7 @@
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
+//! - [`calibrate`]: the samples of a log that is calibrated.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
 //! - [`window`]: the map of speed and weight, and where a point is on it.
@@ -24,6 +25,7 @@
 pub mod ahead;
 pub mod alarms;
 pub mod bridge;
+pub mod calibrate;
 pub mod cli;
 pub mod health;
 pub mod map;

@@ -3,6 +3,7 @@
 mod bench;
 mod bridge;
 mod built_in;
+mod calibrate;
 mod check;
 mod dashboard;
 mod first_start;
@@ -59,6 +60,7 @@ enum Command {
     Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
     Reach(reach::ReachArgs),
+    Calibrate(Box<calibrate::CalibrateArgs>),
     Map(Box<map::MapArgs>),
     Sweep(sweep::SweepArgs),
     Completions(shell::CompletionsArgs),
@@ -236,6 +238,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Reach(args) => reach::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Sweep(args) => sweep::run(&args),
         Command::Completions(args) => {

@@ -8,7 +8,7 @@ use clap::Args;
 use super::WrongUse;
 use crate::bag::{self, BagError};
 use crate::cli::output::{tell, tell_text};
-use crate::field_log::{self, Mapping, Position};
+use crate::field_log::{self, InputSequence, Mapping, Position};
 use crate::messages::std_msgs::Float64;
 use crate::messages::{Message, RigInputs, topics};
 use crate::rig_inputs::stamped;
@@ -107,7 +107,11 @@ impl SourceArgs {
         Ok(samples)
     }
 
-    fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
+    /// The rows of a field log. Its report is printed on standard error.
+    ///
+    /// # Errors
+    /// When log or mapping cannot be read.
+    pub(super) fn log(&self, path: &Path) -> anyhow::Result<InputSequence> {
         let mapping_file = match &self.mapping {
             Some(file) => file.clone(),
             None => only_mapping_in_folder_of(path)?,
@@ -119,6 +123,11 @@ impl SourceArgs {
         };
         let (sequence, report) = field_log::read_range(path, &mapping, &range)?;
         tell_text!("{report}");
+        Ok(sequence)
+    }
+
+    fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
+        let sequence = self.log(path)?;
         let samples = sequence.inputs.iter().map(|input| Sample {
             // Times of a log begin at 0 and span some years at most, so they fit.
             time: (input.time * 1e9).round() as i64,

@@ -161,7 +161,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 10] = [
+const WRITTEN_FILES: [&str; 13] = [
     "metadata.yaml",
     "report.md",
     "findings.csv",
@@ -172,6 +172,10 @@ const WRITTEN_FILES: [&str; 10] = [
     "map.json",
     "envelope_x.csv",
     "envelope_y.csv",
+    // by `flexdrill calibrate`
+    "overlay.yaml",
+    "calibrated.yaml",
+    "calibration.json",
 ];
 
 #[test]

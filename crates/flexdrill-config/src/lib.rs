@@ -10,6 +10,7 @@
 
 mod alarms;
 mod boundary;
+mod calibration;
 pub mod checker;
 mod contact;
 mod derived;
@@ -60,6 +61,7 @@ use sha2::{Digest, Sha256};
 
 pub use alarms::{Advice, AdviceTable, Alarms, NodeAlarm, ToolAlarm};
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
+pub use calibration::{Calibration, Range};
 pub use checker::NumberKey;
 pub use contact::{Contact, Layer};
 pub use derived::Unknowns;
@@ -196,6 +198,9 @@ pub struct Schema {
     /// The map of speed and weight that the node loads.
     #[serde(default)]
     pub map: SafeMap,
+    /// What `flexdrill calibrate` fits to a log, and what follows the rig while it drills.
+    #[serde(default)]
+    pub calibration: Calibration,
     /// Frames and publishing rates of the outputs.
     #[serde(default)]
     pub outputs: Outputs,

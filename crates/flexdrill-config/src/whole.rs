@@ -160,6 +160,7 @@ impl Schema {
         c.below("chaotic_whirl", |c| self.chaotic_whirl.check(c));
         c.below("transfer", |c| self.transfer.check(c));
         c.below("look_ahead", |c| self.look_ahead.check(c));
+        c.below("calibration", |c| self.calibration.check(c));
         c.below("map", |c| self.map.check(c));
         c.below("guide_preload", |c| self.guide_preload.check(c));
         c.below("pressure_folding", |c| self.pressure_folding.check(c));

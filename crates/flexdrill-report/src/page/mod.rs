@@ -5,7 +5,7 @@ pub(crate) mod comparison;
 mod drive;
 mod health;
 mod locations;
-mod text;
+pub(crate) mod text;
 mod transfer;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -214,7 +214,7 @@ fn configuration(summary: &Summary) -> Markup {
 }
 
 /// A figure with its caption; empty when there is nothing to draw.
-pub(super) fn drawn(figure: Option<Figure>, caption: &str) -> Result<Markup, ReportError> {
+pub(crate) fn drawn(figure: Option<Figure>, caption: &str) -> Result<Markup, ReportError> {
     let Some(figure) = figure else {
         return Ok(html! {});
     };

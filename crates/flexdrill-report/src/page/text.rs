@@ -4,7 +4,7 @@ use flexdrill_core::units::rad_to_deg;
 use flexdrill_messages::Alarm;
 
 /// A number with three to four significant digits; a dash if it is not finite.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     let text = match size {
         _ if !value.is_finite() => return "–".to_owned(),
@@ -46,7 +46,7 @@ pub(super) fn times(count: u64) -> String {
 }
 
 /// The text with its first letter in upper case.
-pub(super) fn capital(text: &str) -> String {
+pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters
         .next()

@@ -1,0 +1,18 @@
+//! Calibration of a configuration: coefficients of the twin fitted to what a rig measured.
+//!
+//! The mathematics is the crate [`flexdrill_calibration`]. Here is the twin's part of it.
+//!
+//! # Layout
+//! - [`unknowns`]: what is fitted of a configuration, with its priors.
+//! - [`point`]: one run of the twin at constant speed and weight. [`points`]: all runs of a design, on threads, kept in a
+//!   file.
+//! - [`study`](mod@study): the whole, from windows of a log to what was found, checked by full runs.
+//! - [`overlay`]: what was found as configuration and for other programs.
+
+pub mod overlay;
+pub mod point;
+pub mod points;
+pub mod study;
+pub mod unknowns;
+
+pub use study::{Checked, Study, StudySettings, study};

@@ -1,0 +1,280 @@
+//! What was found as configuration: the changed keys alone, and the whole.
+
+use std::fmt::Write as _;
+use std::io::Read as _;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use super::study::Study;
+use flexdrill_calibration::identify::{Estimate, Verdict};
+use flexdrill_calibration::windows::Channel;
+use flexdrill_config::{Config, ConfigError};
+use flexdrill_core::units::n_to_kn;
+
+/// Where the values come from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Provenance {
+    /// File name of the log.
+    pub log: String,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+    /// First and last row that was read.
+    pub rows: [u64; 2],
+    /// Hash of the configuration that was fitted.
+    pub configuration: String,
+    /// Version of the program.
+    pub version: String,
+    /// Seed.
+    pub seed: u64,
+}
+
+/// SHA-256 of a file, or of the files of a folder in the order of their names.
+///
+/// # Errors
+/// When one cannot be read.
+pub fn sha256(path: &Path) -> std::io::Result<String> {
+    let mut files = vec![path.to_owned()];
+    if path.is_dir() {
+        files = std::fs::read_dir(path)?
+            .map(|entry| entry.map(|entry| entry.path()))
+            .collect::<Result<_, _>>()?;
+        files.retain(|file| file.is_file());
+        files.sort();
+    }
+    let mut digest = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    for file in files {
+        let mut file = std::fs::File::open(file)?;
+        loop {
+            let read = file.read(&mut buffer)?;
+            if read == 0 {
+                break;
+            }
+            digest.update(&buffer[..read]);
+        }
+    }
+    Ok(digest.finalize().iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    }))
+}
+
+/// A key of the configuration with its value, its band and what it is.
+struct Entry<'a> {
+    key: &'static str,
+    value: f64,
+    band: [f64; 2],
+    estimate: &'a Estimate,
+    name: &'a str,
+}
+
+/// All keys that may change, also those that the data do not determine.
+fn entries(study: &Study) -> Vec<Entry<'_>> {
+    let estimates = &study.outcome.estimates;
+    let mut all = Vec::new();
+    for (modelled, estimate) in study.unknowns.modelled.iter().zip(estimates) {
+        for key in &modelled.keys {
+            all.push(Entry {
+                key,
+                value: estimate.value,
+                band: estimate.band,
+                estimate,
+                name: &modelled.unknown.name,
+            });
+        }
+    }
+    let tares = [
+        ("calibration.torque_tare_nm", &study.unknowns.torque_tare, 1.0),
+        (
+            "calibration.hook_load_tare_kn",
+            &study.unknowns.hook_load_tare,
+            n_to_kn(1.0),
+        ),
+    ];
+    for ((key, unknown, factor), estimate) in tares.into_iter().zip(&estimates[study.unknowns.modelled.len()..]) {
+        all.push(Entry {
+            key,
+            value: factor * estimate.value,
+            band: estimate.band.map(|end| factor * end),
+            estimate,
+            name: &unknown.name,
+        });
+    }
+    all
+}
+
+fn changes(study: &Study) -> Vec<Entry<'_>> {
+    let mut all = entries(study);
+    all.retain(|entry| entry.estimate.verdict != Verdict::NotIdentifiable);
+    all
+}
+
+/// The configuration with what was found; keys that the data do not determine keep their values.
+///
+/// # Errors
+/// When the configuration does not allow a value.
+pub fn apply(config: &Config, study: &Study) -> Result<Config, ConfigError> {
+    config.with_values(
+        "calibration",
+        changes(study)
+            .into_iter()
+            .map(|entry| (entry.key, rounded(entry.value))),
+    )
+}
+
+/// A value with six significant digits, as the files have it.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// Comment lines with the provenance.
+pub fn header(provenance: &Provenance) -> String {
+    format!(
+        "# Calibration by flexdrill {} of {} (rows {} to {}, SHA-256 {}),\n# from the configuration of hash {}, seed {}.\n",
+        provenance.version,
+        // A file name may hold anything.
+        provenance.log.replace(char::is_control, "?"),
+        provenance.rows[0],
+        provenance.rows[1],
+        provenance.sha256,
+        provenance.configuration,
+        provenance.seed
+    )
+}
+
+/// The changed keys as YAML, with their bands.
+pub fn yaml(study: &Study, provenance: &Provenance) -> String {
+    let mut text = header(provenance);
+    text.push_str("# Values with the ends of their 90 % bands. Keys that the log does not determine are at the end.\n");
+    let mut path: Vec<&str> = Vec::new();
+    let mut all = changes(study);
+    // Keys of one section stand together.
+    all.sort_by_key(|entry| entry.key);
+    for entry in all {
+        let names: Vec<&str> = entry.key.split('.').collect();
+        let shared = names.iter().zip(&path).take_while(|(a, b)| a == b).count();
+        let (last, sections) = names
+            .split_last()
+            .map_or(("", &names[..]), |(last, sections)| (*last, sections));
+        for (depth, name) in sections.iter().enumerate().skip(shared) {
+            let _ = writeln!(text, "{}{name}:", "  ".repeat(depth));
+        }
+        let only = if entry.estimate.verdict == Verdict::InCombination {
+            "; only in combination"
+        } else {
+            ""
+        };
+        let [low, high] = entry.band;
+        let _ = writeln!(
+            text,
+            "{}{last}: {}  # {low:.4} to {high:.4}{only}",
+            "  ".repeat(sections.len()),
+            rounded(entry.value)
+        );
+        path = names;
+    }
+    for entry in entries(study) {
+        if entry.estimate.verdict == Verdict::NotIdentifiable {
+            let _ = writeln!(
+                text,
+                "# not identifiable, left as it is: {} ({}; posterior over prior variance {:.2})",
+                entry.key, entry.name, entry.estimate.variance_ratio
+            );
+        }
+    }
+    text
+}
+
+/// Everything that was found, for other programs; SI units.
+pub fn json(study: &Study, provenance: &Provenance) -> Value {
+    let problem = &study.problem;
+    let name = |index: usize| problem.unknowns[index].name.as_str();
+    json!({
+        "version": 1,
+        "provenance": {
+            "log": provenance.log,
+            "sha256": provenance.sha256,
+            "rows": provenance.rows,
+            "configuration_hash": provenance.configuration,
+            "flexdrill": provenance.version,
+            "seed": provenance.seed,
+        },
+        "misfit": study.outcome.misfit,
+        "explains": study.outcome.explains(),
+        "unknowns": problem.unknowns.iter().zip(&study.outcome.estimates).enumerate().map(|(index, (unknown, estimate))| json!({
+            "name": unknown.name,
+            "keys": study.unknowns.modelled.get(index).map(|modelled| modelled.keys.clone()),
+            "unit": unknown.unit,
+            "prior": unknown.prior(),
+            "value": estimate.value,
+            "band": estimate.band,
+            "variance_ratio": estimate.variance_ratio,
+            "verdict": match estimate.verdict {
+                Verdict::Identified => "identified",
+                Verdict::Bounded => "bounded",
+                Verdict::InCombination => "in_combination",
+                Verdict::NotIdentifiable => "not_identifiable",
+            },
+        })).collect::<Vec<_>>(),
+        "not_in_the_model": study.unknowns.left_out.iter().map(|(name, why)| json!({"name": name, "why": why})).collect::<Vec<_>>(),
+        "pairs": study.outcome.pairs.iter().map(|pair| json!({
+            "unknowns": pair.unknowns.map(name),
+            "correlation": pair.correlation,
+            "weights": pair.weights,
+            "variance_ratio": pair.variance_ratio,
+        })).collect::<Vec<_>>(),
+        "refused": study.refused.iter().map(|(channel, refusal)| json!({
+            "channel": channel.name_and_unit().0,
+            "why": refusal.text(),
+        })).collect::<Vec<_>>(),
+        "surrogates": problem.quantities.iter().map(|quantity| json!({
+            "channel": quantity.channel.name_and_unit().0,
+            "motion": format!("{:?}", quantity.motion),
+            "points": quantity.surrogate.points,
+            "error": quantity.surrogate.error,
+            "range": quantity.surrogate.range,
+        })).collect::<Vec<_>>(),
+        "windows": problem.observations.iter().zip(&study.outcome.explained).map(|(observation, explained)| {
+            let window = &study.windows.steady[observation.window];
+            json!({
+                "rows": window.rows,
+                "begin_s": window.span[0],
+                "end_s": window.span[1],
+                "motion": format!("{:?}", window.motion),
+                "rotary_speed": window.rotary_speed,
+                "weight": window.weight,
+                "channel": problem.quantities[observation.quantity].channel.name_and_unit().0,
+                "measured": observation.value,
+                "prior": explained.prior,
+                "predicted": explained.predicted,
+                "band": explained.band,
+                "standardised": explained.standardised,
+            })
+        }).collect::<Vec<_>>(),
+        "checked_by_full_runs": study.checked.iter().map(|checked| json!({
+            "rows": study.windows.steady[checked.window].rows,
+            "channel": checked.channel.name_and_unit().0,
+            "measured": checked.measured,
+            "run": checked.run.as_ref().ok(),
+            "problem": checked.run.as_ref().err(),
+            "surrogate": checked.surrogate,
+            "band": checked.band,
+        })).collect::<Vec<_>>(),
+        "left_out": study.windows.left_out_by_reason().iter().map(|(reason, samples)| json!({
+            "reason": reason.to_string(),
+            "samples": samples,
+        })).collect::<Vec<_>>(),
+        "points_without_figures": study.failed,
+    })
+}
+
+/// Figures of a channel as the report shows them: unit and factor from SI.
+pub fn shown(channel: Channel) -> (&'static str, f64) {
+    match channel {
+        Channel::SurfaceTorque | Channel::BitTorque => ("N m", 1.0),
+        Channel::HookLoad | Channel::BitWeight => ("kN", n_to_kn(1.0)),
+    }
+}

@@ -1,0 +1,360 @@
+//! A hundred logs with known truth, through surrogates of the twin's own runs (`tests/data/rig_points.csv`, which
+//! `tests/points.rs` makes): how near the estimates are, how often their 90 % bands hold the truth, and what is called
+//! not identifiable.
+//!
+//! What a log has, as real sensors do:
+//! - torque of the top drive: white noise of 15 N m (4 % of 350 N m) at 1 Hz, a drift of 5 N m per root of an hour, and an
+//!   offset that 90 % of the time is within 50 N m;
+//! - hook load: 2 kN, 1 kN per root of an hour, an offset within 20 kN;
+//! - torque and weight above the bit, where there is such a tool: 10 N m and 400 N, no drift: they are tared downhole;
+//! - the twin's error: a random function of the loads with the size and the reach that the surrogate's error has.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests fail by panicking")]
+
+use flexdrill_calibration::fit::{Outcome, Problem, Quantity, load};
+use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::noise::{ErrorSource, covariance};
+use flexdrill_calibration::smoother::SmootherSettings;
+use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, Windows, find};
+use flexdrill_config::Config;
+use flexdrill_fit::points::{Cover, Point, parsed};
+use flexdrill_fit::study;
+use flexdrill_fit::unknowns::Unknowns;
+
+/// Logs of a usual run. The count of bands that hold the truth scatters by 3 of 100 then (binomial, one standard deviation).
+const FEW: u64 = 100;
+const SCATTER: u64 = 3;
+/// Logs that decide whether 85 to 95 of 100 bands hold the truth: the count scatters by 1 of 100.
+const MANY: u64 = 600;
+
+struct World {
+    config: Config,
+    unknowns: Unknowns,
+    points: Vec<Point>,
+}
+
+impl World {
+    fn new() -> Self {
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        let unknowns = Unknowns::of(&config).unwrap();
+        let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/rig_points.csv")).unwrap();
+        let points = parsed(&text, unknowns.modelled.len()).unwrap();
+        Self {
+            config,
+            unknowns,
+            points,
+        }
+    }
+}
+
+/// Standard normal numbers of a seed.
+struct Normal(fastrand::Rng);
+
+impl Normal {
+    fn next(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.0.f64()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.0.f64()).cos()
+    }
+}
+
+/// Parts of the log: speed (r/min), weight (kN), seconds. Two hours; every 20 minutes a connection with rotation off bottom.
+fn schedule() -> Vec<(f64, f64, u32)> {
+    let mut all = Vec::new();
+    for (rpm, kn) in [
+        (40.0, 10.0),
+        (50.0, 15.0),
+        (60.0, 20.0),
+        (40.0, 18.0),
+        (55.0, 12.0),
+        (45.0, 14.0),
+    ] {
+        all.push((rpm, 0.0, 90));
+        all.push((rpm, kn, 360));
+        all.push((rpm + 4.0, kn - 1.0, 360));
+        all.push((rpm, kn - 3.0, 360));
+    }
+    all
+}
+
+/// The samples of a schedule with noise, drift and tares, from the twin's surrogates at the truth.
+fn log(
+    world: &World,
+    truth: &[f64],
+    quantities: &[Quantity],
+    schedule: &[(f64, f64, u32)],
+    random: &mut Normal,
+) -> Vec<Sample> {
+    let modelled = world.unknowns.modelled.len();
+    let tares = [
+        world.unknowns.torque_tare.value(truth[modelled]),
+        world.unknowns.hook_load_tare.value(truth[modelled + 1]),
+        0.0,
+        0.0,
+    ];
+    let errors = model_errors(quantities, schedule, random);
+    let noise = [15.0, 2e3, 10.0, 400.0];
+    let drift = [5.0, 1e3, 0.0, 0.0].map(|hour: f64| hour / 60.0);
+    let (mut walk, mut samples) = ([0.0; 4], Vec::new());
+    for (part, &(rpm, kn, seconds)) in schedule.iter().enumerate() {
+        let (speed, weight) = (rpm * std::f64::consts::TAU / 60.0, 1e3 * kn);
+        let motion = if kn > 0.0 { Motion::Drilling } else { Motion::OffBottom };
+        let mut inputs = truth[..modelled].to_vec();
+        inputs.extend(load(motion, speed, weight));
+        for _ in 0..seconds {
+            let mut measured = [f64::NAN; 4];
+            for (index, quantity) in quantities.iter().enumerate().filter(|(_, q)| q.motion == motion) {
+                let k = quantity.channel as usize;
+                walk[k] += drift[k] * random.next();
+                let exact = quantity.surrogate.predict(&inputs) + errors[index][part];
+                measured[k] = exact + tares[k] + walk[k] + noise[k] * random.next();
+            }
+            let row = samples.len() as u64;
+            samples.push(Sample {
+                time: row as f64,
+                row: row + 2,
+                rotary_speed: speed,
+                weight,
+                measured,
+            });
+        }
+    }
+    samples
+}
+
+/// The twin's error at the load of each part, for each quantity.
+fn model_errors(quantities: &[Quantity], schedule: &[(f64, f64, u32)], random: &mut Normal) -> Vec<Vec<f64>> {
+    quantities
+        .iter()
+        .map(|quantity| {
+            let sources: Vec<ErrorSource> = schedule
+                .iter()
+                .map(|&(rpm, kn, _)| ErrorSource {
+                    sensor: 0,
+                    surrogate: 0,
+                    time: 0.0,
+                    // A small share of its own, so that equal loads do not make the matrix singular.
+                    scatter: 1e-3 * quantity.surrogate.error,
+                    model: quantity.surrogate.error,
+                    drift_in_an_hour: 0.0,
+                    load: vec![(rpm - 36.0) / 28.0, if kn > 0.0 { (kn - 7.0) / 13.0 } else { 0.0 }],
+                })
+                .collect();
+            let factor = covariance(&sources).unwrap().cholesky().unwrap().l();
+            let normal: Vec<f64> = (0..schedule.len()).map(|_| random.next()).collect();
+            (0..schedule.len())
+                .map(|i| (0..=i).map(|j| factor[(i, j)] * normal[j]).sum())
+                .collect()
+        })
+        .collect()
+}
+
+/// What one log gives, with its truth.
+struct Trial {
+    truth: Vec<f64>,
+    problem: Problem,
+    outcome: Outcome,
+    windows: Windows,
+}
+
+fn trial(world: &World, seed: u64, channels: &[Channel], schedule: &[(f64, f64, u32)]) -> Trial {
+    let mut random = Normal(fastrand::Rng::with_seed(seed));
+    let truth: Vec<f64> = (0..world.unknowns.modelled.len() + 2)
+        .map(|_| random.next().clamp(-2.0, 2.0))
+        .collect();
+    // Every channel, to have all surrogates.
+    let everywhere = |motion: Motion| Sample {
+        time: 0.0,
+        row: 0,
+        rotary_speed: 5.0,
+        weight: if motion == Motion::Drilling { 10e3 } else { 0.0 },
+        measured: [1.0; 4],
+    };
+    let mut probe = Vec::new();
+    for motion in [Motion::OffBottom, Motion::Drilling] {
+        for second in 0..80 {
+            let mut sample = everywhere(motion);
+            sample.time = probe.len() as f64;
+            sample.row = probe.len() as u64;
+            sample.measured = sample.measured.map(|value| value + 0.01 * f64::from(second % 3));
+            probe.push(sample);
+        }
+    }
+    let settings = WindowSettings::default();
+    let covers = covers(&find(&probe, &settings), world);
+    let all = study::problem(
+        &world.config,
+        &world.unknowns,
+        &find(&probe, &settings),
+        &world.points,
+        &covers,
+    )
+    .unwrap();
+    let mut samples = log(world, &truth, &all.quantities, schedule, &mut random);
+    for sample in &mut samples {
+        for channel in Channel::ALL.into_iter().filter(|channel| !channels.contains(channel)) {
+            sample.measured[channel as usize] = f64::NAN;
+        }
+    }
+    let windows = find(&samples, &settings);
+    let covers = self::covers(&windows, world);
+    let problem = study::problem(&world.config, &world.unknowns, &windows, &world.points, &covers).unwrap();
+    let smoother = SmootherSettings {
+        members: 1000,
+        seed,
+        ..SmootherSettings::default()
+    };
+    let outcome = problem.fit(&smoother).unwrap();
+    Trial {
+        truth,
+        problem,
+        outcome,
+        windows,
+    }
+}
+
+fn covers(windows: &Windows, world: &World) -> Vec<Cover> {
+    [Motion::OffBottom, Motion::Drilling]
+        .into_iter()
+        .filter_map(|motion| study::cover(windows, motion, world.unknowns.modelled.len()))
+        .collect()
+}
+
+/// Counts over all logs, per unknown.
+#[derive(Default, Clone, Debug)]
+struct Count {
+    covered: u32,
+    identified: u32,
+    bounded: u32,
+    combined: u32,
+    not_identifiable: u32,
+    /// Identified and within 5 % (of a tare: of its prior's 90 % range).
+    near: u32,
+    /// Within 5 %, whatever the verdict.
+    within: u32,
+    /// Mean of the variance ratios.
+    ratio: f64,
+}
+
+fn counts(world: &World, channels: &[Channel], logs: u64) -> (Vec<Count>, f64) {
+    let mut all = vec![Count::default(); world.unknowns.modelled.len() + 2];
+    let (mut misfit, mut explained) = (0.0, 0);
+    for seed in 1..=logs {
+        let trial = trial(world, seed, channels, &schedule());
+        misfit += trial.outcome.misfit / logs as f64;
+        explained += u32::from(trial.outcome.explains());
+        assert!(trial.windows.steady.len() > 20);
+        for (k, (unknown, estimate)) in trial.problem.unknowns.iter().zip(&trial.outcome.estimates).enumerate() {
+            let (truth, count) = (unknown.value(trial.truth[k]), &mut all[k]);
+            let [lowest, highest] = estimate.band;
+            count.covered += u32::from((lowest..=highest).contains(&truth));
+            count.ratio += estimate.variance_ratio / logs as f64;
+            let [low, high] = unknown.prior();
+            let size = if low > 0.0 { truth } else { high - low };
+            let within = (estimate.value - truth).abs() <= 0.05 * size;
+            count.within += u32::from(within);
+            match estimate.verdict {
+                Verdict::NotIdentifiable => count.not_identifiable += 1,
+                Verdict::InCombination => count.combined += 1,
+                Verdict::Bounded => count.bounded += 1,
+                Verdict::Identified => {
+                    count.identified += 1;
+                    count.near += u32::from(within);
+                }
+            }
+        }
+    }
+    // The mean square of the residuals is above 4 where the twin's error happens to be twice its size at most loads.
+    eprintln!("{explained} of {logs} logs are explained");
+    assert!(100 * explained >= 95 * logs as u32, "{explained} of {logs}");
+    (all, misfit)
+}
+
+fn shown(world: &World, counts: &[Count]) -> String {
+    let modelled = world
+        .unknowns
+        .modelled
+        .iter()
+        .map(|modelled| modelled.unknown.name.as_str());
+    let names = modelled.chain([
+        world.unknowns.torque_tare.name.as_str(),
+        world.unknowns.hook_load_tare.name.as_str(),
+    ]);
+    names
+        .zip(counts)
+        .map(|(name, count)| format!("{name}: {count:?}\n"))
+        .collect()
+}
+
+/// What holds of every unknown: 90 % bands that hold the truth in 85 to 95 of 100 logs, but for `scatter`, and 5 % where it
+/// is identified.
+fn check(world: &World, counts: &[Count], logs: u64, scatter: u64) {
+    let text = shown(world, counts);
+    for count in counts {
+        let covered = 100 * u64::from(count.covered);
+        let allowed = (85 - scatter) * logs..=(95 + scatter) * logs;
+        assert!(allowed.contains(&covered), "{text}");
+        // The band of an identified unknown is at most 5 % wide to each side, and holds nine of ten truths; a few logs
+        // identify one that most do not, and say less.
+        assert!(
+            count.identified < 20 || 10 * count.near >= 8 * count.identified,
+            "{text}"
+        );
+    }
+}
+
+/// The counts of so many logs, checked.
+fn checked(channels: &[Channel], logs: u64, scatter: u64) -> Vec<Count> {
+    let world = World::new();
+    let (counts, misfit) = counts(&world, channels, logs);
+    eprintln!("{}misfit {misfit:.2}", shown(&world, &counts));
+    check(&world, &counts, logs, scatter);
+    counts
+}
+
+const SURFACE: [Channel; 2] = [Channel::SurfaceTorque, Channel::HookLoad];
+
+#[test]
+fn surface_and_downhole_measurements() {
+    let counts = checked(&Channel::ALL, FEW, SCATTER);
+    let [inside, wall, bit, joints, torque, hook_load] = counts.as_slice() else {
+        panic!("six unknowns");
+    };
+    // The pipe rubs in the guide with a few of 300 N m: nothing can be said of its coefficient.
+    assert!(inside.not_identifiable >= 90, "{inside:?}");
+    // The weight that does not arrive at the bit shows the friction of the guide on the wall.
+    assert!(
+        wall.not_identifiable == 0 && wall.near + wall.bounded >= 90 && wall.ratio < 0.1,
+        "{wall:?}"
+    );
+    assert!(
+        bit.not_identifiable == 0 && joints.not_identifiable <= 5,
+        "{bit:?} {joints:?}"
+    );
+    for tare in [torque, hook_load] {
+        assert!(tare.identified == 100 && tare.near >= 95, "{tare:?}");
+    }
+}
+
+#[test]
+fn surface_measurements_alone() {
+    let counts = checked(&SURFACE, FEW, SCATTER);
+    assert!(counts[0].not_identifiable >= 90, "{:?}", counts[0]);
+}
+
+/// As above, with so many logs that chance does not decide:
+///
+///     cargo test --release -p flexdrill-fit --test acceptance -- --ignored --nocapture
+#[test]
+#[ignore = "four minutes"]
+fn the_bands_of_six_hundred_logs_hold_the_truth_in_85_to_95_of_100() {
+    for channels in [&Channel::ALL[..], &SURFACE] {
+        checked(channels, MANY, 0);
+    }
+}
+
+#[test]
+fn the_same_log_and_seed_give_the_same_bits() {
+    let world = World::new();
+    let run = || trial(&world, 7, &Channel::ALL, &schedule()).outcome;
+    assert_eq!(run(), run());
+}

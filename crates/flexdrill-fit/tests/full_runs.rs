@@ -1,0 +1,136 @@
+//! A log made by a run of the twin itself with known truth, noise and drift, calibrated with the points of
+//! `tests/data/rig_points.csv` and checked by full runs. Minutes: `cargo test --release -p flexdrill-fit --test full_runs
+//! -- --ignored --nocapture`.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
+
+use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, find};
+use flexdrill_config::Config;
+use flexdrill_core::dynamics::StepOutcome;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::{BIT, SURFACE};
+use flexdrill_core::twin::Simulation;
+use flexdrill_fit::points::parsed;
+use flexdrill_fit::study::cover;
+use flexdrill_fit::unknowns::Unknowns;
+use flexdrill_fit::{StudySettings, study};
+
+/// Speed (r/min), weight (kN) and seconds of the parts: two connections with rotation off bottom.
+const SCHEDULE: [(f64, f64, u32); 7] = [
+    (40.0, 0.0, 90),
+    (40.0, 12.0, 100),
+    (45.0, 17.0, 100),
+    (55.0, 20.0, 100),
+    (55.0, 0.0, 75),
+    (60.0, 15.0, 100),
+    (50.0, 11.0, 100),
+];
+
+/// Truth: standardised friction of pipe in guide, of guide on wall, of the bit, in the joints.
+const TRUTH: [f64; 4] = [1.0, -0.8, 0.7, 0.3];
+/// Offsets of torque (N m) and hook load (N), noise and drift per root of an hour of all channels.
+const TARES: [f64; 4] = [18.0, -6e3, 0.0, 0.0];
+const NOISE: [f64; 4] = [15.0, 2e3, 10.0, 400.0];
+const DRIFT: [f64; 4] = [5.0, 1e3, 0.0, 0.0];
+
+fn normal(random: &mut fastrand::Rng) -> f64 {
+    (-2.0 * (1.0 - random.f64()).ln()).sqrt() * (std::f64::consts::TAU * random.f64()).cos()
+}
+
+/// The log at 1 Hz: what the twin's transfer says over each second, with the errors of the sensors.
+fn log(config: &Config) -> Vec<Sample> {
+    let config = config
+        .with_values(
+            "truth",
+            [("transfer.window", 1.0), ("inputs.weight_on_bit.initial_kn", 0.0)],
+        )
+        .unwrap();
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let per_second = (1.0 / simulation.settings().time_step).round() as u64;
+    let mut snapshot = simulation.new_snapshot();
+    let mut random = fastrand::Rng::with_seed(5);
+    let (mut walk, mut samples) = ([0.0; 4], Vec::new());
+    for (rpm, kn, seconds) in SCHEDULE {
+        let inputs = Inputs {
+            rotary_speed: rpm * std::f64::consts::TAU / 60.0,
+            weight_on_bit: 1e3 * kn,
+            ..Inputs::default()
+        };
+        for _ in 0..seconds {
+            for _ in 0..per_second {
+                assert!(!matches!(simulation.advance(&inputs), StepOutcome::Failed(_)));
+            }
+            simulation.set_refinement(simulation.quality().choice.wanted);
+            simulation.snapshot(&mut snapshot, true);
+            let mean = &snapshot.transfer.mean;
+            let exact = [mean.torque[SURFACE], mean.hook_load, mean.torque[BIT], mean.weight[BIT]];
+            let mut measured = [0.0; 4];
+            for k in 0..4 {
+                walk[k] += DRIFT[k] / 60.0 * normal(&mut random);
+                measured[k] = exact[k] + TARES[k] + walk[k] + NOISE[k] * normal(&mut random);
+            }
+            let row = samples.len() as u64;
+            samples.push(Sample {
+                time: row as f64,
+                row: row + 2,
+                rotary_speed: inputs.rotary_speed,
+                weight: inputs.weight_on_bit,
+                measured,
+            });
+        }
+    }
+    samples
+}
+
+#[test]
+#[ignore = "11 minutes of the rig's tool and six full runs: some minutes"]
+fn a_log_of_the_twin_gives_its_truth_back() {
+    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+    let unknowns = Unknowns::of(&config).unwrap();
+    let truth: Vec<f64> = unknowns
+        .modelled
+        .iter()
+        .zip(TRUTH)
+        .map(|(modelled, z)| modelled.unknown.value(z))
+        .collect();
+    let samples = log(&unknowns.apply(&config, &truth).unwrap());
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/rig_points.csv")).unwrap();
+    let points = parsed(&text, unknowns.modelled.len()).unwrap();
+    let windows = find(&samples, &WindowSettings::default());
+    eprintln!(
+        "{} windows, left out: {:?}",
+        windows.steady.len(),
+        windows.left_out_by_reason()
+    );
+    let covers: Vec<_> = [Motion::OffBottom, Motion::Drilling]
+        .into_iter()
+        .filter_map(|motion| cover(&windows, motion, unknowns.modelled.len()))
+        .collect();
+    let settings = StudySettings {
+        jobs: 2,
+        seed: 1,
+        members: 1000,
+    };
+    let study = study(&config, unknowns, windows, &points, &covers, &settings).unwrap();
+    let mut all = truth;
+    all.extend([TARES[0], TARES[1]]);
+    for ((unknown, estimate), truth) in study.problem.unknowns.iter().zip(&study.outcome.estimates).zip(&all) {
+        eprintln!("{}: truth {truth:.4}, {estimate:?}", unknown.name);
+        if estimate.verdict != Verdict::NotIdentifiable {
+            // A 90 % band misses one truth of ten; twice its width misses one of a thousand.
+            let [low, high] = estimate.band;
+            let half = 0.5 * (high - low);
+            assert!((low - half..=high + half).contains(truth), "{}", unknown.name);
+        }
+    }
+    for checked in &study.checked {
+        eprintln!("{checked:?}");
+        if checked.channel == Channel::SurfaceTorque {
+            let run = checked.run.as_ref().unwrap();
+            // Twice the 90 % band, as above.
+            assert!((run - checked.measured).abs() <= 2.0 * checked.band, "{checked:?}");
+        }
+    }
+    assert!(study.outcome.explains(), "{}", study.outcome.misfit);
+}

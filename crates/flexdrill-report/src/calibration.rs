@@ -1,0 +1,385 @@
+//! The page of a calibration: what was found, how it explains the log, and what was left out.
+
+use maud::{Markup, html};
+
+use crate::ReportError;
+use crate::page::{document, drawn, text};
+use flexdrill_calibration::BAND;
+use flexdrill_calibration::fit::{Outcome, Problem};
+use flexdrill_calibration::identify::{Estimate, Verdict};
+use flexdrill_calibration::windows::{Channel, Motion, Windows};
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_plot::{Figure, Line, Panel};
+
+/// Largest number of windows in the table; the figures have all.
+const ROWS: usize = 200;
+/// Height of a row of panels, for a width of 1080.
+const HEIGHT: u32 = 330;
+
+/// What the page says besides the numbers.
+#[derive(Debug, Clone, Default)]
+pub struct About {
+    /// Name of the log.
+    pub log: String,
+    /// Lines on log, rows, hash, version.
+    pub lines: Vec<String>,
+    /// Unknowns that the configuration does not have, with the reason.
+    pub left_out: Vec<(&'static str, &'static str)>,
+    /// Channels that are not used, with the reason.
+    pub refused: Vec<(&'static str, &'static str)>,
+    /// Full runs of the twin with what was found.
+    pub checked: Vec<Checked>,
+    /// Why runs of the twin gave no figure.
+    pub failed: Vec<String>,
+}
+
+/// A full run of the twin with what was found. SI.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    /// Window of the log.
+    pub window: usize,
+    /// Quantity.
+    pub channel: Channel,
+    /// Mean of the log.
+    pub measured: f64,
+    /// The twin's figure, or why there is none.
+    pub run: Result<f64, String>,
+    /// The surrogate's.
+    pub surrogate: f64,
+    /// Half of the 90 % band.
+    pub band: f64,
+}
+
+/// The page of a calibration.
+///
+/// # Errors
+/// When a figure cannot be drawn.
+pub fn html(about: &About, windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<String, ReportError> {
+    let body = html! {
+        header {
+            h1 { "Calibration" }
+            p.of { (about.log) }
+            @for line in &about.lines { p.note { (line) } }
+        }
+        (tiles(problem, outcome))
+        @if !outcome.explains() {
+            section.missing {
+                h2 { "The twin does not explain the log" }
+                p { "The residuals are " (text::number(outcome.misfit.sqrt())) " times their stated errors (root mean square). \
+                     The configuration is of another tool or another well, or a sensor is wrong. The values below are not to be used." }
+            }
+        }
+        @if !about.refused.is_empty() {
+            section.missing {
+                h2 { "Not used" }
+                ul { @for (channel, why) in &about.refused { li { b { (text::capital(channel)) } ": " (why) "." } } }
+            }
+        }
+        (parameters(about, problem, outcome))
+        (drawn(bands(problem, outcome), "Standardised unknowns: 0 is the middle of what was expected, grey the 90 % of it. \
+            Blue: the 90 % band with the log.")?)
+        (fit(windows, problem, outcome)?)
+        (checked(about, windows))
+        (surrogates(problem, about))
+        (left_out(windows))
+        (window_table(windows, problem, outcome))
+    };
+    Ok(document(&format!("Calibration: {}", about.log), &body))
+}
+
+fn tiles(problem: &Problem, outcome: &Outcome) -> Markup {
+    let count = |verdict: Verdict| {
+        outcome
+            .estimates
+            .iter()
+            .filter(|estimate| estimate.verdict == verdict)
+            .count()
+    };
+    html! {
+        div.tiles {
+            div.tile.(if outcome.explains() { "good" } else { "high" }) {
+                b { (text::number(outcome.misfit.sqrt())) } "residual over its stated error" small { "root mean square; near or below 1 explains the log" }
+            }
+            div.tile { b { (count(Verdict::Identified)) " of " (problem.unknowns.len()) } "unknowns identified" small { "to 5 %" } }
+            div.tile { b { (count(Verdict::Bounded)) } "bounded" small { "known better than before, not to 5 %" } }
+            div.tile { b { (count(Verdict::InCombination)) } "known in combination only" }
+            div.tile.unknown { b { (count(Verdict::NotIdentifiable)) } "not identifiable" small { "left as they are" } }
+            div.tile { b { (problem.observations.len()) } "means of steady windows" }
+        }
+    }
+}
+
+/// Value and band in the unit that is shown.
+fn shown(unit: &str, value: f64) -> String {
+    match unit {
+        "N" => format!("{} kN", text::number(n_to_kn(value))),
+        "" => text::number(value),
+        unit => format!("{} {unit}", text::number(value)),
+    }
+}
+
+fn verdict(estimate: &Estimate) -> Markup {
+    match estimate.verdict {
+        Verdict::Identified => html! { "identified" },
+        Verdict::Bounded => html! { "bounded" },
+        Verdict::InCombination => html! { "only in combination" },
+        Verdict::NotIdentifiable => html! { b.warning { "not identifiable" } ", left as it is" },
+    }
+}
+
+fn parameters(about: &About, problem: &Problem, outcome: &Outcome) -> Markup {
+    html! {
+        section {
+            h2 { "What was found" }
+            table {
+                thead { tr { th { "unknown" } th { "expected, 90 %" } th { "found" } th { "90 % band" } th.n { "posterior over prior variance" } th {} } }
+                tbody {
+                    @for (unknown, estimate) in problem.unknowns.iter().zip(&outcome.estimates) {
+                        @let [low, high] = unknown.prior();
+                        tr {
+                            td { (text::capital(&unknown.name)) }
+                            td { (shown(unknown.unit, low)) " to " (shown(unknown.unit, high)) }
+                            td { @if estimate.verdict != Verdict::NotIdentifiable { b { (shown(unknown.unit, estimate.value)) } } @else { "–" } }
+                            td { @if estimate.verdict != Verdict::NotIdentifiable {
+                                (shown(unknown.unit, estimate.band[0])) " to " (shown(unknown.unit, estimate.band[1]))
+                            } }
+                            td.n { (text::number(estimate.variance_ratio)) }
+                            td { (verdict(estimate)) }
+                        }
+                    }
+                    @for (name, why) in &about.left_out {
+                        tr { td { (text::capital(name)) } td {} td { "–" } td {} td {} td { "not fitted: " (why) } }
+                    }
+                }
+            }
+            p.note { "An unknown whose posterior over prior variance is above 0.8 is not identifiable from this log." }
+            @for pair in &outcome.pairs {
+                @let [a, b] = pair.unknowns.map(|index| problem.unknowns[index].name.as_str());
+                p {
+                    "The log shows only the " (if pair.correlation < 0.0 { "sum" } else { "difference" }) " of " b { (a) } " and " b { (b) }
+                    ": their correlation is " (text::number(pair.correlation)) ". The combination with the weights "
+                    (text::number(pair.weights[0])) " and " (text::number(pair.weights[1])) " of the standardised unknowns is known to "
+                    (text::number(pair.variance_ratio.sqrt())) " of what was expected."
+                }
+            }
+        }
+    }
+}
+
+/// Prior and posterior of all unknowns, standardised.
+fn bands(problem: &Problem, outcome: &Outcome) -> Option<Figure> {
+    let names = problem.unknowns.iter().map(|unknown| {
+        unknown
+            .name
+            .replace("friction of ", "")
+            .replace("tare of the ", "tare: ")
+    });
+    let mut panel = Panel::new("Expected and found", "", "standardised").named(names.collect());
+    for (index, (unknown, estimate)) in problem.unknowns.iter().zip(&outcome.estimates).enumerate() {
+        let x = index as f64;
+        let [low, high] = estimate.band.map(|end| unknown.standard(end));
+        let middle = unknown.standard(estimate.value);
+        panel = panel
+            .line(Line::new("", vec![(x - 0.12, -BAND), (x - 0.12, BAND)]).wide().color(6))
+            .line(Line::new("", vec![(x + 0.12, low), (x + 0.12, high)]).wide().color(0))
+            .line(Line::new("", vec![(x + 0.12, middle)]).dots().color(0));
+    }
+    Some(Figure {
+        name: "bands",
+        title: String::new(),
+        caption: String::new(),
+        columns: 1,
+        height: HEIGHT,
+        panels: vec![panel],
+    })
+}
+
+fn unit(channel: Channel) -> (&'static str, f64) {
+    match channel {
+        Channel::SurfaceTorque | Channel::BitTorque => ("N m", 1.0),
+        Channel::HookLoad | Channel::BitWeight => ("kN", n_to_kn(1.0)),
+    }
+}
+
+fn state(motion: Motion) -> &'static str {
+    match motion {
+        Motion::OffBottom => "off bottom",
+        Motion::Drilling => "drilling",
+    }
+}
+
+/// Measured against predicted, and the residuals over the time of the log.
+fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup, ReportError> {
+    let end = windows.steady.iter().map(|window| window.span[1]).fold(1.0, f64::max);
+    let (time, per) = if end < 10_800.0 {
+        ("time (min)", 60.0)
+    } else {
+        ("time (h)", 3600.0)
+    };
+    let mut panels = Vec::new();
+    for channel in Channel::ALL {
+        let (unit, factor) = unit(channel);
+        let of = |motion: Motion| {
+            let all = problem.observations.iter().zip(&outcome.explained);
+            all.filter(move |(observation, _)| {
+                let quantity = &problem.quantities[observation.quantity];
+                quantity.channel == channel && quantity.motion == motion
+            })
+        };
+        let (mut against, mut over) = (
+            Panel::new(
+                text::capital(channel.name_and_unit().0),
+                &format!("measured ({unit})"),
+                &format!("{unit}, predicted"),
+            ),
+            Panel::new("Measured less predicted", time, unit),
+        );
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut any = false;
+        for (motion, color) in [(Motion::Drilling, 0), (Motion::OffBottom, 1)] {
+            let points: Vec<(f64, f64)> = of(motion)
+                .map(|(o, e)| (factor * o.value, factor * e.predicted))
+                .collect();
+            let prior: Vec<(f64, f64)> = of(motion).map(|(o, e)| (factor * o.value, factor * e.prior)).collect();
+            if points.is_empty() {
+                continue;
+            }
+            any = true;
+            for (x, y) in points.iter().chain(&prior) {
+                low = low.min(*x).min(*y);
+                high = high.max(*x).max(*y);
+            }
+            if motion == Motion::Drilling {
+                against = against.line(Line::new("as configured before", prior).dots().color(6));
+            }
+            against = against.line(Line::new(state(motion), points).dots().color(color));
+            for (observation, explained) in of(motion) {
+                let (x, band) = (observation.time / per, factor * explained.band);
+                over = over.line(Line::new("", vec![(x, -band), (x, band)]).thin().color(6));
+            }
+            let residuals = of(motion).map(|(o, e)| (o.time / per, factor * (o.value - e.predicted)));
+            over = over.line(Line::new(state(motion), residuals.collect()).dots().color(color));
+        }
+        if any {
+            panels.push(against.line(Line::new("", vec![(low, low), (high, high)]).dashed().color(6)));
+            panels.push(over);
+        }
+    }
+    let figure = (!panels.is_empty()).then(|| Figure {
+        name: "fit",
+        title: String::new(),
+        caption: String::new(),
+        columns: 2,
+        height: HEIGHT,
+        panels,
+    });
+    Ok(html! {
+        section {
+            h2 { "How it explains the log" }
+            (drawn(figure, "Left: a point on the dashed line is predicted exactly; grey as it was expected beforehand. Right: residuals \
+                with the 90 % band of each window, which holds scatter, drift and the error of the surrogate.")?)
+        }
+    })
+}
+
+fn checked(about: &About, windows: &Windows) -> Markup {
+    html! {
+        @if !about.checked.is_empty() {
+            section {
+                h2 { "Checked by full runs" }
+                p { "The twin run with what was found, at the loads of some windows." }
+                table {
+                    thead { tr { th { "quantity" } th { "rows" } th.n { "r/min" } th.n { "kN" } th.n { "measured" } th.n { "full run" } th.n { "surrogate" } th.n { "90 % band" } th { "unit" } } }
+                    tbody { @for checked in &about.checked {
+                        @let (unit, factor) = unit(checked.channel);
+                        @let window = &windows.steady[checked.window];
+                        tr {
+                            td { (checked.channel.name_and_unit().0) ", " (state(window.motion)) }
+                            td { (window.rows[0]) " to " (window.rows[1]) }
+                            td.n { (text::number(rad_per_s_to_rpm(window.rotary_speed))) }
+                            td.n { (text::number(n_to_kn(window.weight))) }
+                            td.n { (text::number(factor * checked.measured)) }
+                            @match &checked.run {
+                                Ok(value) => td.n { (text::number(factor * value)) },
+                                Err(problem) => td { (problem) },
+                            }
+                            td.n { (text::number(factor * checked.surrogate)) }
+                            td.n { "± " (text::number(factor * checked.band)) }
+                            td { (unit) }
+                        }
+                    } }
+                }
+            }
+        }
+    }
+}
+
+fn surrogates(problem: &Problem, about: &About) -> Markup {
+    html! {
+        section {
+            h2 { "Surrogates of the twin" }
+            table {
+                thead { tr { th { "quantity" } th.n { "runs" } th.n { "least" } th.n { "largest" } th.n { "error of a run left out" } th { "unit" } } }
+                tbody { @for quantity in &problem.quantities {
+                    @let (unit, factor) = unit(quantity.channel);
+                    tr {
+                        td { (quantity.channel.name_and_unit().0) ", " (state(quantity.motion)) }
+                        td.n { (quantity.surrogate.points) }
+                        @for end in quantity.surrogate.range { td.n { (text::number(factor * end)) } }
+                        td.n { (text::number(factor * quantity.surrogate.error)) }
+                        td { (unit) }
+                    }
+                } }
+            }
+            @if !about.failed.is_empty() {
+                p { (about.failed.len()) " runs gave no figure; the first: " (about.failed[0]) "." }
+            }
+        }
+    }
+}
+
+fn left_out(windows: &Windows) -> Markup {
+    let used: usize = windows.steady.iter().map(|window| window.samples).sum();
+    html! {
+        section {
+            h2 { "What was left out" }
+            table {
+                thead { tr { th { "reason" } th.n { "samples" } } }
+                tbody {
+                    tr { td { "in steady windows, used" } td.n { (used) } }
+                    @for (reason, samples) in windows.left_out_by_reason() { tr { td { (reason) } td.n { (samples) } } }
+                }
+            }
+        }
+    }
+}
+
+fn window_table(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Markup {
+    let all: Vec<_> = problem.observations.iter().zip(&outcome.explained).collect();
+    html! {
+        section {
+            h2 { "Windows" }
+            table {
+                thead { tr { th { "rows" } th { "motion" } th.n { "r/min" } th.n { "kN" } th { "quantity" } th.n { "measured" } th.n { "predicted" } th.n { "90 % band" } th { "unit" } th.n { "residual over its error" } } }
+                tbody { @for (observation, explained) in all.iter().take(ROWS) {
+                    @let window = &windows.steady[observation.window];
+                    @let quantity = &problem.quantities[observation.quantity];
+                    @let (unit, factor) = unit(quantity.channel);
+                    tr {
+                        td { (window.rows[0]) " to " (window.rows[1]) }
+                        td { (state(window.motion)) }
+                        td.n { (text::number(rad_per_s_to_rpm(window.rotary_speed))) }
+                        td.n { (text::number(n_to_kn(window.weight))) }
+                        td { (quantity.channel.name_and_unit().0) }
+                        td.n { (text::number(factor * observation.value)) }
+                        td.n { (text::number(factor * explained.predicted)) }
+                        td.n { "± " (text::number(factor * explained.band)) }
+                        td { (unit) }
+                        td.n { (text::number(explained.standardised)) }
+                    }
+                } }
+            }
+            @if all.len() > ROWS { p { "And " (all.len() - ROWS) " more, in calibration.json." } }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! The samples of a field log or a bag, row by row.
+
+use std::path::Path;
+
+use flexdrill_bag::BagError;
+use flexdrill_calibration::windows::{Channel, Sample};
+use flexdrill_core::inputs::{InputKind, MeasuredKind};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_field_log::InputSequence;
+use flexdrill_messages::std_msgs::Float64;
+use flexdrill_messages::{Message, RigInputs, RigMeasured, topics};
+
+/// The measured quantity of a channel.
+pub const fn kind(channel: Channel) -> MeasuredKind {
+    match channel {
+        Channel::SurfaceTorque => MeasuredKind::SurfaceTorque,
+        Channel::HookLoad => MeasuredKind::HookLoad,
+        Channel::BitTorque => MeasuredKind::DownholeTorque,
+        Channel::BitWeight => MeasuredKind::DownholeWeightOnBit,
+    }
+}
+
+fn empty(time: f64, row: u64) -> Sample {
+    Sample {
+        time,
+        row,
+        rotary_speed: f64::NAN,
+        weight: f64::NAN,
+        measured: [f64::NAN; Channel::ALL.len()],
+    }
+}
+
+fn set(sample: &mut Sample, input: InputKind, value: f64) {
+    match input {
+        InputKind::RotarySpeed => sample.rotary_speed = rpm_to_rad_per_s(value),
+        InputKind::WeightOnBit => sample.weight = kn_to_n(value),
+        InputKind::RateOfPenetration | InputKind::StandpipePressure => {}
+    }
+}
+
+/// The rows of a field log with their inputs and measured values.
+pub fn of_log(sequence: &InputSequence) -> Vec<Sample> {
+    let mut all = std::collections::BTreeMap::<u64, Sample>::new();
+    for input in &sequence.inputs {
+        let sample = all.entry(input.row).or_insert_with(|| empty(input.time, input.row));
+        set(sample, input.kind, input.value);
+    }
+    for row in sequence.measured.rows() {
+        let sample = all.entry(row.row).or_insert_with(|| empty(row.time, row.row));
+        for (measured, value) in row.values() {
+            if let Some(channel) = Channel::ALL.into_iter().find(|channel| kind(*channel) == measured) {
+                sample.measured[channel as usize] = value;
+            }
+        }
+    }
+    all.into_values().collect()
+}
+
+/// The messages of `rig/measured` of a bag, each with the newest inputs before it. Inputs older than `holds` seconds are
+/// unknown.
+///
+/// # Errors
+/// When the bag cannot be read.
+pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
+    let mut bag = flexdrill_bag::open(path)?;
+    let wanted = |name: &str, known: &topics::TopicInfo| name.trim_start_matches('/').ends_with(known.name);
+    bag.select(|topic| {
+        wanted(&topic.name, &topics::RIG_MEASURED)
+            || wanted(&topic.name, &topics::RIG_INPUTS)
+            || InputKind::ALL.iter().any(|kind| topic.is(kind.topic()))
+    });
+    let mut newest = [(f64::NEG_INFINITY, f64::NAN); InputKind::COUNT];
+    let (mut origin, mut samples) = (None, Vec::new());
+    for message in bag.by_ref() {
+        let message = match message {
+            // A damaged part costs its own samples.
+            Err(BagError::Damaged { .. }) => continue,
+            message => message?,
+        };
+        let first = *origin.get_or_insert(message.log_time);
+        let time = message.log_time.saturating_sub(first) as f64 * 1e-9;
+        match message.topic.ros_type.as_str() {
+            RigMeasured::ROS_TYPE => {
+                let measured: RigMeasured = message.decode()?;
+                if measured.quality != RigMeasured::GOOD {
+                    continue;
+                }
+                let mut sample = empty(time, samples.len() as u64 + 1);
+                for (kind, (at, value)) in InputKind::ALL.into_iter().zip(newest) {
+                    if time - at <= holds {
+                        set(&mut sample, kind, value);
+                    }
+                }
+                sample.measured = [
+                    measured.surface_torque,
+                    measured.hook_load,
+                    measured.downhole_torque,
+                    measured.downhole_weight_on_bit,
+                ];
+                samples.push(sample);
+            }
+            RigInputs::ROS_TYPE => {
+                let inputs: RigInputs = message.decode()?;
+                let values = [
+                    inputs.rotary_speed_rpm,
+                    inputs.weight_on_bit_kn,
+                    inputs.rate_of_penetration_m_per_h,
+                    inputs.standpipe_pressure_mpa,
+                ];
+                for (newest, value) in newest.iter_mut().zip(values) {
+                    if value.is_finite() {
+                        *newest = (time, value);
+                    }
+                }
+            }
+            Float64::ROS_TYPE => {
+                let value = message.decode::<Float64>()?.data;
+                if let Some(kind) = InputKind::ALL.into_iter().find(|kind| message.topic.is(kind.topic())) {
+                    newest[kind.index()] = (time, value);
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(samples)
+}

@@ -1,0 +1,315 @@
+//! `flexdrill calibrate`: fits coefficients of the twin to a log or a bag.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use clap::Args;
+
+use super::WrongUse;
+use super::numbers;
+use super::progress::Progress;
+use super::source::{SourceArgs, is_bag};
+use crate::calibrate::samples;
+use crate::cli::output::{say, tell};
+use crate::report::calibration as page;
+use flexdrill_calibration::CalibrationError;
+use flexdrill_calibration::fit::refusals;
+use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::windows::{self, Motion, Sample, WindowSettings, Windows};
+use flexdrill_config::Config;
+use flexdrill_fit::overlay::{self, Provenance};
+use flexdrill_fit::points::{self, Cover, Point};
+use flexdrill_fit::unknowns::Unknowns;
+use flexdrill_fit::{Study, StudySettings, study};
+use flexdrill_text::printable;
+
+/// File of the twin's points, by which an interrupted calibration goes on.
+const POINTS: &str = "points.csv";
+
+/// Fit friction, the bit's coefficient and the sensors' tares to a field log or a bag with what the rig measured.
+///
+/// The steady parts of the log are compared with runs of the twin. What the log does not determine is left as it is and
+/// said so. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
+/// calibration.json and report.html. The twin's runs are kept in points.csv: the same command goes on after an
+/// interruption.
+#[derive(Debug, Args)]
+pub(super) struct CalibrateArgs {
+    /// Field log (CSV) or bag with rig/measured.
+    log: PathBuf,
+    /// Configuration to fit.
+    #[arg(long, value_name = "FILE")]
+    config: PathBuf,
+    /// Folder for the results, created if necessary.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    #[command(flatten)]
+    source: SourceArgs,
+    /// Runs of the twin at the same time, one thread each. The results do not depend on it.
+    #[arg(long, default_value_t = 1, value_parser = numbers::jobs())]
+    jobs: usize,
+    /// Seed of the design and of the ensemble.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Members of the ensemble.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
+    members: u32,
+    /// Only list the steady windows and what is left out; the twin is not run.
+    #[arg(long)]
+    windows: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When log or configuration cannot be read, nothing can be fitted, or a file cannot be written.
+pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
+    let config = Config::load(&args.config)?;
+    let samples = read(args, &config)?;
+    let windows = windows::find(&samples, &WindowSettings::default());
+    tell_windows(&samples, &windows);
+    let refused = refusals(&windows);
+    for (channel, refusal) in &refused {
+        say!("{} is not used: {}", channel.name_and_unit().0, refusal.text());
+    }
+    if args.windows {
+        return Ok(());
+    }
+    let usable = windows.steady.iter().any(|window| {
+        let mut measured = windows::Channel::ALL
+            .into_iter()
+            .filter(|channel| window.measured[*channel as usize].is_some());
+        measured.any(|channel| !refused.iter().any(|(known, _)| *known == channel))
+    });
+    if !usable {
+        let why = anyhow::Error::from(CalibrationError::NothingObserved);
+        return Err(match refused.first() {
+            Some((channel, refusal)) => why.context(format!("{}: {}", channel.name_and_unit().0, refusal.text())),
+            None => why,
+        });
+    }
+    let unknowns = Unknowns::of(&config)?;
+    let covers: Vec<Cover> = [Motion::OffBottom, Motion::Drilling]
+        .into_iter()
+        .filter_map(|motion| study::cover(&windows, motion, unknowns.modelled.len()))
+        .collect();
+    check_covers(&config, &covers)?;
+    std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
+    let points = run_points(args, &config, &unknowns, &covers)?;
+    let settings = StudySettings {
+        jobs: args.jobs,
+        seed: args.seed,
+        members: args.members as usize,
+    };
+    tell!("fitting, and checking what was found by full runs");
+    let study = study(&config, unknowns, windows, &points, &covers, &settings)?;
+    let rows = [samples.first(), samples.last()].map(|sample| sample.map_or(0, |sample| sample.row));
+    let name = args
+        .log
+        .file_name()
+        .unwrap_or(args.log.as_os_str())
+        .to_string_lossy()
+        .into_owned();
+    let provenance = Provenance {
+        log: name,
+        sha256: overlay::sha256(&args.log).with_context(|| format!("{}", args.log.display()))?,
+        rows,
+        configuration: config.hash(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed: args.seed,
+    };
+    write(args, &config, &study, &provenance)?;
+    tell_result(&study);
+    anyhow::ensure!(
+        study.outcome.explains(),
+        "the twin does not explain the log: the residuals are {:.1} times their stated errors (root mean square). The \
+         values fit this configuration to another tool or another well; do not use them",
+        study.outcome.misfit.sqrt()
+    );
+    Ok(())
+}
+
+fn read(args: &CalibrateArgs, config: &Config) -> anyhow::Result<Vec<Sample>> {
+    let samples = if is_bag(&args.log)? {
+        if args.source.is_given() {
+            return Err(
+                WrongUse::new("--mapping, --from and --to belong to field logs; a bag is used as a whole").into(),
+            );
+        }
+        // An input that is older than its limit is not known.
+        samples::of_bag(&args.log, config.inputs.rotary_speed.max_age)?
+    } else {
+        samples::of_log(&args.source.log(&args.log)?)
+    };
+    anyhow::ensure!(
+        samples
+            .iter()
+            .any(|sample| sample.measured.iter().any(|value| value.is_finite())),
+        "{}: it has no measured torque, hook load, or torque or weight at the bit; a field log needs columns.torque, \
+         a hookload or columns.measured in its mapping, a bag the topic rig/measured",
+        args.log.display()
+    );
+    Ok(samples)
+}
+
+fn tell_windows(samples: &[Sample], windows: &Windows) {
+    let used: usize = windows.steady.iter().map(|window| window.samples).sum();
+    let count = |motion| windows.steady.iter().filter(|window| window.motion == motion).count();
+    say!(
+        "{used} of {} samples are in steady windows: {} off bottom, {} drilling",
+        samples.len(),
+        count(Motion::OffBottom),
+        count(Motion::Drilling)
+    );
+    for (reason, samples) in windows.left_out_by_reason() {
+        say!("  left out: {samples} samples, {reason}");
+    }
+}
+
+/// The twin must be able to run at the loads of the log.
+fn check_covers(config: &Config, covers: &[Cover]) -> anyhow::Result<()> {
+    let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+    for cover in covers {
+        let rpm = flexdrill_core::units::rad_per_s_to_rpm(cover.rotary_speed[1]);
+        let kn = flexdrill_core::units::n_to_kn(cover.weight[1]);
+        anyhow::ensure!(
+            rpm <= speed.max_rpm,
+            "the log drills at up to {rpm:.0} r/min: must be at most inputs.rotary_speed.max_rpm, {} r/min; scale the speed \
+             in the mapping or change the configuration",
+            speed.max_rpm
+        );
+        anyhow::ensure!(
+            cover.motion == Motion::OffBottom || kn <= weight.max_kn,
+            "the log drills with up to {kn:.0} kN: must be at most inputs.weight_on_bit.max_kn, {} kN; scale the weight in \
+             the mapping or change the configuration",
+            weight.max_kn
+        );
+    }
+    Ok(())
+}
+
+fn run_points(
+    args: &CalibrateArgs,
+    config: &Config,
+    unknowns: &Unknowns,
+    covers: &[Cover],
+) -> anyhow::Result<Vec<Point>> {
+    let mut all: Vec<Point> = covers
+        .iter()
+        .flat_map(|cover| points::design(unknowns.modelled.len(), cover, args.seed))
+        .collect();
+    let path = args.out.join(POINTS);
+    if let Ok(text) = std::fs::read_to_string(&path) {
+        let known = points::fill(&path, &text, config, unknowns, args.seed, &mut all)?;
+        tell!("{known} of {} runs of the twin are in {}", all.len(), path.display());
+    }
+    let total = all.len();
+    let mut progress = Progress::share();
+    let mut problem = None;
+    let found = points::run(config, unknowns, all, args.jobs, |points, left| {
+        let text = points::to_csv(config, unknowns, args.seed, points);
+        problem = problem.take().or(write_file(&args.out, POINTS, &text).err());
+        progress.at((total - left) as f64 / total as f64);
+    });
+    progress.done();
+    problem.map_or(Ok(found), Err)
+}
+
+fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Provenance) -> anyhow::Result<()> {
+    let calibrated = overlay::apply(config, study)?;
+    let whole = overlay::header(provenance) + &calibrated.to_yaml()?;
+    let json = serde_json::to_string_pretty(&overlay::json(study, provenance))?;
+    write_file(&args.out, "overlay.yaml", &overlay::yaml(study, provenance))?;
+    write_file(&args.out, "calibrated.yaml", &whole)?;
+    write_file(&args.out, "calibration.json", &(json + "\n"))?;
+    let about = page::About {
+        log: provenance.log.clone(),
+        lines: overlay::header(provenance)
+            .lines()
+            .map(|line| line.trim_start_matches("# ").to_owned())
+            .collect(),
+        left_out: study.unknowns.left_out.clone(),
+        refused: study
+            .refused
+            .iter()
+            .map(|(channel, refusal)| (channel.name_and_unit().0, refusal.text()))
+            .collect(),
+        checked: study
+            .checked
+            .iter()
+            .map(|checked| page::Checked {
+                window: checked.window,
+                channel: checked.channel,
+                measured: checked.measured,
+                run: checked.run.clone(),
+                surrogate: checked.surrogate,
+                band: checked.band,
+            })
+            .collect(),
+        failed: study.failed.clone(),
+    };
+    let html = page::html(&about, &study.windows, &study.problem, &study.outcome)?;
+    write_file(&args.out, crate::report::FILE, &html)?;
+    for name in [
+        "overlay.yaml",
+        "calibrated.yaml",
+        "calibration.json",
+        crate::report::FILE,
+    ] {
+        say!("wrote {}", args.out.join(name).display());
+    }
+    Ok(())
+}
+
+fn tell_result(study: &Study) {
+    for (unknown, estimate) in study.problem.unknowns.iter().zip(&study.outcome.estimates) {
+        let [low, high] = estimate.band;
+        let unit = if unknown.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" {}", unknown.unit)
+        };
+        match estimate.verdict {
+            Verdict::Identified | Verdict::Bounded => say!(
+                "{}: {:.4}{unit}, 90 % band {low:.4} to {high:.4}",
+                unknown.name,
+                estimate.value
+            ),
+            Verdict::InCombination => say!(
+                "{}: {:.4}{unit}, 90 % band {low:.4} to {high:.4}, only in combination",
+                unknown.name,
+                estimate.value
+            ),
+            Verdict::NotIdentifiable => say!(
+                "{}: not identifiable (posterior over prior variance {:.2}), left as it is",
+                unknown.name,
+                estimate.variance_ratio
+            ),
+        }
+    }
+    for (name, why) in &study.unknowns.left_out {
+        say!("{name}: not fitted, {why}");
+    }
+    for pair in &study.outcome.pairs {
+        let [a, b] = pair.unknowns.map(|index| study.problem.unknowns[index].name.as_str());
+        let what = if pair.correlation < 0.0 { "sum" } else { "difference" };
+        say!(
+            "the log shows only the {what} of {a} and {b} (correlation {:.2})",
+            pair.correlation
+        );
+    }
+    for problem in study.failed.iter().take(3) {
+        tell!("a run of the twin gave no figure: {}", printable(problem));
+    }
+}
+
+/// Writes a file under a temporary name first, so that the final name never has a part of it.
+fn write_file(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
+    let path = folder.join(name);
+    let temporary = folder.join(format!(".{name}.{}", std::process::id()));
+    let written = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, &path));
+    if written.is_err() {
+        // The error of the write is the one to report.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
