@@ -285,7 +285,7 @@ pub(super) fn disturbed(run: &Run, of_goal: u64, candidate: usize, member: u32) 
     fork
 }
 
-/// `work` on each of `items`, on `threads` threads of low priority; the results in the order of the items.
+/// `work` on each of `items`, on `threads` threads of idle work; the results in the order of the items.
 pub(super) fn on_threads<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let mut found: Vec<(usize, R)> = std::thread::scope(|scope| {
@@ -318,20 +318,19 @@ fn seed(seed: u64, candidate: usize, member: u32) -> u64 {
     fastrand::Rng::with_seed(seed ^ ((candidate as u64) << 32 | u64::from(member))).u64(..)
 }
 
-/// Whether members run at the lowest priority.
+/// Whether members run as idle work.
 static YIELDS: AtomicBool = AtomicBool::new(true);
 
-/// Lets the members run at the priority of the process, for a process that has no live run: at the lowest priority a
-/// sweep would make no progress on a busy machine.
+/// Lets the members run at the priority of the process, for a process that has no live run: as idle work a sweep would
+/// make no progress on a busy machine.
 pub fn keep_priority() {
     YIELDS.store(false, Ordering::Relaxed);
 }
 
-/// Lowers the priority of this thread: the look-ahead takes what the live run leaves. It is a hint; without it the answer is
-/// the same.
+/// Makes this thread's work idle work: the look-ahead takes what the live run leaves. The answer is the same without.
 fn yield_to_others() {
     if YIELDS.load(Ordering::Relaxed) {
-        let _ = rustix::process::nice(19);
+        flexdrill_realtime::priority::idle();
     }
 }
 

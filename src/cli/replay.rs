@@ -30,8 +30,11 @@ use flexdrill_text::printable;
 /// command states what is not exact. Of other bags and of field logs, the rig's inputs are used.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
-    /// Bag (MCAP, SQLite or their folder) or field log (CSV).
+    /// Bag (MCAP, SQLite or their folder), field log (CSV) or capture of a WITS line.
     input: PathBuf,
+    /// The input is a capture of a WITS line, or the bytes of one alone. A capture of flexdrill bridge is known without it.
+    #[arg(long)]
+    wits: bool,
     /// Bag to write: FILE.mcap or a folder.
     #[arg(long, value_name = "OUT", required_unless_present = "foxglove")]
     out: Option<PathBuf>,
@@ -75,7 +78,7 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
 }
 
 fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
-    if source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
+    if !args.wits && source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
         if args.config.is_some() || args.source.is_given() {
             return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --from, --to and --mapping, or use \
                  another bag").into());
@@ -96,7 +99,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
                     topics::APPLIED_INPUTS.name
                 )
             })?;
-            inputs::replay(script.config()?, &samples, out, args.duration)?
+            inputs::replay(script.config()?, samples, out, args.duration)?
         } else {
             script.replay(out, args.duration)?
         };
@@ -109,8 +112,12 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     }
     let (config, name) = load_config(args.config.as_deref())?;
     say!("configuration {name}, hash {}", &config.hash()[..12]);
-    let samples = args.source.read(&args.input)?;
-    let done = inputs::replay(config, &samples, out, args.duration)?;
+    let samples = if args.wits {
+        args.source.read_wits(&args.input)?
+    } else {
+        args.source.read(&args.input)?
+    };
+    let done = inputs::replay(config, samples, out, args.duration)?;
     finish(done, args.incidents.as_deref())
 }
 

@@ -1,17 +1,25 @@
-//! `flexdrill rig`: publishes a log's inputs in real time, as a rig does.
+//! `flexdrill rig`: sends a log's inputs and measured values in real time, as a rig does.
 
+mod line;
+
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::source::{self, Sample};
+use self::line::WitsLine;
+use super::source::{self, MeasuredSample, Sample, Samples};
 use super::{WrongUse, numbers, signals};
 use crate::cli::output::say;
 use crate::dds::network::Network;
+use crate::messages::RigMeasured;
+use crate::messages::builtin_interfaces::Time;
 use crate::node::demonstration_rig::{RIG_NODE_NAME, RigNode};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
+use flexdrill_bridge::{lines, wits};
 use flexdrill_core::inputs::InputKind;
 
 /// Time between two lines of progress.
@@ -21,10 +29,12 @@ const LEAST_GAP: Duration = Duration::from_millis(2);
 /// Time for discovery before the first sample, and for delivery after the last.
 const DISCOVERY: Duration = Duration::from_millis(300);
 
-/// Publish a field log's or a bag's inputs in real time.
+/// Send the inputs and measured values of a log in real time.
+///
+/// They are published on the rig's topics, or written as WITS level 0 to whoever connects (--wits).
 #[derive(Debug, Args)]
 pub(super) struct RigArgs {
-    /// Field log (CSV) or bag (MCAP, SQLite or their folder).
+    /// Field log (CSV), bag (MCAP, SQLite or their folder) or capture of a WITS line.
     log: PathBuf,
     /// Speed relative to real time; 2 plays twice as fast.
     #[arg(long, default_value_t = 1.0, value_parser = numbers::rate)]
@@ -32,6 +42,12 @@ pub(super) struct RigArgs {
     /// Restart at the end of the log.
     #[arg(long = "loop")]
     again: bool,
+    /// Write WITS level 0 to whoever connects to this address, instead of publishing. Whoever reaches it can read along.
+    #[arg(long, value_name = "ADDRESS:PORT", conflicts_with_all = ["domain", "namespace"])]
+    wits: Option<SocketAddr>,
+    /// Mapping of items to quantities and units (YAML) for --wits. Default: the usual items in metric units.
+    #[arg(long, value_name = "FILE", requires = "wits")]
+    wits_map: Option<PathBuf>,
     /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
     #[arg(long, value_name = "ID")]
     domain: Option<u16>,
@@ -48,6 +64,41 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
     logging::start(&ros_args);
     let samples = args.source.read(&args.log)?;
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    runtime.block_on(async {
+        let (mut to, place) = match args.wits {
+            Some(address) => wits(args, address).await?,
+            None => topics(args, &ros_args, &samples)?,
+        };
+        say!(
+            "playing {} ({} samples of inputs, {} of measured values) at {} x real time",
+            args.log.display(),
+            samples.inputs.len(),
+            samples.measured.len(),
+            args.rate
+        );
+        say!("to {place}; Ctrl-C ends it");
+        let shutdown = signals::shutdown(false)?;
+        tokio::select! {
+            () = shutdown => {}
+            () = play(&mut to, &samples, args.rate, args.again) => {}
+        }
+        anyhow::Ok(())
+    })?;
+    say!("stopped");
+    Ok(())
+}
+
+/// Where the samples are sent.
+enum Destination {
+    /// The rig's topics.
+    Topics(RigNode),
+    /// A line of WITS.
+    Line(WitsLine),
+}
+
+/// The node, and the topics that the samples have.
+fn topics(args: &RigArgs, ros_args: &RosArgs, samples: &Samples) -> anyhow::Result<(Destination, String)> {
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
     let identity = ros_args
         .remapping
@@ -57,41 +108,87 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
         tracing::warn!("{note}");
     }
     let node = RigNode::new(&network, &identity, &ros_args.remapping)?;
-    say!(
-        "playing {} ({} samples) at {} x real time",
-        args.log.display(),
-        samples.len(),
-        args.rate
-    );
-    say!(
-        "to {}, domain {}; Ctrl-C ends it",
-        sent_topics(&node, &samples).join(", "),
-        network.domain_id
-    );
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-    runtime.block_on(async {
-        let shutdown = signals::shutdown(false)?;
-        tokio::select! {
-            () = shutdown => {}
-            () = play(&node, &samples, args.rate, args.again) => {}
+    let sent = |kind: &InputKind| samples.inputs.iter().any(|sample| sample.kind == *kind);
+    let kinds = InputKind::ALL.into_iter().filter(sent).map(InputKind::index);
+    let measured = (!samples.measured.is_empty()).then_some(InputKind::COUNT);
+    let names: Vec<&str> = kinds
+        .chain(measured)
+        .map(|index| node.topics()[index].as_str())
+        .collect();
+    let place = format!("{}, domain {}", names.join(", "), network.domain_id);
+    Ok((Destination::Topics(node), place))
+}
+
+/// The line, and where it is.
+async fn wits(args: &RigArgs, address: SocketAddr) -> anyhow::Result<(Destination, String)> {
+    let mapping = match &args.wits_map {
+        Some(file) => wits::Mapping::load(file)?,
+        None => wits::Mapping::default(),
+    };
+    let line = WitsLine::open(address, &mapping, "demonstration").await?;
+    let place = format!("whoever connects to {} for WITS level 0", line.address());
+    Ok((Destination::Line(line), place))
+}
+
+/// Values that are due at one time.
+#[derive(Default)]
+struct Batch<'a> {
+    /// In the unit of the input's topic, by [`InputKind::ALL`].
+    inputs: [Option<f64>; InputKind::COUNT],
+    /// The newest of each source.
+    measured: BTreeMap<&'a str, &'a RigMeasured>,
+    /// Values for which a newer one was due at the same time.
+    left_out: u64,
+}
+
+impl<'a> Batch<'a> {
+    fn input(&mut self, sample: &Sample) {
+        // The topic carries a bare number, which cannot be marked as bad, so a bad sample is not sent.
+        if sample.stamp.is_none_or(|stamp| !stamp.bad) {
+            self.left_out += u64::from(self.inputs[sample.kind.index()].replace(sample.value).is_some());
         }
-        anyhow::Ok(())
-    })?;
-    say!("stopped");
-    Ok(())
+    }
+
+    fn measured(&mut self, sample: &'a MeasuredSample) {
+        let newest = self.measured.insert(&sample.message.source, &sample.message);
+        self.left_out += u64::from(newest.is_some());
+    }
 }
 
-/// The topics of the inputs that the samples have.
-fn sent_topics<'a>(node: &'a RigNode, samples: &[Sample]) -> Vec<&'a str> {
-    let sent = |kind: &InputKind| samples.iter().any(|sample| sample.kind == *kind);
-    let kinds = InputKind::ALL.into_iter().filter(sent);
-    kinds.map(|kind| node.topics()[kind.index()].as_str()).collect()
+impl Destination {
+    /// Sends a batch; how many samples went out.
+    fn send(&mut self, batch: &Batch<'_>) -> u64 {
+        let now = lines::now();
+        match self {
+            Self::Topics(node) => {
+                let inputs = InputKind::ALL.into_iter().zip(batch.inputs);
+                let given = inputs.filter_map(|(kind, value)| Some((kind, value?)));
+                let mut sent: u64 = given.map(|(kind, value)| u64::from(node.publish(kind, value))).sum();
+                for message in batch.measured.values() {
+                    // A rig measures now.
+                    let mut message = (*message).clone();
+                    message.header.stamp = Time::from_nanoseconds(now);
+                    sent += u64::from(node.publish_measured(&message));
+                }
+                sent
+            }
+            Self::Line(line) => line.send(batch, now),
+        }
+    }
+
+    /// Who listens, for the line of progress.
+    fn listeners(&self) -> String {
+        match self {
+            Self::Topics(node) => format!("subscribers: {}", node.subscribers()),
+            Self::Line(line) => format!("connections: {}", line.connections()),
+        }
+    }
 }
 
-async fn play(node: &RigNode, samples: &[Sample], rate: f64, again: bool) {
+async fn play(to: &mut Destination, samples: &Samples, rate: f64, again: bool) {
     tokio::time::sleep(DISCOVERY).await;
     loop {
-        play_once(node, samples, rate).await;
+        play_once(to, samples, rate).await;
         if !again {
             return;
         }
@@ -99,58 +196,74 @@ async fn play(node: &RigNode, samples: &[Sample], rate: f64, again: bool) {
     }
 }
 
-async fn play_once(node: &RigNode, samples: &[Sample], rate: f64) {
-    let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
+async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
+    let (Some(first), Some(last)) = (samples.inputs.first(), samples.inputs.last()) else {
         return;
     };
-    let at = |sample: &Sample| sample.since(first);
+    let after = |time: i64| time.saturating_sub(first.time) as f64 * 1e-9;
     let began = Instant::now();
     let mut reported = began;
     let mut newest: [Option<f64>; InputKind::COUNT] = [None; InputKind::COUNT];
-    let (mut next, mut sent, mut left_out) = (0, 0_u64, 0_u64);
-    while let Some(sample) = samples.get(next) {
-        let due = Duration::from_secs_f64(at(sample) / rate);
+    let (mut inputs, mut measured) = (samples.inputs.iter().peekable(), samples.measured.iter().peekable());
+    let (mut sent, mut left_out) = (0_u64, 0_u64);
+    loop {
+        let next = [
+            inputs.peek().map(|sample| sample.time),
+            measured.peek().map(|sample| sample.time),
+        ];
+        let Some(next) = next.into_iter().flatten().min() else {
+            break;
+        };
+        let due = Duration::from_secs_f64((after(next) / rate).max(0.0));
         tokio::time::sleep_until((began + due).into()).await;
         let now = began.elapsed().as_secs_f64() * rate;
-        // Of all samples due by now, only the newest of each input is sent.
-        let mut batch: [Option<f64>; InputKind::COUNT] = [None; InputKind::COUNT];
-        while let Some(sample) = samples.get(next).filter(|sample| at(sample) <= now) {
-            next += 1;
-            // The topic carries a bare number, which cannot be marked as bad, so a bad sample is not sent.
-            if sample.stamp.is_none_or(|stamp| !stamp.bad) {
-                left_out += u64::from(batch[sample.kind.index()].replace(sample.value).is_some());
-            }
+        // Of all samples due by now, only the newest are sent.
+        let mut batch = Batch::default();
+        while let Some(sample) = inputs.next_if(|sample| after(sample.time) <= now) {
+            batch.input(sample);
         }
-        for kind in InputKind::ALL {
-            if let Some(value) = batch[kind.index()] {
-                sent += u64::from(node.publish(kind, value));
-                newest[kind.index()] = Some(value);
-            }
+        while let Some(sample) = measured.next_if(|sample| after(sample.time) <= now) {
+            batch.measured(sample);
+        }
+        sent += to.send(&batch);
+        left_out += batch.left_out;
+        for (newest, value) in newest.iter_mut().zip(batch.inputs) {
+            *newest = value.or(*newest);
         }
         if reported.elapsed() >= REPORT_INTERVAL {
             reported = Instant::now();
-            let show = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"));
-            let late = if left_out > 0 {
-                format!(", {left_out} left out because a newer one was due at the same time")
-            } else {
-                String::new()
-            };
-            let optional: String = InputKind::ALL
-                .into_iter()
-                .filter(|kind| kind.is_optional())
-                .filter_map(|kind| newest[kind.index()].map(|value| format!(" {value:.1} {},", kind.unit())))
-                .collect();
             say!(
-                "{now:.0} of {:.0} s: {} r/min, {} kN,{optional} {sent} samples sent{late}, subscribers: {}",
-                at(last),
-                show(newest[0]),
-                show(newest[1]),
-                node.subscribers()
+                "{now:.0} of {:.0} s: {}, {sent} samples sent{}, {}",
+                after(last.time),
+                shown(&newest),
+                late(left_out),
+                to.listeners()
             );
         }
         tokio::time::sleep(LEAST_GAP).await;
     }
     // The last samples need time to arrive before the node leaves the network.
     tokio::time::sleep(DISCOVERY).await;
-    say!("end of the log after {:.1} s: {sent} samples sent", at(last));
+    say!("end of the log after {:.1} s: {sent} samples sent", after(last.time));
+}
+
+/// The newest inputs; the optional ones where they are.
+fn shown(newest: &[Option<f64>; InputKind::COUNT]) -> String {
+    let shown = InputKind::ALL
+        .into_iter()
+        .zip(newest)
+        .filter_map(|(kind, value)| match value {
+            Some(value) => Some(format!("{value:.1} {}", kind.unit())),
+            None if kind.is_optional() => None,
+            None => Some(format!("- {}", kind.unit())),
+        });
+    shown.collect::<Vec<_>>().join(", ")
+}
+
+fn late(left_out: u64) -> String {
+    if left_out > 0 {
+        format!(", {left_out} left out because a newer one was due at the same time")
+    } else {
+        String::new()
+    }
 }

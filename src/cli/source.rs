@@ -1,4 +1,7 @@
-//! Inputs with times from a bag or a field log, for `rig` and `replay`.
+//! Inputs and measured values with times from a bag, a field log or a capture of a WITS line, for `rig` and `replay`.
+
+mod bags;
+mod wits;
 
 use std::path::{Path, PathBuf};
 
@@ -7,11 +10,11 @@ use clap::Args;
 
 use super::WrongUse;
 use crate::bag::{self, BagError};
-use crate::cli::output::{tell, tell_text};
+use crate::cli::output::tell_text;
 use crate::field_log::{self, InputSequence, Mapping, Position};
-use crate::messages::std_msgs::Float64;
-use crate::messages::{Message, RigInputs, topics};
-use crate::rig_inputs::stamped;
+use crate::messages::RigMeasured;
+use crate::messages::builtin_interfaces::Time;
+use crate::messages::std_msgs::Header;
 use flexdrill_core::inputs::{InputKind, Stamp};
 
 /// A timed sample.
@@ -34,10 +37,38 @@ impl Sample {
     }
 }
 
+/// What the rig measured besides its inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct MeasuredSample {
+    /// ns since 1970; of a field log, since its first row.
+    pub(super) time: i64,
+    /// The values.
+    pub(super) message: RigMeasured,
+}
+
+/// What a source has, each part in the order of time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Samples {
+    /// The inputs.
+    pub(super) inputs: Vec<Sample>,
+    /// The measured values.
+    pub(super) measured: Vec<MeasuredSample>,
+}
+
+impl Samples {
+    /// In the order of time. The sorts are stable: samples of the same time keep the order of the source.
+    fn sorted(mut self) -> Self {
+        self.inputs.sort_by_key(|sample| sample.time);
+        self.measured.sort_by_key(|sample| sample.time);
+        self
+    }
+}
+
 /// The part of a source to use, and the mapping of its columns.
 #[derive(Debug, Args)]
 pub(super) struct SourceArgs {
-    /// Mapping of a field log's columns (YAML). Default: the only YAML file in the log's folder.
+    /// Mapping of a field log's columns (YAML), or of a capture's items. Default: of a log, the only YAML file in its
+    /// folder; of a capture, the usual items in metric units.
     #[arg(long, value_name = "FILE")]
     mapping: Option<PathBuf>,
     /// Begin this many seconds after the start, or at a row of a field log (row:6345, as an editor numbers it).
@@ -66,39 +97,54 @@ impl SourceArgs {
         self.mapping.is_some() || self.from.is_some() || self.to.is_some()
     }
 
-    /// The samples in the order of time. The report of a field log is printed on standard error.
+    /// The samples of a bag, a field log or a capture. The report of a log or a capture is printed on standard error.
     ///
     /// # Errors
-    /// When the source cannot be read or has no sample.
-    pub(super) fn read(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
-        let mut samples = if is_bag(path)? {
-            self.part_of_bag(path, from_bag(path)?)?
+    /// When the source cannot be read or has no sample of an input.
+    pub(super) fn read(&self, path: &Path) -> anyhow::Result<Samples> {
+        if wits::is_capture(path) {
+            return self.read_wits(path);
+        }
+        let samples = if is_bag(path)? {
+            self.part(path, bags::read(path)?)?
         } else {
             self.log_samples(path)?
         };
-        if samples.is_empty() {
-            bail!("{}: it has no sample of rotary speed or weight on bit", path.display());
-        }
-        // The sort is stable: samples of the same time keep the order of the source.
-        samples.sort_by_key(|sample| sample.time);
-        Ok(samples)
+        with_inputs(path, samples)
     }
 
-    /// The samples between --from and --to.
-    fn part_of_bag(&self, path: &Path, mut samples: Vec<Sample>) -> anyhow::Result<Vec<Sample>> {
+    /// The samples of a capture, or of a file with the bytes of a WITS line alone.
+    ///
+    /// # Errors
+    /// As [`SourceArgs::read`].
+    pub(super) fn read_wits(&self, path: &Path) -> anyhow::Result<Samples> {
+        let samples = wits::read(path, self.mapping.as_deref())?;
+        with_inputs(path, self.part(path, samples)?)
+    }
+
+    /// The samples between --from and --to, counted from the first input.
+    fn part(&self, path: &Path, samples: Samples) -> anyhow::Result<Samples> {
         let seconds_of = |position: Option<Position>, default: f64| match position {
             None => Ok(default),
             Some(Position::Time(seconds)) => Ok(seconds),
-            Some(Position::Row(row)) => Err(WrongUse::new(format!("row:{row}: a bag has no rows; give seconds"))),
+            Some(Position::Row(row)) => Err(WrongUse::new(format!(
+                "row:{row}: only a field log has rows; give seconds"
+            ))),
         };
         let (from, to) = (seconds_of(self.from, 0.0)?, seconds_of(self.to, f64::INFINITY)?);
-        let Some(first) = samples.iter().min_by_key(|sample| sample.time).copied() else {
+        let mut samples = samples.sorted();
+        let Some(first) = samples.inputs.first().copied() else {
             return Ok(samples);
         };
-        let seconds = |sample: &Sample| sample.since(&first);
-        let all = samples.iter().map(seconds).fold(0.0, f64::max);
-        samples.retain(|sample| (from..=to).contains(&seconds(sample)));
-        if samples.is_empty() {
+        let seconds = |time: i64| time.saturating_sub(first.time) as f64 * 1e-9;
+        let all = samples.inputs.last().map_or(0.0, |last| seconds(last.time));
+        samples
+            .inputs
+            .retain(|sample| (from..=to).contains(&seconds(sample.time)));
+        samples
+            .measured
+            .retain(|sample| (from..=to).contains(&seconds(sample.time)));
+        if samples.inputs.is_empty() {
             bail!(
                 "{}: no sample between --from {from} s and --to {to} s; it is {all:.1} s long",
                 path.display()
@@ -126,17 +172,43 @@ impl SourceArgs {
         Ok(sequence)
     }
 
-    fn log_samples(&self, path: &Path) -> anyhow::Result<Vec<Sample>> {
+    fn log_samples(&self, path: &Path) -> anyhow::Result<Samples> {
         let sequence = self.log(path)?;
-        let samples = sequence.inputs.iter().map(|input| Sample {
-            // Times of a log begin at 0 and span some years at most, so they fit.
-            time: (input.time * 1e9).round() as i64,
+        // Times of a log begin at 0 and span some years at most, so they fit.
+        let nanoseconds = |seconds: f64| (seconds * 1e9).round() as i64;
+        let inputs = sequence.inputs.iter().map(|input| Sample {
+            time: nanoseconds(input.time),
             kind: input.kind,
             value: input.value,
             stamp: None,
         });
-        Ok(samples.collect())
+        let measured = sequence.measured.rows().map(|row| {
+            let header = Header {
+                stamp: Time::from_nanoseconds(nanoseconds(row.time)),
+                ..Header::default()
+            };
+            let mut message = RigMeasured::not_given(header, RigMeasured::GOOD, "field log".to_owned());
+            for (kind, value) in row.values() {
+                message.set(kind, value);
+            }
+            MeasuredSample {
+                time: nanoseconds(row.time),
+                message,
+            }
+        });
+        let samples = Samples {
+            inputs: inputs.collect(),
+            measured: measured.collect(),
+        };
+        Ok(samples.sorted())
     }
+}
+
+fn with_inputs(path: &Path, samples: Samples) -> anyhow::Result<Samples> {
+    if samples.inputs.is_empty() {
+        bail!("{}: it has no sample of rotary speed or weight on bit", path.display());
+    }
+    Ok(samples)
 }
 
 /// The only YAML file in the folder of a log.
@@ -165,70 +237,4 @@ fn only_mapping_in_folder_of(log: &Path) -> anyhow::Result<PathBuf> {
         ))
         .into()),
     }
-}
-
-fn from_bag(path: &Path) -> anyhow::Result<Vec<Sample>> {
-    let mut bag = bag::open(path)?;
-    let plain = InputKind::ALL.map(|kind| bag.topic(kind.topic()).map(|topic| topic.name.clone()));
-    let stamped = bag.topic(topics::RIG_INPUTS.name).map(|topic| topic.name.clone());
-    let [speed, weight, advance, pressure] = plain;
-    // The optional inputs may be missing.
-    let [advance, pressure] = [advance.ok(), pressure.ok()];
-    let names: [Option<String>; InputKind::COUNT + 1] = match (speed, weight, stamped) {
-        (Ok(speed), Ok(weight), stamped) => [Some(speed), Some(weight), advance, pressure, stamped.ok()],
-        // Without the plain topics, the stamped topic has the inputs.
-        (speed, weight, Ok(stamped)) => [speed.ok(), weight.ok(), advance, pressure, Some(stamped)],
-        (speed, weight, Err(_)) => {
-            let error = speed.and(weight).err().map(anyhow::Error::from);
-            let missing = error.unwrap_or_else(|| anyhow::anyhow!("no inputs"));
-            return Err(missing.context(format!(
-                "{}: the bag needs rotary speed and weight on bit",
-                path.display()
-            )));
-        }
-    };
-    let role = |name: &str, ros_type: &str| {
-        names.iter().enumerate().position(|(index, known)| {
-            let wanted = if index < InputKind::COUNT {
-                Float64::ROS_TYPE
-            } else {
-                RigInputs::ROS_TYPE
-            };
-            known.as_deref() == Some(name) && wanted == ros_type
-        })
-    };
-    bag.select(|topic| role(&topic.name, &topic.ros_type).is_some());
-    let mut samples = Vec::new();
-    for message in bag.by_ref() {
-        let message = message?;
-        let time = message.log_time;
-        let mut add = |kind, value, stamp| {
-            samples.push(Sample {
-                time,
-                kind,
-                value,
-                stamp,
-            });
-        };
-        let kind = role(&message.topic.name, &message.topic.ros_type).and_then(|index| InputKind::ALL.get(index));
-        match kind {
-            Some(kind) => add(*kind, message.decode::<Float64>()?.data, None),
-            None => {
-                let given = stamped::values(&message.decode::<RigInputs>()?, time, 0.0);
-                for (kind, given) in InputKind::ALL.into_iter().zip(given) {
-                    if let Some((value, stamp)) = given {
-                        add(kind, value, Some(stamp));
-                    }
-                }
-            }
-        }
-    }
-    for cut in bag.cuts() {
-        tell!(
-            "{} was cut short ({}); the samples up to there are used",
-            cut.path.display(),
-            cut.reason
-        );
-    }
-    Ok(samples)
 }

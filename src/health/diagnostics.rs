@@ -2,17 +2,26 @@
 //! levels, with their own delays, so that a dashboard of diagnostics never contradicts the list of alarms.
 
 use super::alarms::alarms;
-use super::items::{inputs, network, pacing, recording, solver};
+use super::items::{inputs, measured, network, pacing, recording, solver};
 use super::motion::MotionEvidence;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{AlarmList, TwinStatus};
+use crate::rig_inputs::Measured;
 
-/// All items. `node` is the prefix of their names, as in `node: pacing`.
-pub fn items(node: &str, status: &TwinStatus, motion: &MotionEvidence, list: &AlarmList) -> Vec<DiagnosticStatus> {
+/// All items. `node` is the prefix of their names, as in `node: pacing`; `rig` is what the rig measured, at an instant of
+/// the conditioner's clock (s).
+pub fn items(
+    node: &str,
+    status: &TwinStatus,
+    rig: (&Measured, f64),
+    motion: &MotionEvidence,
+    list: &AlarmList,
+) -> Vec<DiagnosticStatus> {
     let items = [
         pacing(status),
         solver(status),
         inputs(status),
+        measured(rig.0, rig.1),
         motion.whirl(),
         motion.stick_slip(),
         motion.shock(),
@@ -61,7 +70,13 @@ mod tests {
             alarms: alarms.to_vec(),
             ..AlarmList::default()
         };
-        let items = items("n", status, &MotionEvidence::default(), &list);
+        let items = items(
+            "n",
+            status,
+            (&Measured::default(), 0.0),
+            &MotionEvidence::default(),
+            &list,
+        );
         items
             .into_iter()
             .find(|item| item.name == format!("n: {name}"))
@@ -157,7 +172,13 @@ mod tests {
                 alarms: vec![alarm(id.id(), Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::HIGH)],
                 ..AlarmList::default()
             };
-            let items = items("n", &running(), &MotionEvidence::default(), &list);
+            let items = items(
+                "n",
+                &running(),
+                (&Measured::default(), 0.0),
+                &MotionEvidence::default(),
+                &list,
+            );
             let bad = items.iter().filter(|item| item.level == DiagnosticStatus::ERROR);
             let names: Vec<&str> = bad.map(|item| item.name.as_str()).collect();
             assert!(names.len() == 2 && names[1] == "n: alarms", "{}: {names:?}", id.id());
@@ -197,7 +218,13 @@ mod tests {
             stick_slip_index: f64::NAN,
             ..MotionEvidence::default()
         };
-        let items = items("n", &resumed, &motion, &AlarmList::default());
+        let items = items(
+            "n",
+            &resumed,
+            (&Measured::default(), 0.0),
+            &motion,
+            &AlarmList::default(),
+        );
         for item in &items {
             let values = item.values.iter().map(|pair| &pair.value);
             for text in values.chain([&item.message]) {

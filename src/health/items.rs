@@ -3,7 +3,8 @@
 use super::item::{Item, figure, figure_in};
 use crate::alarms::{AlarmId, another_of_this_name, not_in_real_time};
 use crate::messages::{TwinStatus, words};
-use flexdrill_core::inputs::InputKind;
+use crate::rig_inputs::Measured;
+use flexdrill_core::inputs::{InputKind, MeasuredKind};
 
 pub(super) fn pacing(status: &TwinStatus) -> Item {
     let calm = match (status.state, status.pace) {
@@ -63,6 +64,43 @@ pub(super) fn solver(status: &TwinStatus) -> Item {
             ("energy_error_ratio", scientific(status.energy_error_ratio)),
             ("energy_error_share", figure(status.energy_error_share, 3)),
             ("model_quality", quality.to_owned()),
+        ],
+    }
+}
+
+/// What the rig measures besides the inputs, at an instant of the conditioner's clock (s). It drives nothing, so that no
+/// alarm belongs to it.
+pub(super) fn measured(measured: &Measured, now: f64) -> Item {
+    let newest = |kind| measured.newest(kind).map(|value| (kind, value));
+    let given: Vec<String> = MeasuredKind::ALL
+        .into_iter()
+        .filter_map(newest)
+        .map(|(kind, value)| {
+            let doubt = if value.suspect {
+                ", marked suspect by its source"
+            } else {
+                ""
+            };
+            let age = figure_in(now - value.arrived, 1, "s");
+            format!("{kind} {} ({age} ago{doubt})", figure_in(value.value, 3, kind.unit()))
+        })
+        .collect();
+    let [received, refused, unreadable, overrun] = measured.counts();
+    let refusal = measured.newest_refusal().map(|refused| refused.to_string());
+    Item {
+        name: "measured",
+        alarms: &[],
+        calm: if given.is_empty() {
+            "the rig has sent no measured values".to_owned()
+        } else {
+            given.join(", ")
+        },
+        values: vec![
+            ("messages received", received.to_string()),
+            ("messages refused", refused.to_string()),
+            ("newest refusal", refusal.unwrap_or_else(|| "none".to_owned())),
+            ("messages unreadable", unreadable.to_string()),
+            ("messages that came too fast to be taken", overrun.to_string()),
         ],
     }
 }

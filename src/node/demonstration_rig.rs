@@ -1,9 +1,9 @@
-//! A rig for demonstrations and tests: a node that publishes the inputs.
+//! A rig for demonstrations and tests: a node that publishes the inputs and what is measured besides.
 
 use super::received::plain_topic;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
-use flexdrill_messages::to_cdr_body;
+use flexdrill_messages::{RigMeasured, to_cdr_body, topics};
 use flexdrill_ros2::JoinError;
 use flexdrill_ros2::args::{NodeIdentity, Remapping};
 use flexdrill_ros2::dds::network::Network;
@@ -15,8 +15,9 @@ pub const RIG_NODE_NAME: &str = "flexdrill_rig";
 /// The rate for which the topics' histories are sized (Hz).
 const RATE: f64 = 50.0;
 
-/// A node that publishes the rig's inputs.
+/// A node that publishes the rig's inputs and what it measures besides.
 pub struct RigNode {
+    /// By [`InputKind::ALL`], then `rig/measured`.
     publishers: Vec<TopicPublisher>,
     names: Vec<String>,
     port: Port,
@@ -30,7 +31,11 @@ impl RigNode {
     pub fn new(network: &Network, identity: &NodeIdentity, remapping: &Remapping) -> Result<Self, JoinError> {
         let mut port = PortBuilder::new(network, &identity.namespace, &identity.name);
         let (mut publishers, mut names) = (Vec::new(), Vec::new());
-        for topic in InputKind::ALL.map(plain_topic) {
+        for topic in InputKind::ALL
+            .map(plain_topic)
+            .into_iter()
+            .chain([&topics::RIG_MEASURED])
+        {
             let name = remapping.topic(identity, RIG_NODE_NAME, topic.name)?;
             let offer = Offer {
                 reliable: true,
@@ -56,7 +61,13 @@ impl RigNode {
         self.port.monitor().health().is_up
     }
 
-    /// Absolute names of the topics, in the order of [`InputKind::ALL`].
+    /// Publishes measured values. Returns false while DDS is down.
+    pub fn publish_measured(&self, message: &RigMeasured) -> bool {
+        self.publishers[InputKind::COUNT].publish(to_cdr_body(message).unwrap_or_default());
+        self.port.monitor().health().is_up
+    }
+
+    /// Absolute names of the topics, in the order of [`InputKind::ALL`], then that of `rig/measured`.
     pub fn topics(&self) -> &[String] {
         &self.names
     }

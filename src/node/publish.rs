@@ -406,9 +406,11 @@ impl Publisher {
 
     fn send_diagnostics(&mut self) {
         let alarms = self.parts.alarms.list(self.header());
+        let intake = self.parts.inputs.snapshot();
+        let rig = (intake.measured(), self.parts.clocks.age_time());
         let message = DiagnosticArray {
             header: self.header(),
-            status: diagnostics::items(&self.parts.node_name, &self.newest_status, &self.motion, &alarms),
+            status: diagnostics::items(&self.parts.node_name, &self.newest_status, rig, &self.motion, &alarms),
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
     }

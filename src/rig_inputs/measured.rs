@@ -91,6 +91,7 @@ pub struct Measured {
     refused: u64,
     unreadable: u64,
     overrun: u64,
+    newest_refusal: Option<MeasuredRefused>,
 }
 
 impl Measured {
@@ -105,6 +106,7 @@ impl Measured {
         match accepted {
             Err(refused) => {
                 self.refused += 1;
+                self.newest_refusal = Some(refused);
                 Err(refused)
             }
             Ok(stamp) => {
@@ -167,6 +169,11 @@ impl Measured {
     /// Messages received, messages refused, messages whose bytes could not be read, and messages dropped unread.
     pub fn counts(&self) -> [u64; 4] {
         [self.received, self.refused, self.unreadable, self.overrun]
+    }
+
+    /// Why the newest refused message was refused, since the start.
+    pub fn newest_refusal(&self) -> Option<MeasuredRefused> {
+        self.newest_refusal
     }
 
     /// Counts a message whose bytes could not be read.

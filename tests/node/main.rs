@@ -10,7 +10,9 @@
 mod common;
 
 mod alarms;
+mod bridge;
 mod clock;
 mod command_line;
 mod recording;
+mod safe_window;
 mod what_if;

@@ -1,7 +1,7 @@
 //! The action `~/what_if` over DDS, as the action clients of ROS 2 use it: a goal, its feedback, its state and its result;
 //! goals that cannot be answered, that wait, and that are cancelled.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::common::{Network, Peer, Program, small_config};
 use flexdrill::messages::action_msgs::GoalStatus;
@@ -153,47 +153,66 @@ fn goals_out_of_bounds_are_told_why_and_cancelled_ones_end_at_once() {
     assert!(told.elapsed().as_secs_f64() < 15.0);
 }
 
-/// Deadlines of the live run of the whole tool while goals are answered all the time, on one core and on two:
+/// Deadlines of the live run of the whole tool while goals are answered all the time, on one core and on two, in turn with
+/// the same time without a goal:
 ///
 ///     cargo test --release --test node what_if::deadlines -- --ignored --nocapture
 #[test]
-#[ignore = "measures for two minutes; run it alone"]
+#[ignore = "measures for five minutes; run it alone"]
 fn deadlines_while_looking_ahead() {
     for cores in ["0", "0,1"] {
         let Some(network) = Network::new() else { return };
         let Some(mut peer) = network.peer() else { return };
         let mut command = network.command("taskset");
-        command.args([
-            "-c",
-            cores,
-            env!("CARGO_BIN_EXE_flexdrill"),
-            "run",
-            "--config",
-            "config/default.yaml",
-        ]);
+        command.args(["-c", cores, env!("CARGO_BIN_EXE_flexdrill"), "run"]);
+        command.args(["--config", "config/default.yaml"]);
         let mut twin = Program::start(command);
         twin.wait_for("model time runs");
         peer.subscribe("/twin/status", "flexdrill/msg/TwinStatus", "reliable");
-        let mut misses = Vec::new();
-        let mut members = 0;
-        for number in 1..=8 {
+        let drill = |peer: &mut Peer| {
             peer.send("/rig/rotary_speed_rpm", json!(60.0));
             peer.send("/rig/weight_on_bit_kn", json!(10.0));
+        };
+        // Late periods and skipped steps so far.
+        let counted = |peer: &mut Peer| {
+            let status = peer.status_with("/twin/status", |status| status["deadline_misses"].is_u64());
+            ["deadline_misses", "steps_skipped"].map(|name| status[name].as_u64().unwrap())
+        };
+        let more = |before: [u64; 2], after: [u64; 2]| [after[0] - before[0], after[1] - before[1]];
+        drill(&mut peer);
+        // The tool gets from rest to its motion.
+        std::thread::sleep(Duration::from_secs(10));
+        let feedback = format!("{ACTION}/feedback");
+        peer.subscribe(&feedback, &format!("{TYPE}_FeedbackMessage"), "reliable");
+        let (mut alone, mut with_goals, mut members) = (Vec::new(), Vec::new(), 0);
+        let (mut first, mut whole) = (Vec::new(), Vec::new());
+        for number in 1..=8 {
+            drill(&mut peer);
+            let before = counted(&mut peer);
+            let begun = Instant::now();
             let goal = json!({
                 "candidates": [candidate(60.0, 10.0)], "horizon": 10.0, "members": 6, "run_all": true, "seed": number,
             });
             assert!(send(&mut peer, number, goal));
-            let begun = Instant::now();
+            assert_eq!(peer.take(&feedback, 1, 30.0).len(), 1, "no member ended");
+            first.push(begun.elapsed().as_secs_f64());
             let (_, answer) = result(&mut peer, number);
+            peer.take(&feedback, 100, 0.1);
             members += answer["answers"][0]["members"].as_u64().unwrap();
-            let status = peer.status_with("/twin/status", |status| status["deadline_misses"].is_u64());
-            misses.push((
-                status["deadline_misses"].as_u64().unwrap(),
-                status["steps_skipped"].as_u64().unwrap(),
-                begun.elapsed().as_secs_f64(),
-            ));
+            let took = begun.elapsed();
+            let after = counted(&mut peer);
+            with_goals.push(more(before, after));
+            whole.push(took.as_secs_f64());
+            drill(&mut peer);
+            std::thread::sleep(took);
+            alone.push(more(after, counted(&mut peer)));
         }
-        println!("cores {cores}: {members} members of 10 s; (missed deadlines, skipped steps, seconds): {misses:.1?}");
+        println!(
+            "cores {cores}: {members} members of 10 s; first answer after {first:.1?} s, the whole after {whole:.1?} s"
+        );
+        println!("late periods and skipped steps");
+        println!("  with a goal    {with_goals:?}");
+        println!("  without a goal {alone:?}");
         twin.signal("TERM");
         assert_eq!(twin.end(), Some(0));
     }

@@ -13,4 +13,5 @@ mod calibration;
 mod earlier;
 mod field_log;
 mod logs;
+mod measured;
 mod report;

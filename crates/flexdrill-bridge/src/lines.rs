@@ -34,8 +34,9 @@ pub enum Place {
 /// Times of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Times {
-    /// A TCP connection that brings nothing for so long is given up, because a dead peer is not noticed otherwise.
-    pub silence: Duration,
+    /// A TCP connection that brings nothing for so long is given up, because a dead peer is not noticed otherwise; none
+    /// where the other end only reads.
+    pub silence: Option<Duration>,
     /// Time to connect.
     pub connect: Duration,
     /// Shortest and longest wait before another attempt; it doubles from one to the next.
@@ -45,7 +46,7 @@ pub struct Times {
 impl Default for Times {
     fn default() -> Self {
         Self {
-            silence: Duration::from_secs(60),
+            silence: Some(Duration::from_secs(60)),
             connect: Duration::from_secs(10),
             wait: [Duration::from_millis(500), Duration::from_secs(30)],
         }
@@ -160,10 +161,7 @@ pub async fn run(place: Place, times: Times, events: mpsc::Sender<LineState>, ou
         Place::Listen(listener) => listen(&listener, &ends).await,
         Place::Connect(address) => {
             let (name, limit) = (address.clone(), times.connect);
-            redial(&ends, Some(times.silence), &name, move || {
-                connect(address.clone(), limit)
-            })
-            .await;
+            redial(&ends, times.silence, &name, move || connect(address.clone(), limit)).await;
         }
         Place::Serial { device, baud } => {
             let name = device.display().to_string();
@@ -232,8 +230,7 @@ async fn listen(listener: &TcpListener, ends: &Ends) {
                 connections.spawn(async move {
                     // Without it the frames of the twin wait for one another; the connection works all the same.
                     let _ = stream.set_nodelay(true);
-                    let silence = Some(ends.times.silence);
-                    ends.serve(stream, number, &name_of(peer), silence).await;
+                    ends.serve(stream, number, &name_of(peer), ends.times.silence).await;
                 });
             }
             Err(error) => {

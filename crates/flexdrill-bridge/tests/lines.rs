@@ -16,7 +16,7 @@ use tokio::time::timeout;
 const PATIENCE: Duration = Duration::from_secs(60);
 
 const QUICK: Times = Times {
-    silence: Duration::from_secs(60),
+    silence: Some(Duration::from_secs(60)),
     connect: Duration::from_secs(10),
     wait: [Duration::from_millis(5), Duration::from_millis(20)],
 };
@@ -141,7 +141,7 @@ async fn a_dead_peer_is_given_up_and_an_absent_one_is_called_with_growing_waits(
     let server = TcpListener::bind("127.0.0.1:0").await.unwrap();
     let address = server.local_addr().unwrap().to_string();
     let times = Times {
-        silence: Duration::from_millis(100),
+        silence: Some(Duration::from_millis(100)),
         ..QUICK
     };
     let mut line = start(Place::Connect(address), times);

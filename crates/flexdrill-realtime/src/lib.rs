@@ -19,6 +19,7 @@ pub mod link;
 pub mod monotonic;
 mod pace_watch;
 mod pacer;
+pub mod priority;
 mod real_time_factor;
 mod real_time_loop;
 mod step_pace;

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::player::Player;
 use crate::cli::output::tell;
 use crate::cli::progress::Progress;
-use crate::cli::source::Sample;
+use crate::cli::source::Samples;
 use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
@@ -18,10 +18,14 @@ const TAIL: f64 = 1.0;
 /// Runs the model through the samples, which are in the order of their times.
 pub(super) fn replay(
     config: Config,
-    samples: &[Sample],
+    samples: Samples,
     out: &Path,
     duration: Option<f64>,
 ) -> anyhow::Result<(Player, Progress)> {
+    let Samples {
+        inputs: samples,
+        measured,
+    } = samples;
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
         anyhow::bail!("there is no sample of rotary speed or weight on bit to replay");
     };
@@ -32,7 +36,7 @@ pub(super) fn replay(
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
     let mut conditioner = Conditioner::new(config.inputs.rules_of(config.used_inputs()));
     let max_skew = config.inputs.stamp.max_skew;
-    let mut player = Player::new(config, first.time, out, |topic: &TopicInfo| {
+    let mut player = Player::new(config, first.time, measured, out, |topic: &TopicInfo| {
         if topic.name.starts_with('/') {
             topic.name.to_owned()
         } else {
@@ -54,8 +58,7 @@ pub(super) fn replay(
     let mut refused = 0_u64;
     while player.step() < steps {
         let now = player.time_of(player.step());
-        let due = |sample: &&Sample| sample.since(first) <= now;
-        while let Some(sample) = remaining.next_if(due) {
+        while let Some(sample) = remaining.next_if(|sample| sample.since(first) <= now) {
             let at = sample.since(first);
             let offered = match sample.stamp {
                 None => conditioner.offer(sample.kind, sample.value, at),

@@ -8,9 +8,10 @@ use anyhow::{Context as _, bail};
 use super::summary::Tally;
 use crate::alarms::AlarmBook;
 use crate::bag::{BagError, Recorder, Recording, Topic};
-use crate::messages::CdrError;
+use crate::cli::source::MeasuredSample;
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
+use crate::messages::{CdrError, to_cdr};
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation};
@@ -43,19 +44,26 @@ pub(super) struct Player {
     alarms: AlarmBook,
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
+    /// What the rig measured, not yet in the bag, the newest first.
+    measured: Vec<MeasuredSample>,
     /// The summary that is printed at the end.
     pub tally: Tally,
 }
 
 impl Player {
-    /// Builds the model and creates the bag. `start` is in ns since 1970; `name` makes topics absolute.
+    /// Builds the model and creates the bag. `start` is in ns since 1970, as are the times of `measured`, what the rig
+    /// measured in the order of time; `name` makes topics absolute.
     pub(super) fn new(
         config: Config,
         start: i64,
+        mut measured: Vec<MeasuredSample>,
         out: &Path,
         name: impl Fn(&TopicInfo) -> String,
     ) -> anyhow::Result<Self> {
-        let topics: Vec<_> = replayed().collect();
+        measured.retain(|sample| sample.time >= start);
+        measured.reverse();
+        let given = (!measured.is_empty()).then_some(&topics::RIG_MEASURED);
+        let topics: Vec<_> = replayed().chain(given).collect();
         let recorded: Vec<Topic> = topics
             .iter()
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
@@ -73,6 +81,7 @@ impl Player {
             config,
             recorder,
             topics,
+            measured,
             tally: Tally::default(),
         };
         let (hash, yaml) = (player.config.hash(), player.config.to_yaml()?);
@@ -167,6 +176,7 @@ impl Player {
     }
 
     fn capture(&mut self) -> anyhow::Result<()> {
+        self.record_measured(self.outputs.instant(self.run.ticks()))?;
         if self.run.due().is_empty() {
             return Ok(());
         }
@@ -190,6 +200,22 @@ impl Player {
             self.tally.alarms.add(run, events);
         }
         self.tally.publishing(monotonic::now().saturating_sub(began));
+        Ok(())
+    }
+
+    /// Records what the rig measured up to an instant (ns since 1970).
+    ///
+    /// # Errors
+    /// When the bag cannot be written.
+    pub(super) fn record_measured(&mut self, until: i64) -> anyhow::Result<()> {
+        while let Some(sample) = self.measured.pop_if(|sample| sample.time <= until) {
+            let encoded = Encoded {
+                topic: &topics::RIG_MEASURED,
+                stamp: sample.time,
+                cdr: &to_cdr(&sample.message)?,
+            };
+            write(&mut self.recorder, &self.topics, encoded)?;
+        }
         Ok(())
     }
 

@@ -13,9 +13,10 @@ use super::player::Player;
 use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
+use crate::cli::source::MeasuredSample;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{AppliedInputs, JointDeflections, Message, SessionInfo, TwinStatus};
+use crate::messages::{AppliedInputs, JointDeflections, Message, RigMeasured, SessionInfo, TwinStatus};
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_text::printable;
@@ -33,6 +34,8 @@ pub(super) struct Exactness {
 pub(super) struct Script {
     session: SessionInfo,
     applied: Vec<AppliedInputs>,
+    /// What the rig measured besides, in the order of arrival.
+    measured: Vec<MeasuredSample>,
     /// Names of the recorded topics by relative name.
     names: Vec<(&'static str, String)>,
     /// Steps taken at the end, since the last reset.
@@ -57,6 +60,7 @@ impl Script {
             AppliedInputs::ROS_TYPE,
             TwinStatus::ROS_TYPE,
             JointDeflections::ROS_TYPE,
+            RigMeasured::ROS_TYPE,
         ];
         bag.select(|topic| wanted.contains(&topic.ros_type.as_str()));
         let names = topics::ALL
@@ -74,7 +78,7 @@ impl Script {
             })
             .collect();
         let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
-        let mut damaged = Vec::new();
+        let (mut damaged, mut measured) = (Vec::new(), Vec::new());
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
             let message = match message {
@@ -98,6 +102,10 @@ impl Script {
                     }
                     applied.push(inputs);
                 }
+                RigMeasured::ROS_TYPE => measured.push(MeasuredSample {
+                    time: message.log_time,
+                    message: message.decode()?,
+                }),
                 TwinStatus::ROS_TYPE => {
                     status_step = message.decode::<TwinStatus>()?.step_count;
                 }
@@ -116,6 +124,7 @@ impl Script {
         Ok(Self {
             session,
             applied,
+            measured,
             names,
             last_step,
             gaps: gaps.found(),
@@ -199,7 +208,7 @@ impl Script {
             self.applied.len(),
         );
         let mut base = Base::of(&self.session, self.applied.first());
-        let mut player = Player::new(config, base.start, out, |topic| self.name(topic))?;
+        let mut player = Player::new(config, base.start, self.measured.clone(), out, |topic| self.name(topic))?;
         let mut pace = Pace {
             taken: 0,
             most: duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64),
@@ -239,6 +248,10 @@ impl Script {
             if pace.taken >= pace.most {
                 break;
             }
+        }
+        if pace.taken < pace.most {
+            // What arrived after the last output.
+            player.record_measured(i64::MAX)?;
         }
         Ok((player, pace.progress))
     }

@@ -1,0 +1,124 @@
+//! The samples of a capture of a WITS line.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::bags::of_message;
+use super::{MeasuredSample, Samples};
+use crate::cli::output::tell;
+use crate::messages::builtin_interfaces::Time;
+use flexdrill_bridge::wits::capture::{CaptureError, CaptureReader};
+use flexdrill_bridge::wits::{Counts, Line, LineEvent, Mapping, Reading};
+use flexdrill_text::printable;
+
+/// Whether a file is a capture that `flexdrill bridge wits --capture` wrote.
+pub(super) fn is_capture(path: &Path) -> bool {
+    path.is_file() && CaptureReader::open(path).is_ok_and(|capture| capture.is_timed())
+}
+
+/// What the frames of a capture say, at the times at which they arrived. In a file without such times the frames have those
+/// of their headers.
+///
+/// # Errors
+/// When the file or the mapping cannot be read.
+pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Samples> {
+    let mapping = mapping.map_or_else(|| Ok(Mapping::default()), Mapping::load)?;
+    let capture = CaptureReader::open(path)?;
+    let mut taken = Taken {
+        utc_offset: mapping.utc_offset(),
+        timed: capture.is_timed(),
+        samples: Samples::default(),
+        without_time: 0,
+    };
+    let (mut counts, mut lines) = (Counts::default(), BTreeMap::<u64, Line>::new());
+    let mut newest = 0;
+    for block in capture {
+        let block = match block {
+            // What is before the damage is used.
+            Err(error @ CaptureError::Damaged { .. }) => {
+                tell!("{}", printable(&error.to_string()));
+                break;
+            }
+            block => block?,
+        };
+        newest = block.time.unwrap_or(newest);
+        if block.bytes.is_empty() {
+            if let Some(line) = lines.remove(&block.connection) {
+                line.finish(newest, &mut counts, |event| taken.take(event, newest));
+            }
+            continue;
+        }
+        let line = lines.entry(block.connection);
+        let line = line.or_insert_with(|| Line::new(&mapping, &format!("connection {}", block.connection)));
+        line.push(&block.bytes, newest, &mut counts, |event| taken.take(event, newest));
+    }
+    for line in lines.into_values() {
+        line.finish(newest, &mut counts, |event| taken.take(event, newest));
+    }
+    let faults: u64 = counts.faults.iter().sum();
+    tell!(
+        "{}: {} frames, {} used with {} values; {} bytes in no frame, {faults} faulty items, {} records missing",
+        path.display(),
+        counts.frames,
+        counts.used,
+        counts.values,
+        counts.discarded_bytes,
+        counts.missing
+    );
+    if taken.without_time > 0 {
+        tell!(
+            "{} frames are not used: the file has no times of arrival, and these frames have no date and time (items 05 \
+             and 06)",
+            taken.without_time
+        );
+    }
+    Ok(taken.samples)
+}
+
+/// What was read so far.
+struct Taken {
+    /// How far the clock of the headers is ahead of UTC (s).
+    utc_offset: i32,
+    /// Whether the times of arrival are known.
+    timed: bool,
+    samples: Samples,
+    without_time: u64,
+}
+
+impl Taken {
+    fn take(&mut self, event: LineEvent, arrived: i64) {
+        let LineEvent::Frame(_, reading) = event else { return };
+        if reading.inputs.is_none() && reading.measured.is_none() {
+            return;
+        }
+        let Some(time) = self.time(&reading, arrived) else {
+            self.without_time += 1;
+            return;
+        };
+        let Reading { inputs, measured, .. } = *reading;
+        let stamp = |given: Time| {
+            if self.timed {
+                given
+            } else {
+                Time::from_nanoseconds(time)
+            }
+        };
+        if let Some(mut message) = inputs {
+            message.header.stamp = stamp(message.header.stamp);
+            self.samples.inputs.extend(of_message(&message, time));
+        }
+        if let Some(mut message) = measured {
+            message.header.stamp = stamp(message.header.stamp);
+            self.samples.measured.push(MeasuredSample { time, message });
+        }
+    }
+
+    /// When a frame arrived (ns since 1970), or what its first header says.
+    fn time(&self, reading: &Reading, arrived: i64) -> Option<i64> {
+        if self.timed {
+            return Some(arrived);
+        }
+        let mut headers = reading.records.iter().map(|seen| &seen.header);
+        headers.find_map(|header| header.instant(self.utc_offset))
+    }
+}

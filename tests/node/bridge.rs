@@ -1,0 +1,131 @@
+//! From a rig's log over WITS to the twin's recording and its replay: `flexdrill rig --wits`, `flexdrill bridge wits`,
+//! `flexdrill run --record`, `flexdrill replay`, each a process as a user starts it.
+
+use std::process::Command;
+
+use flexdrill::bag;
+use flexdrill::messages::diagnostic_msgs::DiagnosticArray;
+use flexdrill::messages::{AppliedInputs, RigInputs, RigMeasured};
+
+use crate::common::{Network, Program, root, small_config};
+
+/// Messages of a topic in a bag.
+fn messages<M: flexdrill::messages::Message>(path: &std::path::Path, topic: &str) -> Vec<M> {
+    let all = bag::open(path).unwrap().map(Result::unwrap);
+    let of_topic = all.filter(|message| message.topic.is(topic));
+    of_topic.map(|message| message.decode().unwrap()).collect()
+}
+
+#[test]
+fn a_rigs_log_reaches_the_recording_over_wits_and_its_replay_is_the_same() {
+    let Some(network) = Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [live, again, line] = ["live", "again", "line.wits"].map(|name| folder.path().join(name));
+    let program = |arguments: &[&str]| {
+        let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+        command.args(arguments);
+        command
+    };
+    let log = root().join("config/field_logs/demo.csv");
+    let rig = [
+        "rig",
+        log.to_str().unwrap(),
+        "--wits",
+        "127.0.0.1:0",
+        "--from",
+        "60",
+        "--loop",
+    ];
+    let mut rig = Program::start(program(&rig));
+    let said = rig.wait_for("whoever connects to");
+    let place = said
+        .split_whitespace()
+        .find(|word| word.starts_with("127.0.0.1:"))
+        .unwrap()
+        .to_owned();
+    let mut bridge = program(&["bridge", "wits", "--connect", &place, "--capture"]);
+    bridge.arg(&line);
+    let mut bridge = Program::start(bridge);
+    let mut twin = program(&["run", "--config"]);
+    twin.arg(small_config()).arg("--record").arg(&live);
+    let mut twin = Program::start(twin);
+    twin.wait_for("model time runs");
+    bridge.wait_for("connection 1 with");
+    rig.wait_for("connections: 1");
+    // Some frames at 1 Hz, and diagnostics.
+    std::thread::sleep(std::time::Duration::from_secs(6));
+    for program in [&mut bridge, &mut rig] {
+        program.signal("INT");
+        assert_eq!(program.end(), Some(0), "{}", program.said());
+    }
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+
+    let inputs: Vec<RigInputs> = messages(&live, "rig/inputs");
+    let measured: Vec<RigMeasured> = messages(&live, "rig/measured");
+    assert!(
+        inputs.len() >= 3 && measured.len() >= 3,
+        "{} {}",
+        inputs.len(),
+        measured.len()
+    );
+    assert!(
+        inputs.iter().all(|message| message.source.contains("demonstration")),
+        "{:?}",
+        inputs[0]
+    );
+    assert!(inputs.iter().any(|message| message.weight_on_bit_kn > 0.0));
+    // The log's hookload is 32 to 49 klbf.
+    assert!(
+        measured
+            .iter()
+            .all(|message| (140e3..220e3).contains(&message.hook_load)),
+        "{:?}",
+        measured[0]
+    );
+    let of_measured = messages::<DiagnosticArray>(&live, "/diagnostics");
+    let last = of_measured
+        .iter()
+        .flat_map(|array| &array.status)
+        .rfind(|item| item.name.ends_with(": measured"));
+    let last = last.unwrap();
+    assert!(last.message.contains("hook_load"), "{}", last.message);
+    let received = last.values.iter().find(|pair| pair.key == "messages received").unwrap();
+    assert!(received.value.parse::<usize>().unwrap() >= 2, "{received:?}");
+
+    // What the recording and the capture hold is replayed.
+    let replayed = |input: &std::path::Path, out: &std::path::Path, more: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+            .arg("replay")
+            .arg(input)
+            .arg("--out")
+            .arg(out)
+            .args(more)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            output.status.success(),
+            "{said}{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        said
+    };
+    let said = replayed(&live, &again, &[]);
+    assert!(
+        said.contains("exact: the recording has everything that drove the model"),
+        "{said}"
+    );
+    assert_eq!(
+        messages::<AppliedInputs>(&again, "twin/applied_inputs"),
+        messages::<AppliedInputs>(&live, "twin/applied_inputs")
+    );
+    assert_eq!(messages::<RigMeasured>(&again, "rig/measured").len(), measured.len());
+    let from_line = folder.path().join("from_line");
+    replayed(&line, &from_line, &["--config", small_config().to_str().unwrap()]);
+    let from_line: Vec<RigMeasured> = messages(&from_line, "rig/measured");
+    let first = from_line
+        .iter()
+        .position(|message| message.hook_load == measured[0].hook_load);
+    assert!(first.is_some(), "{from_line:?}");
+}
