@@ -68,7 +68,16 @@ mod tests {
     use super::*;
 
     /// Sections that change neither the motion nor its levels.
-    const OTHERS: &[&str] = &["run", "inputs", "network", "alarms", "look_ahead", "map", "outputs"];
+    const OTHERS: &[&str] = &[
+        "run",
+        "inputs",
+        "network",
+        "alarms",
+        "calibration",
+        "look_ahead",
+        "map",
+        "outputs",
+    ];
 
     fn config() -> Config {
         Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/coarse.yaml")).unwrap()
