@@ -6,6 +6,7 @@ mod inputs;
 mod player;
 mod recording;
 mod show;
+mod steady;
 mod summary;
 
 use std::net::SocketAddr;
@@ -15,6 +16,7 @@ use anyhow::Context as _;
 use clap::Args;
 
 use self::player::Player;
+pub(super) use self::steady::record_case;
 use super::progress::Progress;
 use super::run::load_config;
 use super::{WrongUse, numbers, source};

@@ -10,3 +10,4 @@ mod paper;
 mod reach;
 mod sweep;
 mod usage;
+mod verify;

@@ -52,7 +52,7 @@ fn flexdrill(arguments: &[&str]) -> String {
 }
 
 #[test]
-fn a_recording_of_an_earlier_release_is_replayed_and_reported() {
+fn regress_a_recording_of_an_earlier_release_is_replayed_and_reported() {
     let recording = crate::common::root().join("tests/data/recording_0_1_0.mcap");
     let before = read(&recording);
     assert_eq!(before.session.version, "0.1.0");

@@ -1,6 +1,7 @@
 //! A verification case at work: its configuration, the twin, and a way to read off single numbers.
 
 use super::VerifyError;
+use super::runs::{self, CaseRun};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -255,6 +256,19 @@ impl Bench {
     /// Normal force in the inner gap at `station` (N).
     pub fn inner_normal(&self, station: usize) -> f64 {
         self.simulation.normal_force(station, Body::Pipe).unwrap_or(f64::NAN)
+    }
+}
+
+impl Drop for Bench {
+    fn drop(&mut self) {
+        if runs::wanted() {
+            runs::ended(CaseRun {
+                config: self.config.clone(),
+                settings: self.simulation.settings().clone(),
+                inputs: self.inputs,
+                steps: self.simulation.step(),
+            });
+        }
     }
 }
 

@@ -50,7 +50,7 @@ impl Chain {
 
     /// Pull times length of a link (N m).
     fn unit(&self) -> Result<f64, VerifyError> {
-        let config = self.bench(0.0)?.config;
+        let config = self.bench(0.0)?.config.clone();
         Ok(PULL * config.well.length() / f64::from(self.links))
     }
 

@@ -14,6 +14,7 @@ mod pipes;
 mod preload;
 mod pressure;
 mod rig;
+mod runs;
 mod shortening;
 mod sliding;
 pub mod step_error;
@@ -23,6 +24,7 @@ use std::fmt;
 
 pub use bench::{Bench, head};
 pub use hinged_beam::HingedBeam;
+pub use runs::{CaseRun, with_runs};
 pub use sliding::{ADVANCE, weight_at_kickoff};
 pub use validation::{VALIDATIONS, Validation};
 

@@ -27,7 +27,7 @@ pub(super) fn buckling() -> Result<Vec<Row>, VerifyError> {
         })?;
         Ok(1.0 / bench.displacement(bench.last() / 2, Body::Pipe, Direction::W))
     };
-    let config = Bench::new(case)?.config;
+    let config = Bench::new(case)?.config.clone();
     let tool = config.tool();
     let pipe = tool.pipe_sections[0];
     let bending = SectionProperties::of(pipe, tool.material, 1.0).bending;

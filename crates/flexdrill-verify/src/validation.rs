@@ -84,7 +84,7 @@ fn sinusoidal() -> Result<Vec<Row>, VerifyError> {
 
 /// Dawson and Paslay's load of the case (N).
 fn sideways_load(case: &'static str) -> Result<f64, VerifyError> {
-    let config = Bench::new(case)?.config;
+    let config = Bench::new(case)?.config.clone();
     let tool = config.tool();
     let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
     let weight = section.mass * tool.gravity;

@@ -14,7 +14,7 @@ use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::messages::{CdrError, to_cdr};
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
-use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation};
+use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
 use flexdrill_realtime::monotonic;
 
 /// The topics of a replay: all that do not depend on wall-clock time.
@@ -56,6 +56,19 @@ impl Player {
     pub(super) fn new(
         config: Config,
         start: i64,
+        measured: Vec<MeasuredSample>,
+        out: &Path,
+        name: impl Fn(&TopicInfo) -> String,
+    ) -> anyhow::Result<Self> {
+        let settings = config.simulation();
+        Self::with_settings(config, &settings, start, measured, out, name)
+    }
+
+    /// The same with other settings than those of the configuration.
+    pub(super) fn with_settings(
+        config: Config,
+        settings: &SimulationSettings,
+        start: i64,
         mut measured: Vec<MeasuredSample>,
         out: &Path,
         name: impl Fn(&TopicInfo) -> String,
@@ -69,7 +82,7 @@ impl Player {
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
         let recorder = Recorder::create(out, &recorded)?;
-        let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+        let mut simulation = Simulation::new(&config.tool(), settings)?;
         simulation.set_clock(monotonic::now);
         let run = Run::new(simulation, schedule(&config, &config.outputs.rates));
         let mut player = Self {

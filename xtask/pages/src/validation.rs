@@ -36,7 +36,13 @@ pub fn page() -> Result<String, VerifyError> {
          Written by `cargo xtask reference validation`, which runs every case. Figures are rounded to three digits, so that\n\
          they are the same on every machine; the difference is that of the unrounded ones, over the figure unless a table\n\
          says otherwise, and the tests hold it within the tolerance.\n\n\
-         No bench figure of torque or weight through a flexible drill pipe is publicly readable.\n\n\
+         No bench figure of torque or weight through a flexible drill pipe is publicly readable. What the twin has of the\n\
+         paper's own figures is in [the paper](paper.md).\n\n\
+         `flexdrill verify --record DIR` runs the closed forms and the published figures, and leaves a bag of every run in\n\
+         DIR, for comparison with another program. Two tables (CSV) have the figures in full, and steps and time of\n\
+         each bag. A bag holds its configuration and its inputs; where `residual_factor` is 1, `flexdrill replay` repeats\n\
+         it to the bit. Tests of single laws have no run, and therefore no bag.\n\n\
+         Tests against figures from outside are named `val_*`, tests against our own earlier figures `regress_*`.\n\n\
          ## Published figures\n",
     );
     for validation in VALIDATIONS {

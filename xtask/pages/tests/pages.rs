@@ -1,5 +1,7 @@
 //! The checked-in reference pages are those of this version.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
+
 use std::path::Path;
 
 fn check(name: &str, page: &str) {
@@ -19,6 +21,49 @@ fn the_page_of_the_topics_is_that_of_this_version() {
 #[test]
 fn the_page_of_the_configuration_is_that_of_this_version() {
     check("configuration", &flexdrill_pages::configuration());
+}
+
+/// Names of all tests that begin with `prefix`, in every source of the workspace.
+fn tests_named(prefix: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut folders: Vec<_> = ["src", "tests", "crates", "xtask", "benches"]
+        .map(|name| root.join(name))
+        .into();
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let names = text.lines().filter_map(|line| line.trim().strip_prefix("fn "));
+                let names = names.filter_map(|line| line.split_once("()").map(|(name, _)| name));
+                found.extend(names.filter(|name| name.starts_with(prefix)).map(str::to_owned));
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Wherever a test against a figure from outside stands, the page has it, and the page has no other.
+#[test]
+fn every_test_against_an_outside_figure_is_on_the_page() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/validation.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    let mut listed: Vec<&str> = page.lines().filter_map(|line| line.strip_prefix("### val_")).collect();
+    listed.sort_unstable();
+    let tests = tests_named("val_");
+    let named: Vec<&str> = tests.iter().filter_map(|name| name.strip_prefix("val_")).collect();
+    assert!(!named.is_empty());
+    assert_eq!(
+        listed, named,
+        "run cargo xtask reference validation > docs/validation.md"
+    );
+    // Figures of our own are not on it.
+    let own = tests_named("regress_");
+    assert!(!own.is_empty() && own.iter().all(|name| !page.contains(&format!("### {name}"))));
 }
 
 /// Its figures take a minute to compute, and are rounded; the cases that it lists are compared.

@@ -41,7 +41,7 @@ fn motion(tool: &ToolDescription, steps: u64) -> u64 {
 }
 
 #[test]
-fn the_papers_tool_keeps_its_bits() {
+fn regress_the_papers_tool_keeps_its_bits() {
     assert_eq!(
         format!("{:016x}", motion(&ToolDescription::paper(), 1000)),
         "93be25430c60d4e8"
@@ -49,12 +49,12 @@ fn the_papers_tool_keeps_its_bits() {
 }
 
 #[test]
-fn a_hinged_tool_keeps_its_bits() {
+fn regress_a_hinged_tool_keeps_its_bits() {
     assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "7d608f2ebea31345");
 }
 
 #[test]
-fn a_tied_tool_keeps_its_bits() {
+fn regress_a_tied_tool_keeps_its_bits() {
     let tied = ToolDescription::paper().with_mesh(33, 2).with(|tool| {
         tool.wob_path = WobPath::Shared;
     });
