@@ -12,6 +12,7 @@
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`calibrate`]: the samples of a log that is calibrated.
+//! - [`compare`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
 //! - [`window`]: the map of speed and weight, and where a point is on it.
@@ -27,6 +28,7 @@ pub mod alarms;
 pub mod bridge;
 pub mod calibrate;
 pub mod cli;
+pub mod compare;
 pub mod health;
 pub mod map;
 pub mod node;

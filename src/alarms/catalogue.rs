@@ -34,6 +34,8 @@ pub enum AlarmId {
     ModelQuality,
     /// Speed and weight are outside the part of the map in which no alarm must be expected.
     KnownWindow,
+    /// What the rig measures is beyond the band that the twin expects.
+    RigDisagrees,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
@@ -56,7 +58,7 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 21] = [
+    pub const ALL: [AlarmId; 22] = [
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -69,6 +71,7 @@ impl AlarmId {
         AlarmId::PressureFolding,
         AlarmId::ModelQuality,
         AlarmId::KnownWindow,
+        AlarmId::RigDisagrees,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
         AlarmId::RateOfPenetrationInput,
@@ -95,6 +98,7 @@ impl AlarmId {
             AlarmId::PressureFolding => "pressure_folding",
             AlarmId::ModelQuality => "model_quality",
             AlarmId::KnownWindow => "known_window",
+            AlarmId::RigDisagrees => "rig_disagrees",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
             AlarmId::RateOfPenetrationInput => "rate_of_penetration_input",
@@ -122,6 +126,7 @@ impl AlarmId {
             AlarmId::PressureFolding => "folding under pressure",
             AlarmId::ModelQuality => "model unreliable",
             AlarmId::KnownWindow => "outside the known window",
+            AlarmId::RigDisagrees => "twin and rig disagree",
             AlarmId::RotarySpeedInput => "no valid rotary speed",
             AlarmId::WeightOnBitInput => "no valid weight on bit",
             AlarmId::RateOfPenetrationInput => "no valid rate of penetration",
@@ -200,6 +205,7 @@ impl AlarmId {
             AlarmId::PressureFolding => tool(&alarms.pressure_folding),
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::KnownWindow => tool(&alarms.known_window),
+            AlarmId::RigDisagrees => tool(&alarms.rig_disagrees),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
             AlarmId::RateOfPenetrationInput => node(&alarms.rate_of_penetration_input),

@@ -6,7 +6,7 @@
 //! - `catalogue`: the alarms that exist. `finding`: a condition with its texts.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
 //!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
-//!   `window`: speed and weight against the map.
+//!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
 //!   of sentences.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
@@ -19,6 +19,7 @@ mod fill;
 mod finding;
 mod node;
 mod request;
+mod rig;
 mod sentence;
 pub mod state_file;
 mod tool;
@@ -31,6 +32,7 @@ pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};
 pub use request::Request;
+pub use rig::in_words;
 
 use std::sync::Arc;
 
@@ -39,6 +41,7 @@ use crate::messages::std_msgs::Header;
 use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, to_cdr_into};
 use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Priority, Saved, SavedError, Statistics, Time};
+use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::{Advice, AdviceTable, Config};
 use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
@@ -65,6 +68,8 @@ pub struct AlarmBook {
     window: Option<Arc<SafeWindow>>,
     /// What look-aheads have found for the present state.
     tested: Option<Tested>,
+    /// When rig and twin were compared last in steady motion.
+    rig_judged: Time,
     /// Per alarm: whether its present state began in an earlier run.
     restored: Vec<bool>,
     /// Events that are not yet published.
@@ -102,6 +107,7 @@ impl AlarmBook {
             memory: node::Memory::default(),
             window: None,
             tested: None,
+            rig_judged: Time::MIN,
             restored: (0..AlarmId::ALL.len())
                 .map(|index| system.alarm(index).since != 0)
                 .collect(),
@@ -144,6 +150,23 @@ impl AlarmBook {
         }
         self.operating = Operating::of(&snapshot.applied);
         self.observe(findings, stamp);
+    }
+
+    /// Observes the comparison of rig and twin at the stamp of its snapshot. A standing alarm outlasts connections and
+    /// other times in which nothing can be judged; a condition that has not annunciated begins again after them.
+    pub fn observe_rig(&mut self, compared: &Compared, bit_depth: f64, stamp: Time) {
+        match rig::finding(compared, bit_depth) {
+            Some(finding) => {
+                self.rig_judged = stamp;
+                self.observe([(AlarmId::RigDisagrees, finding)], stamp);
+            }
+            None => {
+                let stands = self.active(AlarmId::RigDisagrees).is_some();
+                if !stands || stamp.saturating_sub(self.rig_judged) > rig::OUTLASTS {
+                    self.observe([(AlarmId::RigDisagrees, Finding::default())], stamp);
+                }
+            }
+        }
     }
 
     /// Observes the node's own state.

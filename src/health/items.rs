@@ -172,6 +172,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
             AlarmId::StandpipePressureInput,
             AlarmId::TwoDrivers,
             AlarmId::KnownWindow,
+            AlarmId::RigDisagrees,
         ],
         calm: states.join(", "),
         values,

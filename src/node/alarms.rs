@@ -12,18 +12,20 @@ use super::advisor::Advisor;
 use super::publish::{PublisherParts, Sinks};
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use crate::compare::RigComparison;
 use crate::window::SafeWindow;
 use flexdrill_alarms::{Refusal, Saved, Time};
+use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{Frame, Snapshot};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::outputs::Encoded;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
     AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest,
-    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, words,
+    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, builtin_interfaces, topics, words,
 };
 use flexdrill_realtime::PaceReading;
 use flexdrill_ros2::args::ArgsError;
@@ -103,6 +105,11 @@ impl AlarmDesk {
             let at = [rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_set)];
             self.book.set_tested(advisor.follow(self.book.leading(), at));
         }
+    }
+
+    /// Judges the comparison of rig and twin, at the stamp of its snapshot.
+    pub fn observe_rig(&mut self, compared: &Compared, bit_depth: f64, stamp: Time) {
+        self.book.observe_rig(compared, bit_depth, stamp);
     }
 
     /// Judges the node's own state, at the present time on the rig's clock.
@@ -193,6 +200,23 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
     };
     let time = parts.clocks.rig_time();
     parts.alarms.observe_node(&state, time);
+}
+
+/// Compares a frame with what the rig has measured, once per second of model time: publishes the residuals and judges
+/// their alarm.
+pub(super) fn compare_with_rig(parts: &mut PublisherParts, rig: &mut RigComparison, frame: &Frame, stamp: Time) {
+    if !rig.is_due(frame.ticks) {
+        return;
+    }
+    let samples = parts.inputs.with_measured(|measured| rig.samples(measured, stamp));
+    let header = Header {
+        stamp: builtin_interfaces::Time::from_nanoseconds(stamp),
+        frame_id: parts.config.outputs.frame_id.clone(),
+    };
+    if let Some((compared, message)) = rig.compare(frame, &samples, header) {
+        parts.send_message(&topics::RESIDUALS, &message, stamp);
+        parts.alarms.observe_rig(&compared, samples.bit_depth, stamp);
+    }
 }
 
 /// Publishes the events and the list that are due.

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::clocks::Clocks;
 use crate::rig_inputs::{
-    Carried, Driver, DriverId, Intake, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped,
+    Carried, Driver, DriverId, Intake, Measured, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped,
 };
 use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{InputKind, Stamp};
@@ -53,6 +53,11 @@ impl RigInputs {
     /// A copy of the state of the inputs.
     pub fn snapshot(&self) -> Intake {
         self.locked().clone()
+    }
+
+    /// What a look at the measured values gives. The lock is held meanwhile.
+    pub fn with_measured<T>(&self, look: impl FnOnce(&Measured) -> T) -> T {
+        look(self.locked().measured())
     }
 
     /// Adopts changed limits, ages and safe values.

@@ -16,6 +16,7 @@ use super::received::{Received, ReceivedQueue};
 use super::thinned::{Share, Thinned};
 use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
+use crate::compare::RigComparison;
 use crate::health::diagnostics;
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
@@ -103,6 +104,7 @@ pub struct Publisher {
     failure_lines: Throttles<&'static str>,
     /// The last failure was logged.
     failure_logged: bool,
+    rig: RigComparison,
 }
 
 impl Publisher {
@@ -115,6 +117,7 @@ impl Publisher {
         let now = monotonic::now();
         Ok(Self {
             thinned: Thinned::new(&parts.config),
+            rig: RigComparison::new(&parts.config),
             parts,
             outputs: None,
             status,
@@ -253,6 +256,7 @@ impl Publisher {
                 if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
                     let stamp = outputs.instant(frame.ticks);
                     self.parts.alarms.observe_tool(&frame.snapshot, stamp);
+                    alarms::compare_with_rig(&mut self.parts, &mut self.rig, &frame, stamp);
                 }
                 // The ring has room for all frames in circulation, so that this cannot fail.
                 let _ = self.parts.end.empty.push(frame);
@@ -456,7 +460,7 @@ impl PublisherParts {
         }
     }
 
-    fn send_message<M: Message>(&self, topic: &'static TopicInfo, message: &M, stamp: i64) {
+    pub(super) fn send_message<M: Message>(&self, topic: &'static TopicInfo, message: &M, stamp: i64) {
         match to_cdr(message) {
             // Sending counts a message that finds a queue full, and returns no error.
             Ok(cdr) => drop(self.send(Encoded {

@@ -13,6 +13,7 @@ mod random;
 mod advice;
 mod ahead;
 mod book;
+mod disagrees;
 mod forecast;
 mod rig;
 mod transfer;

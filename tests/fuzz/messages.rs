@@ -75,6 +75,8 @@ types! {
     ours::ForecastBand,
     ours::JointDeflections,
     ours::Reactions,
+    ours::Residual,
+    ours::Residuals,
     ours::RigInputs,
     ours::RigMeasured,
     ours::SafeWindow,

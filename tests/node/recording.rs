@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::common::{Network, Program};
 use flexdrill::bag::{self, Recorder, Topic};
 use flexdrill::messages::{AppliedInputs, BitState, TwinStatus};
-use serde_json::json;
+use flexdrill_core::inputs::MeasuredKind;
+use serde_json::{Value, json};
 
 /// Messages of the topics that do not tell of wall-clock time or of the node itself, per topic in their order.
 fn messages(path: &Path) -> BTreeMap<String, Vec<Vec<u8>>> {
@@ -23,6 +24,7 @@ fn messages(path: &Path) -> BTreeMap<String, Vec<Vec<u8>>> {
             "twin/alarm_events",
             "rig/rotary_speed_rpm",
             "rig/weight_on_bit_kn",
+            "rig/measured",
         ];
         if !clocked.iter().any(|name| message.topic.is(name)) {
             found.entry(message.topic.name.clone()).or_default().push(message.data);
@@ -337,6 +339,21 @@ fn a_full_disk_costs_what_could_not_be_written_and_says_so() {
     assert!(told.contains("not exact: the recording has a gap"), "{told}");
 }
 
+/// A message of the rig's surface torque and hook load (N m, N), of now.
+fn measured(torque: f64, hook_load: f64) -> Value {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
+    let mut value = json!({
+        "header": {"stamp": {"sec": now.as_secs(), "nanosec": now.subsec_nanos()}, "frame_id": ""},
+        "quality": 0, "source": "sub 3",
+    });
+    for kind in MeasuredKind::ALL {
+        value[kind.name()] = json!("NaN");
+    }
+    value["surface_torque"] = json!(torque);
+    value["hook_load"] = json!(hook_load);
+    json!({"do": "publish", "topic": "/rig_7/rig/measured", "type": "flexdrill/msg/RigMeasured", "value": value})
+}
+
 #[test]
 fn a_live_recording_replayed_gives_the_same_bytes() {
     let Some(network) = Network::new() else { return };
@@ -358,6 +375,7 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     for round in 0..4 {
         peer.send("/rig_7/rig/rotary_speed_rpm", json!(30.0 + 10.0 * f64::from(round)));
         peer.send("/rig_7/rig/weight_on_bit_kn", json!(8.0 + f64::from(round)));
+        peer.command(measured(300.0 + f64::from(round), 1.5e5));
         std::thread::sleep(Duration::from_millis(400));
         let changes = json!({"parameters": [
             double("contact.inner.friction_tangential", 0.2 + 0.02 * f64::from(round)),
@@ -400,6 +418,10 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     let (live, again) = (messages(&live), messages(&again));
     assert_eq!(live.keys().collect::<Vec<_>>(), again.keys().collect::<Vec<_>>());
     assert!(live.contains_key("/rig_7/twin/contact_forces"));
+    assert!(
+        live["/rig_7/twin/residuals"].len() > 1,
+        "the rig is compared with the twin"
+    );
     for (topic, recorded) in &live {
         let replayed = &again[topic];
         for (index, (a, b)) in recorded.iter().zip(replayed).enumerate() {

@@ -22,7 +22,7 @@ enum Task {
         page: String,
     },
     /// Runs the measurements of docs/measurements.md that take minutes to hours: --cases real-time, scaling, physics,
-    /// memory, step-error, truth, quality or all.
+    /// memory, step-error, truth, quality, rig-faults or all.
     #[command(disable_help_flag = true)]
     Bench {
         /// What the measurements accept; --help lists it.

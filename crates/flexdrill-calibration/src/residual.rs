@@ -2,6 +2,35 @@
 
 use crate::BAND;
 
+/// What rig and twin are compared in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Quantity {
+    /// Torque of the drive at the surface, N m.
+    SurfaceTorque,
+    /// Load on the hook, N.
+    HookLoad,
+    /// Rotary speed above the bit, rad/s.
+    DownholeSpeed,
+    /// Torque above the bit, N m.
+    DownholeTorque,
+    /// Weight on bit, measured in the hole, N.
+    DownholeWeight,
+}
+
+impl Quantity {
+    /// Number of quantities.
+    pub const COUNT: usize = 5;
+    /// All, in the order of every array with an entry per quantity.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::SurfaceTorque,
+        Self::HookLoad,
+        Self::DownholeSpeed,
+        Self::DownholeTorque,
+        Self::DownholeWeight,
+    ];
+}
+
 /// What is expected of a residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
@@ -11,15 +40,13 @@ pub struct Expected {
     pub model: f64,
     /// The same in the unit of the quantity, where the prediction is small.
     pub least: f64,
+    /// Drift of the sensor's offset after an hour (standard deviation); it grows with the root of time.
+    pub drift: f64,
 }
 
-impl Expected {
-    /// Half of the width of the band that holds 90 % of the residuals of means over `samples` samples.
-    pub fn band(&self, predicted: f64, samples: f64) -> f64 {
-        let model = (self.model * predicted).hypot(self.least);
-        BAND * model.hypot(self.noise / samples.max(1.0).sqrt())
-    }
-}
+/// Standard deviations of a sensor's scatter that are deducted before a residual counts as an error of the twin. A day has
+/// some ten thousand independent means of all quantities, of which less than one is beyond.
+const CERTAIN: f64 = 4.0;
 
 /// A residual over a sliding mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,8 +55,10 @@ pub struct Residual {
     pub measured: f64,
     /// Mean of the predicted ones.
     pub predicted: f64,
-    /// Half of the width of the 90 % band.
-    pub band: f64,
+    /// Standard deviation of the error of twin and tare.
+    pub error: f64,
+    /// Standard deviation of the measured mean, from the scatter of the sensor.
+    pub scatter: f64,
 }
 
 impl Residual {
@@ -38,19 +67,33 @@ impl Residual {
         self.measured - self.predicted
     }
 
-    /// Difference over the half width of the band: beyond -1 to 1 one of ten lies.
+    /// Half of the width of the band that holds 90 % of the differences.
+    pub fn band(&self) -> f64 {
+        BAND * self.error.hypot(self.scatter)
+    }
+
+    /// Difference over the half width of the band: one of ten lies beyond -1 to 1.
     pub fn ratio(&self) -> f64 {
-        self.difference() / self.band
+        self.difference() / self.band()
+    }
+
+    /// The difference beyond which the twin's error is surely larger than `level` times half of its own 90 % band.
+    pub fn limit(&self, level: f64) -> f64 {
+        level * BAND * self.error + CERTAIN * self.scatter
     }
 }
 
-/// Sliding means of measured and predicted values: exponential, in a time.
+/// Sliding means of measured and predicted values: exponential, in a time. Samples need not come regularly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Watch {
     time: f64,
     means: Option<[f64; 2]>,
     /// Weight of all samples so far, 0 to 1.
     filled: f64,
+    /// Sum of the squares of the samples' weights in the mean: the variance of the mean over that of a sample.
+    squares: f64,
+    /// Time since the last sample (s).
+    since: f64,
 }
 
 impl Watch {
@@ -60,20 +103,31 @@ impl Watch {
             time,
             means: None,
             filled: 0.0,
+            squares: 0.0,
+            since: 0.0,
         }
     }
 
-    /// Adds a sample after `step` seconds. A pair that is not finite is left out.
+    /// Advances by `step` seconds, and adds a sample where both values are finite.
     pub fn push(&mut self, step: f64, measured: f64, predicted: f64) {
-        if !(measured.is_finite() && predicted.is_finite() && step > 0.0) {
+        if !(step > 0.0 && step.is_finite()) {
             return;
         }
-        let part = 1.0 - libm::exp(-step / self.time);
+        self.since += step;
+        if !(measured.is_finite() && predicted.is_finite()) {
+            return;
+        }
+        let part = 1.0 - libm::exp(-self.since / self.time);
+        self.since = 0.0;
         self.filled += part * (1.0 - self.filled);
         // Until the time is filled the mean is that of all samples so far.
-        let share = (part / self.filled).min(1.0);
+        let share = match self.means {
+            None => 1.0,
+            Some(_) => (part / self.filled).min(1.0),
+        };
         let [a, b] = self.means.unwrap_or([measured, predicted]);
         self.means = Some([a + share * (measured - a), b + share * (predicted - b)]);
+        self.squares = (1.0 - share).powi(2) * self.squares + share.powi(2);
     }
 
     /// Forgets all samples: after a change of speed or weight.
@@ -81,58 +135,98 @@ impl Watch {
         *self = Self::new(self.time);
     }
 
-    /// The residual, once samples of about the watch's time are in it.
-    pub fn residual(&self, expected: &Expected) -> Option<Residual> {
-        let [measured, predicted] = self.means.filter(|_| self.filled > 0.6)?;
+    /// The residual, once the samples of about the watch's time are in it, and while the newest is not older than
+    /// `longest_age` (s). `hours` have passed since the tare of the sensor was known.
+    pub fn residual(&self, expected: &Expected, longest_age: f64, hours: f64) -> Option<Residual> {
+        let [measured, predicted] = self.means.filter(|_| self.filled > 0.6 && self.since <= longest_age)?;
         Some(Residual {
             measured,
             predicted,
-            // An exponential mean over T has the variance of one over 2 T samples of a second.
-            band: expected.band(predicted, 2.0 * self.time),
+            error: (expected.model * predicted)
+                .hypot(expected.least)
+                .hypot(expected.drift * hours.sqrt()),
+            scatter: expected.noise * self.squares.sqrt(),
         })
     }
 }
 
-/// What a disagreement may mean, the likeliest first.
+/// What a disagreement may mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
     /// Friction is higher than the twin's.
     FrictionHigher,
     /// Friction is lower than the twin's.
     FrictionLower,
-    /// The bit takes less torque than the twin's: it is dull, balled or has less weight.
+    /// The bit takes less torque than the twin's: it is dull or balled.
     BitTakesLess,
     /// The bit takes more torque: another rock, or more weight than is measured.
     BitTakesMore,
     /// The weight does not arrive at the bit.
     WeightLost,
-    /// A sensor has an offset or a wrong scale.
+    /// Weight or hook load is measured wrongly.
     WeightSensor,
     /// The offset of the torque sensor has changed.
     TorqueSensor,
+    /// A speed is measured wrongly.
+    SpeedSensor,
+    /// A sensor in the hole has an offset.
+    DownholeSensor,
 }
 
-/// Likely causes of a residual of the surface torque, of which the ratio to its band is given, on or off bottom, and the
-/// same of the hook load where it is measured.
-pub fn causes(torque: Option<f64>, hook_load: Option<f64>, drilling: bool) -> Vec<Cause> {
-    let beyond = |ratio: Option<f64>| ratio.filter(|ratio| ratio.abs() > 1.0);
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Unknown,
+    Within,
+    High,
+    Low,
+}
+
+/// Likely causes of residuals, given as ratios to what is surely beyond their bands, on or off bottom; the likeliest first, none where all are
+/// within their bands. What is measured in the hole decides between causes that look the same from the surface.
+pub fn causes(ratios: &[Option<f64>; Quantity::COUNT], drilling: bool) -> Vec<Cause> {
+    use Cause::*;
+    let [torque, hook_load, speed, bit_torque, bit_weight] = ratios.map(|ratio| match ratio {
+        Some(ratio) if ratio > 1.0 => Side::High,
+        Some(ratio) if ratio < -1.0 => Side::Low,
+        Some(_) => Side::Within,
+        None => Side::Unknown,
+    });
+    let beyond = |side: Side| matches!(side, Side::High | Side::Low);
     let mut all = Vec::new();
-    if beyond(hook_load).is_some() {
-        all.push(Cause::WeightSensor);
-    }
-    match (beyond(torque), drilling) {
-        (Some(ratio), true) if ratio > 0.0 => {
-            all.extend([Cause::FrictionHigher, Cause::BitTakesMore, Cause::WeightSensor])
+    if drilling {
+        match bit_weight {
+            Side::Low => all.extend([WeightLost, WeightSensor]),
+            Side::High => all.push(WeightSensor),
+            Side::Within | Side::Unknown => {}
         }
-        (Some(_), true) => all.extend([
-            Cause::BitTakesLess,
-            Cause::WeightLost,
-            Cause::FrictionLower,
-            Cause::WeightSensor,
-        ]),
-        (Some(ratio), false) if ratio > 0.0 => all.extend([Cause::FrictionHigher, Cause::TorqueSensor]),
-        (Some(_), false) => all.extend([Cause::TorqueSensor, Cause::FrictionLower]),
-        (None, _) => {}
+        match (bit_torque, bit_weight) {
+            (Side::Low, Side::Within | Side::High) => all.push(BitTakesLess),
+            (Side::Low, Side::Unknown) => all.extend([BitTakesLess, WeightLost]),
+            (Side::High, Side::Within | Side::Low | Side::Unknown) => all.push(BitTakesMore),
+            _ => {}
+        }
+        all.extend::<&[Cause]>(match (torque, bit_torque) {
+            (Side::High, Side::Unknown) => &[FrictionHigher, BitTakesMore, WeightSensor],
+            (Side::High, Side::Within | Side::Low) => &[FrictionHigher, TorqueSensor],
+            (Side::Low, Side::Unknown) => &[BitTakesLess, WeightLost, FrictionLower, WeightSensor],
+            (Side::Low, Side::Within | Side::High) => &[FrictionLower, TorqueSensor],
+            _ => &[],
+        });
+    } else {
+        all.extend::<&[Cause]>(match torque {
+            Side::High => &[FrictionHigher, TorqueSensor],
+            Side::Low => &[TorqueSensor, FrictionLower],
+            Side::Within | Side::Unknown => &[],
+        });
+        if beyond(bit_torque) || beyond(bit_weight) {
+            all.push(DownholeSensor);
+        }
+    }
+    if beyond(hook_load) {
+        all.push(WeightSensor);
+    }
+    if beyond(speed) {
+        all.push(SpeedSensor);
     }
     let mut seen = Vec::new();
     all.retain(|cause| {
@@ -152,48 +246,93 @@ mod tests {
         noise: 10.0,
         model: 0.0,
         least: 0.0,
+        drift: 0.0,
     };
 
-    #[test]
-    fn nine_of_ten_means_are_inside_the_band() {
-        let mut random = Random::new(4);
-        let (mut watch, mut inside, mut all) = (Watch::new(10.0), 0, 0);
-        for second in 0..40_000 {
-            watch.push(1.0, 200.0 + 10.0 * random.normal(), 200.0);
-            // Means an effective time apart are independent.
-            if let Some(residual) = watch.residual(&EXPECTED).filter(|_| second % 20 == 0) {
-                all += 1;
-                inside += usize::from(residual.ratio().abs() <= 1.0);
+    /// Share of the means within their band, of samples that come every `every` seconds.
+    fn share_within(every: u32, seed: u64) -> (f64, f64) {
+        let mut random = Random::new(seed);
+        let (mut watch, mut inside, mut all) = (Watch::new(20.0), 0.0, 0.0);
+        for second in 0..120_000_u32 {
+            let noise = 10.0 * random.normal();
+            let measured = if second.is_multiple_of(every) {
+                200.0 + noise
+            } else {
+                f64::NAN
+            };
+            watch.push(1.0, measured, 200.0);
+            // Means that are three times the watch's time apart share 5 % of their weight.
+            if let Some(residual) = watch
+                .residual(&EXPECTED, 30.0, 0.0)
+                .filter(|_| second.is_multiple_of(60))
+            {
+                all += 1.0;
+                inside += f64::from(u8::from(residual.ratio().abs() <= 1.0));
             }
         }
-        let share = f64::from(inside as u32) / f64::from(all);
-        // Five standard errors of 0.9 in 2000; an exponential mean over 10 s has 1.002 times the variance of 20 samples.
-        assert!((share - 0.9).abs() < 5.0 * (0.09 / f64::from(all)).sqrt(), "{share}");
+        (inside / all, all)
     }
 
     #[test]
-    fn a_fresh_watch_says_nothing_and_bad_samples_are_left_out() {
+    fn nine_of_ten_means_are_inside_the_band_whatever_the_rate_of_the_sensor() {
+        for (every, seed) in [(1, 4), (7, 5), (30, 6)] {
+            let (share, all) = share_within(every, seed);
+            // Four standard errors of 0.9.
+            assert!(
+                (share - 0.9).abs() < 4.0 * (0.09 / all).sqrt(),
+                "every {every} s: {share}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_fresh_watch_and_an_old_one_say_nothing() {
         let mut watch = Watch::new(10.0);
-        watch.push(1.0, f64::NAN, 1.0);
-        assert_eq!(watch, Watch::new(10.0));
         for _ in 0..9 {
             watch.push(1.0, 5.0, 3.0);
         }
-        assert_eq!(watch.residual(&EXPECTED), None);
+        assert_eq!(watch.residual(&EXPECTED, 5.0, 0.0), None);
         watch.push(1.0, 5.0, 3.0);
-        let residual = watch.residual(&EXPECTED).unwrap();
+        let residual = watch.residual(&EXPECTED, 5.0, 0.0).unwrap();
         assert!((residual.difference() - 2.0).abs() < 1e-12);
+        // A sample without a number changes no mean, and the age of the last one counts.
+        for second in 1..=6 {
+            watch.push(1.0, f64::NAN, 3.0);
+            let known = watch.residual(&EXPECTED, 5.0, 0.0);
+            assert_eq!(known, (second <= 5).then_some(residual), "{second}");
+        }
+        watch.push(1.0, 5.0, 3.0);
+        assert!(watch.residual(&EXPECTED, 5.0, 0.0).is_some());
         watch.reset();
-        assert_eq!(watch.residual(&EXPECTED), None);
+        assert_eq!(watch, Watch::new(10.0));
+    }
+
+    /// Ratios of surface torque, hook load, speed, torque and weight in the hole.
+    fn of(drilling: bool, ratios: [Option<f64>; Quantity::COUNT]) -> Vec<Cause> {
+        causes(&ratios, drilling)
     }
 
     #[test]
-    fn causes_follow_from_sign_and_motion() {
-        assert_eq!(causes(Some(-2.0), None, true)[0], Cause::BitTakesLess);
-        assert_eq!(causes(Some(3.0), None, false)[0], Cause::FrictionHigher);
-        assert_eq!(causes(Some(2.0), Some(3.0), true)[0], Cause::WeightSensor);
-        assert_eq!(causes(Some(0.5), None, true), []);
-        let twice = causes(Some(2.0), Some(3.0), true);
+    fn causes_follow_from_sign_motion_and_what_is_measured_in_the_hole() {
+        let none = None;
+        assert_eq!(of(true, [Some(0.9), Some(-0.9), none, none, none]), []);
+        assert_eq!(of(true, [Some(-2.0), none, none, none, none])[0], Cause::BitTakesLess);
+        assert_eq!(of(false, [Some(3.0), none, none, none, none])[0], Cause::FrictionHigher);
+        // The bit takes what it should, so that the torque is lost on the way.
+        let arc = of(true, [Some(3.0), none, none, Some(0.1), Some(0.2)]);
+        assert_eq!(arc, [Cause::FrictionHigher, Cause::TorqueSensor]);
+        // The weight arrives, the torque of the bit is low: the bit.
+        let dull = of(true, [Some(-2.0), none, none, Some(-4.0), Some(0.2)]);
+        assert_eq!(dull, [Cause::BitTakesLess]);
+        // Neither weight nor torque arrives.
+        let lost = of(true, [none, none, none, Some(-4.0), Some(-5.0)]);
+        assert_eq!(lost[0], Cause::WeightLost);
+        assert!(!lost.contains(&Cause::BitTakesLess));
+        assert_eq!(
+            of(false, [none, none, Some(2.0), none, Some(2.0)]),
+            [Cause::DownholeSensor, Cause::SpeedSensor]
+        );
+        let twice = of(true, [Some(2.0), Some(3.0), none, none, none]);
         assert_eq!(twice.iter().filter(|cause| **cause == Cause::WeightSensor).count(), 1);
     }
 }

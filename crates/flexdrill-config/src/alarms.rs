@@ -38,6 +38,8 @@ section! {
         model_quality: ToolAlarm = ToolAlarm::default(), below;
         /// Speed and weight are outside the part of the map (`map.file`) in which no alarm must be expected.
         known_window: ToolAlarm = ToolAlarm { on_delay: 5.0, ..ToolAlarm::default() }, below;
+        /// What the rig measures is beyond the band that the twin expects.
+        rig_disagrees: ToolAlarm = ToolAlarm { on_delay: 10.0, off_delay: 30.0, ..ToolAlarm::default() }, below;
         /// The rotary speed is not received, refused or stale.
         rotary_speed_input: NodeAlarm = NodeAlarm::default(), below;
         /// The weight on bit is not received, refused or stale.

@@ -8,8 +8,8 @@ section! {
     /// it drills. Without effect on the model until a value is fitted.
     #[derive(Copy)]
     pub struct Calibration(this) {
-        /// Whether the friction of both layers follows the measured torque while drilling. Default false: the estimate is
-        /// published and changes nothing.
+        /// Reserved, without effect: the running estimate of friction and tare is published (`twin/residuals`) and changes
+        /// nothing. Default false.
         follow: bool = false;
         /// Offset of the surface torque's sensor (N m): what it shows without torque. Default 0.
         torque_tare_nm: f64 = 0.0, within(-1e5, 1e5), "N m", "an offset beyond any top drive's torque is a defect";
@@ -34,9 +34,15 @@ section! {
         torque_noise_nm: f64 = 15.0, above(0.0, 1e5), "N m", "no sensor is without noise";
         /// Scatter of the measured hook load (kN, standard deviation).
         hook_load_noise_kn: f64 = 2.0, above(0.0, 1e4), "kN", "no sensor is without noise";
+        /// Scatter of the rotary speed that is measured in the hole (r/min, standard deviation).
+        downhole_speed_noise_rpm: f64 = 3.0, above(0.0, 1e3), "r/min", "no sensor is without noise";
+        /// Scatter of the torque that is measured in the hole (N m, standard deviation).
+        downhole_torque_noise_nm: f64 = 10.0, above(0.0, 1e5), "N m", "no sensor is without noise";
+        /// Scatter of the weight on bit that is measured in the hole (kN, standard deviation).
+        downhole_weight_noise_kn: f64 = 0.4, above(0.0, 1e4), "kN", "no sensor is without noise";
         /// Error of the twin's torque and hook load, as a share (standard deviation).
         model_error: f64 = 0.05, above(0.0, 1.0), "", "no model is exact; an error of 1 compares nothing";
-        /// Limits of the factor by which friction may follow.
+        /// Limits of the running estimate of friction, as a factor on the configured one.
         follow_limits: Range = Range::new(0.5, 2.0);
         /// Largest change of that factor per minute.
         follow_rate: f64 = 0.02, above(0.0, 1.0), "1/min", "faster than friction changes in a well";

@@ -7,12 +7,15 @@
 //! - [`point`]: one run of the twin at constant speed and weight. [`points`]: all runs of a design, on threads, kept in a
 //!   file.
 //! - [`study`](mod@study): the whole, from windows of a log to what was found, checked by full runs.
+//! - [`stated`](fn@stated): errors of sensors and twin, for the comparison while drilling.
 //! - [`overlay`]: what was found as configuration and for other programs.
 
 pub mod overlay;
 pub mod point;
 pub mod points;
+mod stated;
 pub mod study;
 pub mod unknowns;
 
+pub use stated::stated;
 pub use study::{Checked, Study, StudySettings, study};

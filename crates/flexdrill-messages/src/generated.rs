@@ -1297,6 +1297,85 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Reactions", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "drive_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "support_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "wall_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inertia_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "damping_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unbalanced_force", "type": {"type_id": 59, "capacity": 3, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "body", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "force_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "moment_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// One quantity of the comparison of rig and twin.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Residual {
+        /// surface_torque, hook_load, downhole_rotary_speed, downhole_torque or downhole_weight_on_bit.
+        pub name: std::string::String,
+        /// Unit: N m, N or rad/s.
+        pub unit: std::string::String,
+        /// What was measured since the message before, as received; NaN where nothing new came. Of several values the newest.
+        pub sample: f64,
+        /// Sliding mean of what was measured; NaN, as all below, while the quantity cannot be judged.
+        pub measured: f64,
+        /// The same of what the twin computes, with the tare of the sensor.
+        pub predicted: f64,
+        /// The band in which nine of ten means are expected.
+        pub low: f64,
+        pub high: f64,
+        /// Measured less predicted over half of the band: one of ten lies beyond -1 to 1.
+        pub ratio: f64,
+    }
+
+    impl Message for Residual {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Residual";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Residual";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Residual_";
+        const RIHS01: &'static str = "RIHS01_b345834b965b1369a908947b52a9d65ba419ee84bcb858d6aa320f830b194348";
+        const SCHEMA: &'static str = include_str!("../../../msg/Residual.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Residual", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "sample", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "predicted", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "ratio", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// What the rig measures less what the twin computes, with the band that is expected. Published every second of model time
+    /// once rig/measured has brought one of the quantities. Judged in steady motion only: after a change of speed or weight all
+    /// means are NaN until the string and the auto-driller have settled.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Residuals {
+        /// Stamp: model time on the rig's clock. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// One per quantity, always in the same order.
+        pub residuals: Vec<Residual>,
+        /// Speed and weight are steady, and all inputs are good.
+        pub steady: bool,
+        /// The bit drills; otherwise it is off bottom.
+        pub drilling: bool,
+        /// Measured depth of the bit, from the rig's own zero (m); NaN where the rig does not give it.
+        pub bit_depth: f64,
+        /// Running estimate, from the surface torque in steady motion, of the friction in both layers over the configured one, with
+        /// its 90 % band. It is published only: no parameter of the model changes.
+        pub friction_factor: f64,
+        pub friction_factor_low: f64,
+        pub friction_factor_high: f64,
+        /// The same of the offset of the torque's sensor (N m).
+        pub torque_tare: f64,
+        pub torque_tare_low: f64,
+        pub torque_tare_high: f64,
+        /// Why the newest sample changed neither: a value is missing, the motion is not steady, or the sample is far from what is
+        /// expected. Empty where it changed them.
+        pub estimate_frozen: std::string::String,
+        /// What the residuals that are surely beyond their bands may mean, the likeliest first.
+        pub likely_causes: Vec<std::string::String>,
+    }
+
+    impl Message for Residuals {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Residuals";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Residuals";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Residuals_";
+        const RIHS01: &'static str = "RIHS01_fb7be46385c6ab9dd66ec52c8036f83a7a626ea54b9c9fd20a2fc419efdc6ae6";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/Residuals.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: flexdrill/Residual\n",
+            include_str!("../../../msg/Residual.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Residuals", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "residuals", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/Residual"}}, {"name": "steady", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drilling", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "estimate_frozen", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "likely_causes", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// The inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm,
     /// rig/weight_on_bit_kn, rig/rate_of_penetration and rig/standpipe_pressure carry the numbers alone. Topic rig/inputs.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -3956,6 +4035,8 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::ForecastBand as super::Message>::INFO,
     <flexdrill::JointDeflections as super::Message>::INFO,
     <flexdrill::Reactions as super::Message>::INFO,
+    <flexdrill::Residual as super::Message>::INFO,
+    <flexdrill::Residuals as super::Message>::INFO,
     <flexdrill::RigInputs as super::Message>::INFO,
     <flexdrill::RigMeasured as super::Message>::INFO,
     <flexdrill::SafeWindow as super::Message>::INFO,

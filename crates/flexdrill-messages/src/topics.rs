@@ -2,7 +2,7 @@
 
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, Forecast, JointDeflections, Message,
-    Reactions, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState,
+    Reactions, Residuals, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState,
     WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
 
@@ -156,6 +156,8 @@ pub const TRANSFER: TopicInfo =
 pub const FORECAST: TopicInfo = TopicInfo::new("twin/forecast", Forecast::INFO, Cadence::OnChange, LATCHED);
 /// Output: the map of speed and weight that is loaded.
 pub const SAFE_WINDOW: TopicInfo = TopicInfo::new("twin/safe_window", SafeWindow::INFO, Cadence::OnChange, LATCHED);
+/// Output: what the rig measures less what the twin computes.
+pub const RESIDUALS: TopicInfo = TopicInfo::new("twin/residuals", Residuals::INFO, Cadence::OnChange, reliable(10));
 /// Output: health and heartbeat.
 pub const STATUS: TopicInfo = TopicInfo::new("twin/status", TwinStatus::INFO, Cadence::Rate("status"), reliable(10));
 /// Output: picture of the tool.
@@ -193,7 +195,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 26] = [
+pub const ALL: [TopicInfo; 27] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
@@ -213,6 +215,7 @@ pub const ALL: [TopicInfo; 26] = [
     TRANSFER,
     FORECAST,
     SAFE_WINDOW,
+    RESIDUALS,
     STATUS,
     TOOL_SHAPE,
     APPLIED_INPUTS,

@@ -1,5 +1,6 @@
 //! Drives a run as fast as possible and records what the node would have published.
 
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use super::summary::Tally;
 use crate::alarms::AlarmBook;
 use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::cli::source::MeasuredSample;
+use crate::compare::{RigComparison, Samples};
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::messages::{CdrError, to_cdr};
@@ -42,6 +44,9 @@ pub(super) struct Player {
     frame: Frame,
     outputs: Outputs,
     alarms: AlarmBook,
+    rig: RigComparison,
+    /// What the rig had measured at each comparison, by its stamp, the oldest first.
+    samples: VecDeque<(i64, Samples)>,
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
     /// What the rig measured, not yet in the bag, the newest first.
@@ -89,6 +94,8 @@ impl Player {
             frame: run.new_frame(),
             run,
             outputs: Outputs::new(&config, start),
+            rig: RigComparison::new(&config),
+            samples: VecDeque::new(),
             alarms: AlarmBook::fresh(Arc::new(config.clone()), start),
             initial_rates: config.outputs.rates,
             config,
@@ -103,6 +110,11 @@ impl Player {
             .outputs
             .session(&hash, &yaml, |encoded| write(recorder, topics, encoded))?;
         Ok(player)
+    }
+
+    /// Compares the run with what the rig had measured at these stamps (ns since 1970), the oldest first.
+    pub(super) fn compare_with(&mut self, samples: impl IntoIterator<Item = (i64, Samples)>) {
+        self.samples = samples.into_iter().collect();
     }
 
     /// Steps taken since the start or the last reset.
@@ -206,6 +218,24 @@ impl Player {
             );
             self.alarms.advance(stamp);
             self.alarms.observe_tool(&self.frame.snapshot, stamp);
+            while self.samples.front().is_some_and(|(at, _)| *at < stamp) {
+                self.samples.pop_front();
+            }
+            if let Some((_, samples)) = self.samples.pop_front_if(|(at, _)| *at == stamp)
+                && let Some((compared, message)) = self.rig.compare(&self.frame, &samples, header.clone())
+            {
+                let cdr = to_cdr(&message)?;
+                write(
+                    recorder,
+                    topics,
+                    Encoded {
+                        topic: &topics::RESIDUALS,
+                        stamp,
+                        cdr: &cdr,
+                    },
+                )?;
+                self.alarms.observe_rig(&compared, samples.bit_depth, stamp);
+            }
             let events = self
                 .alarms
                 .publish(header, stamp, |encoded| write(recorder, topics, encoded))?;

@@ -14,9 +14,10 @@ use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::cli::source::MeasuredSample;
+use crate::compare::Samples;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{AppliedInputs, JointDeflections, Message, RigMeasured, SessionInfo, TwinStatus};
+use crate::messages::{AppliedInputs, JointDeflections, Message, Residuals, RigMeasured, SessionInfo, TwinStatus};
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_text::printable;
@@ -36,6 +37,8 @@ pub(super) struct Script {
     applied: Vec<AppliedInputs>,
     /// What the rig measured besides, in the order of arrival.
     measured: Vec<MeasuredSample>,
+    /// What the rig had measured when it was compared with the twin, by stamp.
+    samples: Vec<(i64, Samples)>,
     /// Names of the recorded topics by relative name.
     names: Vec<(&'static str, String)>,
     /// Steps taken at the end, since the last reset.
@@ -61,6 +64,7 @@ impl Script {
             TwinStatus::ROS_TYPE,
             JointDeflections::ROS_TYPE,
             RigMeasured::ROS_TYPE,
+            Residuals::ROS_TYPE,
         ];
         bag.select(|topic| wanted.contains(&topic.ros_type.as_str()));
         let names = topics::ALL
@@ -78,7 +82,7 @@ impl Script {
             })
             .collect();
         let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
-        let (mut damaged, mut measured) = (Vec::new(), Vec::new());
+        let (mut damaged, mut measured, mut samples) = (Vec::new(), Vec::new(), Vec::new());
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
             let message = match message {
@@ -109,6 +113,10 @@ impl Script {
                 TwinStatus::ROS_TYPE => {
                     status_step = message.decode::<TwinStatus>()?.step_count;
                 }
+                Residuals::ROS_TYPE => {
+                    let residuals = message.decode::<Residuals>()?;
+                    samples.push((residuals.header.stamp.to_nanoseconds(), Samples::of(&residuals)));
+                }
                 _ => newest_stamp = Some(message.decode::<JointDeflections>()?.header.stamp.to_nanoseconds()),
             }
         }
@@ -125,6 +133,7 @@ impl Script {
             session,
             applied,
             measured,
+            samples,
             names,
             last_step,
             gaps: gaps.found(),
@@ -171,6 +180,10 @@ impl Script {
                     "the recording has a gap in the applied inputs ({gap}): \
                      the replay continues with the inputs before it"
                 ));
+            } else if gap.topic.ros_type == Residuals::ROS_TYPE {
+                exactness.departures.push(format!(
+                    "the recording has a gap in what the rig measured ({gap}): the comparison with the twin differs from there on"
+                ));
             } else {
                 exactness.notes.push(format!("the recording has a gap ({gap})"));
             }
@@ -209,6 +222,7 @@ impl Script {
         );
         let mut base = Base::of(&self.session, self.applied.first());
         let mut player = Player::new(config, base.start, self.measured.clone(), out, |topic| self.name(topic))?;
+        player.compare_with(self.samples.iter().copied());
         let mut pace = Pace {
             taken: 0,
             most: duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64),

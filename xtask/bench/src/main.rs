@@ -1,6 +1,7 @@
 //! `cargo xtask bench`: the measurements of `docs/measurements.md` that take minutes to hours.
 
 mod document;
+mod faults;
 mod memory;
 mod parts;
 mod physics;
@@ -34,6 +35,7 @@ struct Measurements {
     #[arg(long, value_name = "DOCUMENT")]
     write: Option<PathBuf>,
     /// Model time after the static start (s) [default: 60 real-time, 10 scaling and physics, 3600 memory, 30 step-error and quality,
+    /// 86400 rig-faults: the length of a run without a fault,
     /// 40 truth and rig-truth].
     #[arg(long)]
     duration: Option<f64>,
@@ -84,6 +86,8 @@ enum Cases {
     RigTruth,
     /// `model_quality` of the same tools, of others and of poor steps, against an eighth of the step: an hour.
     Quality,
+    /// Faults of the rig and the alarm of the comparison with the twin; of config/rig.yaml unless another is named.
+    RigFaults,
     /// All of them.
     All,
 }
@@ -97,6 +101,7 @@ impl Cases {
                 Self::Truth,
                 Self::RigTruth,
                 Self::Quality,
+                Self::RigFaults,
                 Self::Scaling,
                 Self::Physics,
                 Self::Memory,
@@ -116,6 +121,7 @@ impl Cases {
             Self::Truth => "truth",
             Self::RigTruth => "rig-truth",
             Self::Quality => "quality",
+            Self::RigFaults => "rig-faults",
             Self::All => "all",
         }
     }
@@ -128,6 +134,7 @@ impl Cases {
             Self::Truth | Self::RigTruth => 40.0,
             Self::Scaling | Self::Physics => 10.0,
             Self::Memory | Self::All => 3600.0,
+            Self::RigFaults => 86_400.0,
         }
     }
 }
@@ -178,7 +185,7 @@ fn configurations(args: &Measurements) -> anyhow::Result<Vec<(String, Config)>> 
 fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> anyhow::Result<String> {
     let (name, config) = &configs[0];
     // Sets of the rig's tool have another configuration of their own.
-    let of_the_rig = matches!(case, Cases::Physics | Cases::RigTruth) && args.configs.is_empty();
+    let of_the_rig = matches!(case, Cases::Physics | Cases::RigTruth | Cases::RigFaults) && args.configs.is_empty();
     let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
     let rig = of_the_rig.then(|| load("config/rig.yaml")).transpose()?;
     let (name, config) = match &rig {
@@ -211,6 +218,7 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
                 parts: args.parts.as_ref().map(|folder| folder.join(case.name())),
             })?
         }
+        Cases::RigFaults => faults::tables(config, duration)?,
         Cases::Quality => quality::tables(config, args.rpm, duration)?,
         Cases::Physics => physics::tables(config, &load("config/default.yaml")?, constant, duration)?,
         Cases::Scaling => scaling::tables(config, constant, duration)?,

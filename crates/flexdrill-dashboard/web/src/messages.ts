@@ -913,6 +913,92 @@ export function decodeReactions(reader: CdrReader): Reactions {
   };
 }
 
+/** One quantity of the comparison of rig and twin. */
+export interface Residual {
+  /** surface_torque, hook_load, downhole_rotary_speed, downhole_torque or downhole_weight_on_bit. */
+  name: string;
+  /** Unit: N m, N or rad/s. */
+  unit: string;
+  /** What was measured since the message before, as received; NaN where nothing new came. Of several values the newest. */
+  sample: number;
+  /** Sliding mean of what was measured; NaN, as all below, while the quantity cannot be judged. */
+  measured: number;
+  /** The same of what the twin computes, with the tare of the sensor. */
+  predicted: number;
+  /** The band in which nine of ten means are expected. */
+  low: number;
+  high: number;
+  /** Measured less predicted over half of the band: one of ten lies beyond -1 to 1. */
+  ratio: number;
+}
+/** Reads a `flexdrill/msg/Residual`. */
+export function decodeResidual(reader: CdrReader): Residual {
+  return {
+    name: reader.string(),
+    unit: reader.string(),
+    sample: reader.float64(),
+    measured: reader.float64(),
+    predicted: reader.float64(),
+    low: reader.float64(),
+    high: reader.float64(),
+    ratio: reader.float64(),
+  };
+}
+
+/**
+ * What the rig measures less what the twin computes, with the band that is expected. Published every second of model time
+ * once rig/measured has brought one of the quantities. Judged in steady motion only: after a change of speed or weight all
+ * means are NaN until the string and the auto-driller have settled.
+ */
+export interface Residuals {
+  /** Stamp: model time on the rig's clock. Frame: the tool. */
+  header: Header;
+  /** One per quantity, always in the same order. */
+  residuals: Residual[];
+  /** Speed and weight are steady, and all inputs are good. */
+  steady: boolean;
+  /** The bit drills; otherwise it is off bottom. */
+  drilling: boolean;
+  /** Measured depth of the bit, from the rig's own zero (m); NaN where the rig does not give it. */
+  bit_depth: number;
+  /**
+   * Running estimate, from the surface torque in steady motion, of the friction in both layers over the configured one, with
+   * its 90 % band. It is published only: no parameter of the model changes.
+   */
+  friction_factor: number;
+  friction_factor_low: number;
+  friction_factor_high: number;
+  /** The same of the offset of the torque's sensor (N m). */
+  torque_tare: number;
+  torque_tare_low: number;
+  torque_tare_high: number;
+  /**
+   * Why the newest sample changed neither: a value is missing, the motion is not steady, or the sample is far from what is
+   * expected. Empty where it changed them.
+   */
+  estimate_frozen: string;
+  /** What the residuals that are surely beyond their bands may mean, the likeliest first. */
+  likely_causes: string[];
+}
+/** Reads a `flexdrill/msg/Residuals`. */
+export function decodeResiduals(reader: CdrReader): Residuals {
+  return {
+    header: decodeHeader(reader),
+    residuals: reader.many(reader.length(), () => decodeResidual(reader)),
+    steady: reader.bool(),
+    drilling: reader.bool(),
+    bit_depth: reader.float64(),
+    friction_factor: reader.float64(),
+    friction_factor_low: reader.float64(),
+    friction_factor_high: reader.float64(),
+    torque_tare: reader.float64(),
+    torque_tare_low: reader.float64(),
+    torque_tare_high: reader.float64(),
+    estimate_frozen: reader.string(),
+    likely_causes: reader.many(reader.length(), () => reader.string()),
+  };
+}
+
 /**
  * The inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm,
  * rig/weight_on_bit_kn, rig/rate_of_penetration and rig/standpipe_pressure carry the numbers alone. Topic rig/inputs.
@@ -2031,6 +2117,8 @@ export const DECODERS = {
   "flexdrill/msg/ForecastBand": decodeForecastBand,
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
+  "flexdrill/msg/Residual": decodeResidual,
+  "flexdrill/msg/Residuals": decodeResiduals,
   "flexdrill/msg/RigInputs": decodeRigInputs,
   "flexdrill/msg/RigMeasured": decodeRigMeasured,
   "flexdrill/msg/SafeWindow": decodeSafeWindow,

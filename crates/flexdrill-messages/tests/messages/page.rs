@@ -8,8 +8,9 @@ use std::path::Path;
 
 use flexdrill_messages::{
     Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, FigureBand, Forecast,
-    ForecastBand, JointDeflections, Message, Reactions, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer,
-    TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
+    ForecastBand, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs, RigMeasured, SafeWindow,
+    SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr,
+    visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
@@ -170,6 +171,8 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<ForecastBand>(&mut maker),
         reference::<SafeWindow>(&mut maker),
         reference::<RigMeasured>(&mut maker),
+        reference::<Residual>(&mut maker),
+        reference::<Residuals>(&mut maker),
     ];
     let fresh = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(REFERENCE);

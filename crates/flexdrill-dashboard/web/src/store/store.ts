@@ -12,6 +12,7 @@ import {
   type Forecast,
   type JointDeflections,
   type MarkerArray,
+  type Residuals,
   type SafeWindow,
   type SessionInfo,
   type Transfer,
@@ -30,6 +31,8 @@ import { Trace } from "./trace";
 const LATCHED: readonly string[] = ["twin/session", "twin/alarms", "twin/forecast", "twin/safe_window"];
 /** Forecasts that are kept: what came is shown against those of the last minutes. */
 const FORECASTS = 6;
+/** Comparisons of rig and twin that are kept: ten minutes at one per second, and some more. */
+const RESIDUALS = 640;
 /**
  * Messages of a recording are of the player's time within this (s) and half a second of playing: it fetches those of up
  * to two seconds before a time that it is brought to.
@@ -64,6 +67,8 @@ export class Store {
   safeWindow: SafeWindow | null = null;
   /** The newest forecasts, the oldest first. */
   forecasts: Forecast[] = [];
+  /** The newest comparisons of rig and twin, the oldest first. */
+  residuals: Residuals[] = [];
   /** Messages that were not understood: page and twin are of different versions. */
   unreadable = 0;
 
@@ -182,6 +187,8 @@ export class Store {
         return;
       case "twin/forecast":
         return this.takeForecast(message as Forecast);
+      case "twin/residuals":
+        return this.takeResiduals(message as Residuals);
       case "twin/tool_shape":
         return trace.takeShape(message as MarkerArray);
     }
@@ -191,6 +198,15 @@ export class Store {
   private takeForecast(forecast: Forecast): void {
     const before = this.forecasts.filter((kept) => stamp(kept.header) < stamp(forecast.header));
     this.forecasts = [...before.slice(1 - FORECASTS), forecast];
+  }
+
+  /** Keeps the newest comparisons in the order of their times: after a jump back, those before it. */
+  private takeResiduals(residuals: Residuals): void {
+    const time = stamp(residuals.header);
+    const last = this.residuals[this.residuals.length - 1];
+    if (last && stamp(last.header) >= time) this.residuals = this.residuals.filter((kept) => stamp(kept.header) < time);
+    this.residuals.push(residuals);
+    if (this.residuals.length > RESIDUALS) this.residuals.shift();
   }
 
   /** Takes the server's answer to a question that was asked at `asked` (ms). */

@@ -16,6 +16,7 @@ export const TOPICS = [
   "twin/transfer",
   "twin/forecast",
   "twin/safe_window",
+  "twin/residuals",
 ] as const;
 export type Topic = (typeof TOPICS)[number];
 

@@ -1,10 +1,11 @@
-// The panels next to the tool: alarms, location, transfer, look-ahead, steering; one of them is shown.
+// The panels next to the tool: alarms, location, transfer, rig, look-ahead, steering; one of them is shown.
 
 import { h, setAttribute, setText, show } from "../dom";
 import type { Context, View } from "../view";
 import { AheadView } from "./ahead";
 import { Alarms } from "./alarms";
 import { LocationView } from "./location";
+import { RigView } from "./rig";
 import type { Steer } from "./steer";
 import { TransferView } from "./transfer";
 
@@ -23,6 +24,7 @@ export class Panels implements View {
       ["Alarms", new Alarms(context)],
       ["Location", new LocationView(context)],
       ["Transfer", new TransferView(context)],
+      ["Rig", new RigView(context)],
       ["Ahead", new AheadView(context)],
       ["Steer", steer],
     ] as const) {
