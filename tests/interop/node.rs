@@ -110,6 +110,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "pacing",
         "solver",
         "inputs",
+        "measured",
         "whirl",
         "stick-slip",
         "shock",
