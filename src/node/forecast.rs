@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::what_if::of_alarm;
+use super::what_if_messages::of_alarm;
 use crate::ahead::{Forecast, Held, Signal, widened};
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output};

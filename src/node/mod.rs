@@ -28,6 +28,7 @@ mod states;
 mod thinned;
 pub mod viewers;
 mod what_if;
+mod what_if_messages;
 
 use std::future::Future;
 

@@ -15,15 +15,13 @@ use super::clocks::Clocks;
 use super::control::Control;
 use super::forecast::{Forecasts, Issued};
 use super::states::SavedRun;
-use crate::ahead::{Answer, Candidate, CandidateAnswer, Figure, Goal, Progress, Start, forecast, look_ahead, search};
-use flexdrill_alarms::Priority;
+use super::what_if_messages::{feedback, goal, of_candidate, sentence};
+use crate::ahead::{Start, forecast, look_ahead, search};
 use flexdrill_config::Config;
 use flexdrill_core::twin::{RunInputs, Simulation};
 use flexdrill_messages::action_msgs::{CancelGoalRequest, GoalStatus};
 use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::unique_identifier_msgs::UUID;
 use flexdrill_messages::{
-    Alarm, AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage,
     WhatIfGetResultRequest, WhatIfGetResultResponse, WhatIfGoal, WhatIfResult, WhatIfSendGoalRequest,
     WhatIfSendGoalResponse, to_cdr_body,
 };
@@ -40,6 +38,9 @@ const MOST_CLIENTS: usize = 32;
 /// Least time between two feedbacks.
 const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
 
+/// How often the states of the goals are told again while one is open: looking ahead is idle work, so that on a busy
+/// machine nothing else tells a client for minutes that the node is there.
+const SIGN_OF_LIFE: Duration = Duration::from_secs(5);
 /// Longest wait for a goal before advice is looked for.
 const IDLE: Duration = Duration::from_millis(200);
 /// Seed of the look-aheads for advice.
@@ -112,6 +113,21 @@ impl WhatIf {
         WhatIfSendGoalResponse {
             accepted: matches!(accepted, Accepted::Waits(_)),
             stamp,
+        }
+    }
+
+    /// Tells the states of the goals again and again while one is open.
+    async fn shows_life(self: Arc<Self>) {
+        let mut ticks = tokio::time::interval(SIGN_OF_LIFE);
+        loop {
+            ticks.tick().await;
+            let open = {
+                let goals = self.goals();
+                goals.is_open().then(|| goals.states())
+            };
+            if let Some(states) = open {
+                publish(&self.status, &states);
+            }
         }
     }
 
@@ -198,6 +214,7 @@ pub fn serve(
     });
     let (accepting, cancelling, asking) = (Arc::clone(&what_if), Arc::clone(&what_if), Arc::clone(&what_if));
     let tasks: Vec<Task> = vec![
+        Box::pin(Arc::clone(&what_if).shows_life()),
         Box::pin(
             ends.send_goal
                 .serve(at_once(move |request: WhatIfSendGoalRequest| accepting.accept(request))),
@@ -390,118 +407,5 @@ impl Answering {
         let begin = self.gauges.start().unwrap_or_default();
         let passed = (ticks as f64 * config.solver.time_step * 1e9).round() as i64;
         Time::from_nanoseconds(begin.saturating_add(passed))
-    }
-}
-
-fn goal(asked: &WhatIfGoal) -> Goal {
-    Goal {
-        candidates: asked.candidates.iter().map(candidate).collect(),
-        horizon: asked.horizon,
-        members: asked.members,
-        run_all: asked.run_all,
-        seed: asked.seed,
-    }
-}
-
-fn candidate(asked: &WhatIfCandidate) -> Candidate {
-    Candidate {
-        rotary_speed: asked.rotary_speed,
-        weight_on_bit: asked.weight_on_bit,
-        speed_ramp: asked.speed_ramp,
-        weight_ramp: asked.weight_ramp,
-    }
-}
-
-fn feedback(id: GoalId, progress: &Progress) -> WhatIfFeedbackMessage {
-    WhatIfFeedbackMessage {
-        goal_id: UUID { uuid: id },
-        feedback: WhatIfFeedback {
-            done: progress.done,
-            remaining: progress.remaining,
-            answers: progress.answer.candidates.iter().map(of_candidate).collect(),
-        },
-    }
-}
-
-/// What was found, per candidate in the order of the goal.
-fn sentence(answer: &Answer) -> String {
-    let each = answer.candidates.iter().map(|of| {
-        let (rpm, kn) = (of.candidate.rotary_speed, of.candidate.weight_on_bit);
-        let found = match (of.any_alarm.of, of.any_alarm.seen) {
-            (0, _) if of.failure.is_empty() => "no member ended".to_owned(),
-            (0, _) => format!("unknown: {}", of.failure),
-            (members, 0) => format!("no alarm in {members} look-aheads"),
-            (members, seen) => format!("alarms in {seen} of {members} look-aheads"),
-        };
-        format!("{rpm} r/min and {kn} kN: {found}")
-    });
-    let each = each.collect::<Vec<_>>().join("; ");
-    if answer.stopped {
-        format!("cancelled; until then: {each}")
-    } else {
-        each
-    }
-}
-
-fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
-    let Candidate {
-        rotary_speed,
-        weight_on_bit,
-        speed_ramp,
-        weight_ramp,
-    } = of.candidate;
-    let [good, degraded, poor] = of.quality;
-    WhatIfAnswer {
-        candidate: WhatIfCandidate {
-            rotary_speed,
-            weight_on_bit,
-            speed_ramp,
-            weight_ramp,
-        },
-        run_up: of.run_up,
-        members: of.members,
-        failed: of.failed,
-        failure: of.failure.clone(),
-        decided: of.decided,
-        any_alarm: of.any_alarm.probability,
-        any_alarm_lower: of.any_alarm.interval[0],
-        any_alarm_upper: of.any_alarm.interval[1],
-        alarms: of.alarms.iter().map(of_alarm).collect(),
-        figures: Figure::ALL
-            .iter()
-            .zip(&of.figures)
-            .map(|(figure, band)| {
-                let (name, unit) = figure.name_and_unit();
-                let [p5, p50, p95] = band.quantiles;
-                FigureBand {
-                    name: name.to_owned(),
-                    unit: unit.to_owned(),
-                    p5,
-                    p50,
-                    p95,
-                }
-            })
-            .collect(),
-        quality_good: good,
-        quality_degraded: degraded,
-        quality_poor: poor,
-    }
-}
-
-pub(super) fn of_alarm(of: &crate::ahead::AlarmChance) -> AlarmChance {
-    AlarmChance {
-        id: of.id.id().to_owned(),
-        name: of.id.name().to_owned(),
-        priority: match of.priority {
-            Priority::Low => Alarm::LOW,
-            Priority::Medium => Alarm::MEDIUM,
-            Priority::High => Alarm::HIGH,
-        },
-        seen: of.chance.seen,
-        members: of.chance.of,
-        probability: of.chance.probability,
-        lower: of.chance.interval[0],
-        upper: of.chance.interval[1],
-        time_to_first: of.first,
     }
 }

@@ -1,6 +1,6 @@
 //! `--cases batch`: how many members of look-aheads, maps and sweeps the machine runs, alone and next to a live run.
 //!
-//! A member is a fork of a run that has come to its motion. Members run on threads of the lowest priority. The live run
+//! A member is a fork of a run that has come to its motion. Members run on idle threads. The live run
 //! keeps the node's period at the node's priority and counts the deadlines that it misses.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -12,7 +12,8 @@ const FORECAST_MEMBERS: Bound = Bound::within(2.0, 64.0);
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct LookAhead {
-    /// Threads that look ahead, at the lowest priority. The result does not depend on their number. Default 1.
+    /// Threads that look ahead, in processor time that nothing else on the machine uses (`SCHED_IDLE`). The result does
+    /// not depend on their number. Default 1.
     #[schemars(transform = THREADS.in_schema())]
     pub threads: u32,
     /// Whether the advice of an alarm of the tool's motion comes from look-aheads: the smallest change of speed or weight

@@ -146,6 +146,11 @@ impl<G, R: Clone> Goals<G, R> {
         self.entries.iter().any(|entry| entry.goal.is_some())
     }
 
+    /// Whether a goal runs or waits.
+    pub fn is_open(&self) -> bool {
+        self.entries.iter().any(|entry| entry.ended.is_none())
+    }
+
     /// The next goal that waits, which begins.
     pub fn begin(&mut self) -> Option<Begun<G>> {
         let next = self.entries.iter_mut().find(|entry| entry.goal.is_some())?;
@@ -261,7 +266,9 @@ mod tests {
     #[test]
     fn goals_wait_run_and_end_in_turn() {
         let mut goals: Goals<&str, &str> = Goals::new(1);
+        assert!(!goals.is_open());
         assert_eq!(goals.accept([1; 16], at(10), "first"), Accepted::Waits(0));
+        assert!(goals.is_open());
         assert_eq!(goals.accept([1; 16], at(10), "again"), Accepted::Known);
         assert_eq!(goals.accept([2; 16], at(11), "second"), Accepted::Waits(1));
         assert_eq!(goals.accept([3; 16], at(12), "third"), Accepted::Full);
@@ -278,6 +285,9 @@ mod tests {
         assert!(goals.begin().is_none());
         let states: Vec<i8> = goals.states().status_list.iter().map(|state| state.status).collect();
         assert_eq!(states, [GoalStatus::STATUS_SUCCEEDED, GoalStatus::STATUS_EXECUTING]);
+        assert!(goals.is_open() && !goals.is_waiting());
+        goals.end([2; 16], GoalStatus::STATUS_SUCCEEDED, "done");
+        assert!(!goals.is_open());
     }
 
     #[test]

@@ -86,6 +86,9 @@ enum Cases {
     RigTruth,
     /// `model_quality` of the same tools, of others and of poor steps, against an eighth of the step: an hour.
     Quality,
+    /// The same for a tool below a string, where mud and rubbing take energy too; of config/rig.yaml unless another is
+    /// named.
+    RigQuality,
     /// Faults of the rig and the alarm of the comparison with the twin; of config/rig.yaml unless another is named.
     RigFaults,
     /// All of them.
@@ -101,6 +104,7 @@ impl Cases {
                 Self::Truth,
                 Self::RigTruth,
                 Self::Quality,
+                Self::RigQuality,
                 Self::RigFaults,
                 Self::Scaling,
                 Self::Physics,
@@ -121,6 +125,7 @@ impl Cases {
             Self::Truth => "truth",
             Self::RigTruth => "rig-truth",
             Self::Quality => "quality",
+            Self::RigQuality => "rig-quality",
             Self::RigFaults => "rig-faults",
             Self::All => "all",
         }
@@ -130,7 +135,7 @@ impl Cases {
     fn usual_duration(self) -> f64 {
         match self {
             Self::RealTime => 60.0,
-            Self::StepError | Self::Quality => 30.0,
+            Self::StepError | Self::Quality | Self::RigQuality => 30.0,
             Self::Truth | Self::RigTruth => 40.0,
             Self::Scaling | Self::Physics => 10.0,
             Self::Memory | Self::All => 3600.0,
@@ -185,7 +190,10 @@ fn configurations(args: &Measurements) -> anyhow::Result<Vec<(String, Config)>> 
 fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> anyhow::Result<String> {
     let (name, config) = &configs[0];
     // Sets of the rig's tool have another configuration of their own.
-    let of_the_rig = matches!(case, Cases::Physics | Cases::RigTruth | Cases::RigFaults) && args.configs.is_empty();
+    let of_the_rig = matches!(
+        case,
+        Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults
+    ) && args.configs.is_empty();
     let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
     let rig = of_the_rig.then(|| load("config/rig.yaml")).transpose()?;
     let (name, config) = match &rig {
@@ -219,7 +227,8 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
             })?
         }
         Cases::RigFaults => faults::tables(config, duration)?,
-        Cases::Quality => quality::tables(config, args.rpm, duration)?,
+        Cases::Quality => quality::tables(config, args.rpm, duration, quality::STEPS)?,
+        Cases::RigQuality => quality::tables(config, args.rpm, duration, quality::RIG_STEPS)?,
         Cases::Physics => physics::tables(config, &load("config/default.yaml")?, constant, duration)?,
         Cases::Scaling => scaling::tables(config, constant, duration)?,
         Cases::Memory | Cases::All => memory::tables(config, constant, duration)?,

@@ -29,7 +29,10 @@ const MORE: &[Case] = &[
 ];
 
 /// The step of a run over the configuration's.
-const STEPS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+pub(crate) const STEPS: &[f64] = &[0.5, 1.0, 1.5, 2.0];
+
+/// Those of the rig's tool, whose mud takes so much energy that only much longer steps spoil the motion.
+pub(crate) const RIG_STEPS: &[f64] = &[0.5, 1.0, 2.0, 4.0, 6.0];
 
 /// Schemes that gain energy or damp too much, run with the tool as it is.
 const RHO_INFINITY: [f64; 4] = [0.0, 0.2, 0.7, 0.8];
@@ -38,7 +41,7 @@ const RHO_INFINITY: [f64; 4] = [0.0, 0.2, 0.7, 0.8];
 ///
 /// # Errors
 /// When a tool cannot be built. A failed step is a row of the table.
-pub(crate) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result<String> {
+pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, steps: &[f64]) -> anyhow::Result<String> {
     let mut table = Table::new([
         "case",
         "step (ms)",
@@ -68,7 +71,7 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
         let first = row(case.name, refined(&tool)?.solver.time_step, &fine, None);
         eprintln!("{}", first.join(" | "));
         table.row(first);
-        for (name, config) in variants(case.name, &tool, index == 0)? {
+        for (name, config) in variants(case.name, &tool, steps, index == 0)? {
             let step = config.solver.time_step;
             match run(&config) {
                 Ok(record) => {
@@ -91,10 +94,15 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64) -> anyhow::Result
 }
 
 /// The case with every step, and with other schemes.
-fn variants(name: &str, tool: &Config, with_schemes: bool) -> Result<Vec<(String, Config)>, ConfigError> {
+fn variants(
+    name: &str,
+    tool: &Config,
+    steps: &[f64],
+    with_schemes: bool,
+) -> Result<Vec<(String, Config)>, ConfigError> {
     let step = tool.solver.time_step;
     let mut variants = Vec::new();
-    for factor in STEPS {
+    for factor in steps {
         variants.push((name.to_owned(), tool.with_value("solver.time_step", factor * step)?));
     }
     if with_schemes {

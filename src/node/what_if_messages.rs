@@ -1,0 +1,126 @@
+//! What a look-ahead is asked and answers, as messages of the action `~/what_if`.
+
+use crate::ahead::{AlarmChance as Seen, Answer, Candidate, CandidateAnswer, Figure, Goal, Progress};
+use flexdrill_alarms::Priority;
+use flexdrill_messages::unique_identifier_msgs::UUID;
+use flexdrill_messages::{
+    Alarm, AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
+};
+use flexdrill_ros2::action::GoalId;
+
+/// The goal that a client asks.
+pub(super) fn goal(asked: &WhatIfGoal) -> Goal {
+    Goal {
+        candidates: asked.candidates.iter().map(candidate).collect(),
+        horizon: asked.horizon,
+        members: asked.members,
+        run_all: asked.run_all,
+        seed: asked.seed,
+    }
+}
+
+fn candidate(asked: &WhatIfCandidate) -> Candidate {
+    Candidate {
+        rotary_speed: asked.rotary_speed,
+        weight_on_bit: asked.weight_on_bit,
+        speed_ramp: asked.speed_ramp,
+        weight_ramp: asked.weight_ramp,
+    }
+}
+
+/// What is known so far.
+pub(super) fn feedback(id: GoalId, progress: &Progress) -> WhatIfFeedbackMessage {
+    WhatIfFeedbackMessage {
+        goal_id: UUID { uuid: id },
+        feedback: WhatIfFeedback {
+            done: progress.done,
+            remaining: progress.remaining,
+            answers: progress.answer.candidates.iter().map(of_candidate).collect(),
+        },
+    }
+}
+
+/// What was found, per candidate in the order of the goal.
+pub(super) fn sentence(answer: &Answer) -> String {
+    let each = answer.candidates.iter().map(|of| {
+        let (rpm, kn) = (of.candidate.rotary_speed, of.candidate.weight_on_bit);
+        let found = match (of.any_alarm.of, of.any_alarm.seen) {
+            (0, _) if of.failure.is_empty() => "no member ended".to_owned(),
+            (0, _) => format!("unknown: {}", of.failure),
+            (members, 0) => format!("no alarm in {members} look-aheads"),
+            (members, seen) => format!("alarms in {seen} of {members} look-aheads"),
+        };
+        format!("{rpm} r/min and {kn} kN: {found}")
+    });
+    let each = each.collect::<Vec<_>>().join("; ");
+    if answer.stopped {
+        format!("cancelled; until then: {each}")
+    } else {
+        each
+    }
+}
+
+/// The answer on a candidate.
+pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
+    let Candidate {
+        rotary_speed,
+        weight_on_bit,
+        speed_ramp,
+        weight_ramp,
+    } = of.candidate;
+    let [good, degraded, poor] = of.quality;
+    WhatIfAnswer {
+        candidate: WhatIfCandidate {
+            rotary_speed,
+            weight_on_bit,
+            speed_ramp,
+            weight_ramp,
+        },
+        run_up: of.run_up,
+        members: of.members,
+        failed: of.failed,
+        failure: of.failure.clone(),
+        decided: of.decided,
+        any_alarm: of.any_alarm.probability,
+        any_alarm_lower: of.any_alarm.interval[0],
+        any_alarm_upper: of.any_alarm.interval[1],
+        alarms: of.alarms.iter().map(of_alarm).collect(),
+        figures: Figure::ALL
+            .iter()
+            .zip(&of.figures)
+            .map(|(figure, band)| {
+                let (name, unit) = figure.name_and_unit();
+                let [p5, p50, p95] = band.quantiles;
+                FigureBand {
+                    name: name.to_owned(),
+                    unit: unit.to_owned(),
+                    p5,
+                    p50,
+                    p95,
+                }
+            })
+            .collect(),
+        quality_good: good,
+        quality_degraded: degraded,
+        quality_poor: poor,
+    }
+}
+
+/// How likely an alarm is.
+pub(super) fn of_alarm(of: &Seen) -> AlarmChance {
+    AlarmChance {
+        id: of.id.id().to_owned(),
+        name: of.id.name().to_owned(),
+        priority: match of.priority {
+            Priority::Low => Alarm::LOW,
+            Priority::Medium => Alarm::MEDIUM,
+            Priority::High => Alarm::HIGH,
+        },
+        seen: of.chance.seen,
+        members: of.chance.of,
+        probability: of.chance.probability,
+        lower: of.chance.interval[0],
+        upper: of.chance.interval[1],
+        time_to_first: of.first,
+    }
+}
