@@ -51,6 +51,7 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, steps: &[f64]) ->
         "whirl ratio",
         "energy error share",
         "numerical share",
+        "share of the mud",
         "model quality, of the time",
     ]);
     for (index, case) in hard(config).iter().chain(MORE).enumerate() {
@@ -114,7 +115,7 @@ fn variants(
     Ok(variants)
 }
 
-fn row(name: &str, step: f64, record: &Record, fine: Option<&Record>) -> [String; 9] {
+fn row(name: &str, step: f64, record: &Record, fine: Option<&Record>) -> [String; 10] {
     let against = |figure: fn(&Record) -> f64, decimals: usize| {
         let value = figure(record);
         fine.map_or_else(
@@ -139,6 +140,7 @@ fn row(name: &str, step: f64, record: &Record, fine: Option<&Record>) -> [String
         against(|record| record.whirl_ratio, 3),
         mean(|quality| quality.energy_error_share),
         mean(|quality| quality.numerical_share),
+        mean(|quality| quality.mud_share),
         words(&judged),
     ]
 }

@@ -107,6 +107,8 @@ pub struct ModelQuality {
     pub energy_error_share: f64,
     /// Over the window: part of the dissipated energy that is numerical damping's.
     pub numerical_share: f64,
+    /// Over the window: part of all dissipated energy, the mud's included, that the mud takes.
+    pub mud_share: f64,
     /// Whether the window has been full since the start; before, the level means nothing.
     pub judged: bool,
     /// The refinement in force, and the one that the motion needs.
@@ -147,6 +149,8 @@ struct Block {
     dissipated: f64,
     /// Dissipated by numerical damping (J).
     numerical: f64,
+    /// Taken by the mud (J).
+    mud: f64,
 }
 
 /// Watches the energy audit.
@@ -170,6 +174,7 @@ impl QualityWatch {
         block.error += audit.against_laws - before.against_laws;
         block.dissipated += dissipated(audit) - dissipated(&before);
         block.numerical += audit.numerical_damping - before.numerical_damping;
+        block.mud += audit.mud - before.mud;
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
         if block.duration + 0.5 * dt < BLOCK {
             return false;
@@ -188,6 +193,7 @@ impl QualityWatch {
             sum.error += block.error;
             sum.dissipated += block.dissipated;
             sum.numerical += block.numerical;
+            sum.mud += block.mud;
         }
         let dissipated = sum.dissipated.max(STILL * sum.duration);
         let (error, numerical) = (sum.error / dissipated, sum.numerical / dissipated);
@@ -243,6 +249,7 @@ impl QualityWatch {
             bound: bound(bounds),
             energy_error_share: error,
             numerical_share: numerical,
+            mud_share: sum.mud / dissipated,
             judged: true,
             choice: self.quality.choice,
         };
