@@ -194,7 +194,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         std::process::exit(1);
     }
     // The endpoints must be dropped before their participant.
-    drop((subscriptions, servers));
+    drop((subscriptions, servers, book));
     drop(participant);
     if has_peers {
         static_peers::wait_for_delivery();
