@@ -20,6 +20,7 @@ from ._errors import (
     NotRecordedError,
     Problem,
     RecordError,
+    ResultFileError,
     SavedStateError,
     StartError,
     StepError,
@@ -44,15 +45,20 @@ from ._groups import (
     Whirl,
 )
 from ._inputs import Input, Inputs, held
+from ._map import Map, MapAxis, read_map
 from ._native import __version__
 from ._results import BODIES, GROUPS, HAZARDS, SEVERITIES, USUAL_GROUPS, WHIRL_KINDS, Recording, Snapshot
+from ._results_file import PRIORITIES, QUANTILES, FlagArray, TextArray
 from ._rollout import rollout
+from ._sweep import Sweep, read_sweep
 from ._twin import Config, Friction, Twin, shipped_configs
 
 __all__ = [
     "BODIES",
     "GROUPS",
     "HAZARDS",
+    "PRIORITIES",
+    "QUANTILES",
     "SEVERITIES",
     "USUAL_GROUPS",
     "WHIRL_KINDS",
@@ -66,6 +72,7 @@ __all__ = [
     "Contacts",
     "CountArray",
     "Energy",
+    "FlagArray",
     "FlexdrillError",
     "FloatArray",
     "Friction",
@@ -74,6 +81,8 @@ __all__ = [
     "InputError",
     "Inputs",
     "Joints",
+    "Map",
+    "MapAxis",
     "Messages",
     "NotRecordedError",
     "Problem",
@@ -81,12 +90,15 @@ __all__ = [
     "Reactions",
     "RecordError",
     "Recording",
+    "ResultFileError",
     "SavedStateError",
     "Shape",
     "Snapshot",
     "Solver",
     "StartError",
     "StepError",
+    "Sweep",
+    "TextArray",
     "Transfer",
     "Twin",
     "ValueOutOfBounds",
@@ -94,6 +106,8 @@ __all__ = [
     "__version__",
     "held",
     "read_bag",
+    "read_map",
+    "read_sweep",
     "rollout",
     "shipped_configs",
 ]

@@ -120,6 +120,19 @@ class NotRecordedError(FlexdrillError, AttributeError):
     """A group that was not recorded was asked for."""
 
 
+class ResultFileError(FlexdrillError, ValueError):
+    """A sweep or a map cannot be read: a file is damaged, of another version, or of another plan."""
+
+    def __init__(self, file: str, reason: str, remedy: str) -> None:
+        super().__init__(f"{file}: {reason}: {remedy}")
+        self.file = file
+        """The file, or the directory."""
+        self.reason = reason
+        """What is wrong."""
+        self.remedy = remedy
+        """What to do."""
+
+
 class SavedStateError(FlexdrillError, ValueError):
     """Bytes are no saved twin, damaged, or of another version."""
 
