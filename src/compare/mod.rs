@@ -1,11 +1,13 @@
 //! What the rig measures against what the twin computes, once per second of model time: `twin/residuals` and the condition
-//! of the alarm `rig_disagrees`. The mathematics is [`flexdrill_calibration::monitor`].
+//! of the alarm `rig_disagrees`, and the parameters that follow the rig (`calibration.follow`). The mathematics is
+//! [`flexdrill_calibration::monitor`] and [`flexdrill_calibration::following`].
 //!
 //! A comparison is a function of the frame and of the samples that have come since the one before. The message keeps these
 //! samples, so that a replay of the recording compares the same numbers.
 
-use flexdrill_calibration::BAND;
-use flexdrill_calibration::follow::{Follow, FollowSettings, Frozen, Instant};
+mod following;
+
+use flexdrill_calibration::follow::Instant;
 use flexdrill_calibration::monitor::{Compared, Monitor, MonitorSettings, Reading};
 use flexdrill_calibration::residual::{Quantity, Residual};
 use flexdrill_config::Config;
@@ -17,6 +19,8 @@ use crate::alarms::in_words;
 use crate::messages;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Measured;
+use following::Estimate;
+pub use following::{FOLLOW, FOLLOWED, changes, followed};
 
 /// Model time between two comparisons (s).
 const INTERVAL: f64 = 1.0;
@@ -82,11 +86,24 @@ impl Samples {
     }
 }
 
+/// What a comparison gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// For the alarm.
+    pub compared: Compared,
+    /// For publication.
+    pub message: messages::Residuals,
+    /// The values of [`FOLLOWED`] in force and those that are to be, where they follow the rig.
+    pub moved: Option<[[f64; 2]; 2]>,
+    /// The limit that has begun to stop them, in words.
+    pub stopped: Option<String>,
+}
+
 /// The comparison of a run.
 pub struct RigComparison {
     monitor: Monitor,
     settings: MonitorSettings,
-    follow: Follow,
+    estimate: Estimate,
     time_step: f64,
     /// Stamps of the newest samples that were taken (ns).
     taken: [i64; Quantity::COUNT],
@@ -102,13 +119,24 @@ impl RigComparison {
         let settings = MonitorSettings::stated(&flexdrill_fit::stated(config));
         Self {
             monitor: Monitor::new(settings),
-            follow: Follow::new(follow_settings(config), config.calibration.torque_tare_nm),
+            estimate: Estimate::new(config),
             settings,
             time_step: config.solver.time_step,
             taken: [i64::MIN; Quantity::COUNT],
             last: None,
             heard: false,
         }
+    }
+
+    /// Adopts the values in force of what follows the rig.
+    pub fn reconfigure(&mut self, config: &Config) {
+        self.monitor.set_tare(flexdrill_fit::stated(config).tare);
+        self.estimate.reconfigure(config);
+    }
+
+    /// Forgets what was estimated, after a reset of the model.
+    pub fn restart(&mut self) {
+        self.estimate.restart();
     }
 
     /// Whether a second has passed since the last comparison.
@@ -142,14 +170,10 @@ impl RigComparison {
     }
 
     /// Compares a frame with samples; `None` until the rig has measured one of the quantities.
-    pub fn compare(
-        &mut self,
-        frame: &Frame,
-        samples: &Samples,
-        header: Header,
-    ) -> Option<(Compared, messages::Residuals)> {
+    pub fn compare(&mut self, frame: &Frame, samples: &Samples, header: Header) -> Option<Comparison> {
         let time = frame.ticks as f64 * self.time_step;
-        let step = self.last.map_or(INTERVAL, |last| time - last);
+        // A recording begins with the first samples; what was before them must not matter.
+        let step = self.last.filter(|_| self.heard).map_or(INTERVAL, |last| time - last);
         self.last = Some(time);
         self.heard |= samples.values.iter().any(|value| value.is_finite());
         if !self.heard {
@@ -165,30 +189,22 @@ impl RigComparison {
             measured: samples.values,
             predicted: predicted(snapshot),
         });
-        let frozen = self.follow.push(&Instant {
+        let instant = Instant {
             step,
             measured: samples.values[Quantity::SurfaceTorque as usize],
             predicted: predicted(snapshot)[Quantity::SurfaceTorque as usize],
             friction: layers_friction(snapshot),
+            applied: self.estimate.applied_factor(),
+            good,
             steady: compared.steady,
-        });
-        let message = self.with_estimate(message(header, &compared, samples), frozen);
-        Some((compared, message))
-    }
-
-    fn with_estimate(&self, message: messages::Residuals, frozen: Option<Frozen>) -> messages::Residuals {
-        let (factor, tare) = (self.follow.factor(), self.follow.tare());
-        let [of_factor, of_tare] = self.follow.deviations().map(|deviation| BAND * deviation);
-        messages::Residuals {
-            friction_factor: factor,
-            friction_factor_low: factor - of_factor,
-            friction_factor_high: factor + of_factor,
-            torque_tare: tare,
-            torque_tare_low: tare - of_tare,
-            torque_tare_high: tare + of_tare,
-            estimate_frozen: in_words_frozen(frozen).to_owned(),
-            ..message
-        }
+        };
+        let pushed = self.estimate.push(&instant, message(header, &compared, samples));
+        Some(Comparison {
+            compared,
+            message: pushed.message,
+            moved: pushed.moved,
+            stopped: pushed.stopped,
+        })
     }
 }
 
@@ -196,31 +212,6 @@ impl RigComparison {
 fn layers_friction(snapshot: &Snapshot) -> f64 {
     let [pipe_guide, guide_wall, ..] = snapshot.transfer.friction_torque;
     pipe_guide + guide_wall
-}
-
-/// How the running estimate of friction and tare moves.
-fn follow_settings(config: &Config) -> FollowSettings {
-    let given = &config.calibration;
-    FollowSettings {
-        noise: given.torque_noise_nm,
-        model: given.model_error,
-        tare_drift: given.torque_drift_nm,
-        tare_prior: given.torque_tare_range_nm / BAND,
-        factor_limits: given.follow_limits.ends(),
-        factor_rate: given.follow_rate,
-        // Four times the expected range: an offset beyond it is a defect, not a tare.
-        tare_limits: [-4.0, 4.0].map(|times| given.torque_tare_nm + times * given.torque_tare_range_nm),
-        ..FollowSettings::default()
-    }
-}
-
-const fn in_words_frozen(frozen: Option<Frozen>) -> &'static str {
-    match frozen {
-        None => "",
-        Some(Frozen::BadInput) => "a value is missing",
-        Some(Frozen::NotSteady) => "the motion is not steady",
-        Some(Frozen::Outlier) => "the sample is far from what is expected",
-    }
 }
 
 fn message(header: Header, compared: &Compared, samples: &Samples) -> messages::Residuals {
@@ -244,18 +235,13 @@ fn message(header: Header, compared: &Compared, samples: &Samples) -> messages::
         steady: compared.steady,
         drilling: compared.drilling,
         bit_depth: samples.bit_depth,
-        friction_factor: f64::NAN,
-        friction_factor_low: f64::NAN,
-        friction_factor_high: f64::NAN,
-        torque_tare: f64::NAN,
-        torque_tare_low: f64::NAN,
-        torque_tare_high: f64::NAN,
-        estimate_frozen: String::new(),
         likely_causes: compared
             .causes
             .iter()
             .map(|cause| in_words(*cause).to_owned())
             .collect(),
+        // The estimate adds the rest.
+        ..messages::Residuals::default()
     }
 }
 
@@ -330,7 +316,8 @@ mod tests {
                 stamp: Time::from_nanoseconds(instant),
                 ..Header::default()
             };
-            all.extend(rig.compare(&frame, &samples, header));
+            let compared = rig.compare(&frame, &samples, header);
+            all.extend(compared.map(|of| (of.compared, of.message)));
             assert!(!rig.is_due(frame.ticks), "{second}");
         }
         all
@@ -372,12 +359,12 @@ mod tests {
         let mut again = RigComparison::new(&config);
         for (second, (compared, message)) in all.iter().enumerate() {
             let frame = frame(&config, second as u64);
-            let (same, copy) = again
+            let same = again
                 .compare(&frame, &Samples::of(message), message.header.clone())
                 .unwrap();
-            assert_eq!(&same, compared);
+            assert_eq!(&same.compared, compared);
             let bytes = |message| messages::to_cdr(message).unwrap();
-            assert_eq!(bytes(&copy), bytes(message));
+            assert_eq!(bytes(&same.message), bytes(message));
         }
     }
 
@@ -413,7 +400,9 @@ mod tests {
         // Inputs that are not good judge nothing.
         let mut stale = frame(&config, 2);
         stale.input_quality = InputState::Stale as u8;
-        let (compared, _) = rig.compare(&stale, &samples, Header::default()).unwrap();
-        assert!(!compared.steady);
+        let stale = rig.compare(&stale, &samples, Header::default()).unwrap();
+        assert!(!stale.compared.steady);
+        assert_eq!(stale.message.following_held, "calibration.follow is off");
+        assert_eq!(stale.message.estimate_frozen, "an input is not good");
     }
 }

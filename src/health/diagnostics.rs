@@ -5,15 +5,25 @@ use super::alarms::alarms;
 use super::items::{inputs, measured, network, pacing, recording, solver};
 use super::motion::MotionEvidence;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
-use crate::messages::{AlarmList, TwinStatus};
+use crate::messages::{AlarmList, Residuals, TwinStatus};
 use crate::rig_inputs::Measured;
 
-/// All items. `node` is the prefix of their names, as in `node: pacing`; `rig` is what the rig measured, at an instant of
-/// the conditioner's clock (s).
+/// What is known of the rig besides its inputs.
+#[derive(Debug)]
+pub struct RigEvidence<'a> {
+    /// What it measured.
+    pub measured: &'a Measured,
+    /// The present instant of the conditioner's clock (s).
+    pub now: f64,
+    /// The newest comparison with the twin.
+    pub residuals: Option<&'a Residuals>,
+}
+
+/// All items. `node` is the prefix of their names, as in `node: pacing`.
 pub fn items(
     node: &str,
     status: &TwinStatus,
-    rig: (&Measured, f64),
+    rig: &RigEvidence<'_>,
     motion: &MotionEvidence,
     list: &AlarmList,
 ) -> Vec<DiagnosticStatus> {
@@ -21,7 +31,7 @@ pub fn items(
         pacing(status),
         solver(status),
         inputs(status),
-        measured(rig.0, rig.1),
+        measured(rig),
         motion.whirl(),
         motion.stick_slip(),
         motion.shock(),
@@ -73,7 +83,11 @@ mod tests {
         let items = items(
             "n",
             status,
-            (&Measured::default(), 0.0),
+            &RigEvidence {
+                measured: &Measured::default(),
+                now: 0.0,
+                residuals: None,
+            },
             &MotionEvidence::default(),
             &list,
         );
@@ -175,7 +189,11 @@ mod tests {
             let items = items(
                 "n",
                 &running(),
-                (&Measured::default(), 0.0),
+                &RigEvidence {
+                    measured: &Measured::default(),
+                    now: 0.0,
+                    residuals: None,
+                },
                 &MotionEvidence::default(),
                 &list,
             );
@@ -221,7 +239,11 @@ mod tests {
         let items = items(
             "n",
             &resumed,
-            (&Measured::default(), 0.0),
+            &RigEvidence {
+                measured: &Measured::default(),
+                now: 0.0,
+                residuals: None,
+            },
             &motion,
             &AlarmList::default(),
         );

@@ -1,10 +1,13 @@
 //! The items of `/diagnostics` whose figures are in the status: pacing, solver, inputs, recording, network.
 
+use super::diagnostics::RigEvidence;
 use super::item::{Item, figure, figure_in};
 use crate::alarms::{AlarmId, another_of_this_name, not_in_real_time};
-use crate::messages::{TwinStatus, words};
-use crate::rig_inputs::Measured;
+use crate::messages::{Residuals, TwinStatus, words};
 use flexdrill_core::inputs::{InputKind, MeasuredKind};
+
+/// Said of a rig whose measured values were not compared with the twin yet.
+const NOT_COMPARED: &str = "nothing: rig and twin were not compared yet";
 
 pub(super) fn pacing(status: &TwinStatus) -> Item {
     let calm = match (status.state, status.pace) {
@@ -68,9 +71,9 @@ pub(super) fn solver(status: &TwinStatus) -> Item {
     }
 }
 
-/// What the rig measures besides the inputs, at an instant of the conditioner's clock (s). It drives nothing, so that no
-/// alarm belongs to it.
-pub(super) fn measured(measured: &Measured, now: f64) -> Item {
+/// What the rig measures besides the inputs, and what follows it. Its alarm, `rig_disagrees`, is among the inputs.
+pub(super) fn measured(rig: &RigEvidence<'_>) -> Item {
+    let RigEvidence { measured, now, .. } = *rig;
     let newest = |kind| measured.newest(kind).map(|value| (kind, value));
     let given: Vec<String> = MeasuredKind::ALL
         .into_iter()
@@ -101,8 +104,30 @@ pub(super) fn measured(measured: &Measured, now: f64) -> Item {
             ("newest refusal", refusal.unwrap_or_else(|| "none".to_owned())),
             ("messages unreadable", unreadable.to_string()),
             ("messages that came too fast to be taken", overrun.to_string()),
+            (
+                "follows the rig",
+                rig.residuals.map_or_else(|| NOT_COMPARED.to_owned(), followed),
+            ),
         ],
     }
+}
+
+/// What follows the rig, how far it has moved, and why it does not move.
+fn followed(newest: &Residuals) -> String {
+    if !newest.following {
+        return format!("nothing: {}", newest.following_held);
+    }
+    let held = match newest.following_held.as_str() {
+        "" => String::new(),
+        held => format!("; held: {held}"),
+    };
+    format!(
+        "friction factor {}, configured {}; torque tare {}, configured {}{held}",
+        figure(newest.applied_friction_factor, 3),
+        figure(newest.configured_friction_factor, 3),
+        figure_in(newest.applied_torque_tare, 1, "N m"),
+        figure_in(newest.configured_torque_tare, 1, "N m"),
+    )
 }
 
 pub(super) fn inputs(status: &TwinStatus) -> Item {

@@ -9,23 +9,23 @@ use tokio::sync::oneshot;
 
 use super::NodeError;
 use super::advisor::Advisor;
-use super::publish::{PublisherParts, Sinks};
+use super::publish::PublisherParts;
+use super::sinks::Sinks;
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
-use crate::compare::RigComparison;
 use crate::window::SafeWindow;
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
-use flexdrill_core::twin::{Frame, Snapshot};
+use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::outputs::Encoded;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
     AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest,
-    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, builtin_interfaces, topics, words,
+    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, words,
 };
 use flexdrill_realtime::PaceReading;
 use flexdrill_ros2::args::ArgsError;
@@ -200,23 +200,6 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
     };
     let time = parts.clocks.rig_time();
     parts.alarms.observe_node(&state, time);
-}
-
-/// Compares a frame with what the rig has measured, once per second of model time: publishes the residuals and judges
-/// their alarm.
-pub(super) fn compare_with_rig(parts: &mut PublisherParts, rig: &mut RigComparison, frame: &Frame, stamp: Time) {
-    if !rig.is_due(frame.ticks) {
-        return;
-    }
-    let samples = parts.inputs.with_measured(|measured| rig.samples(measured, stamp));
-    let header = Header {
-        stamp: builtin_interfaces::Time::from_nanoseconds(stamp),
-        frame_id: parts.config.outputs.frame_id.clone(),
-    };
-    if let Some((compared, message)) = rig.compare(frame, &samples, header) {
-        parts.send_message(&topics::RESIDUALS, &message, stamp);
-        parts.alarms.observe_rig(&compared, samples.bit_depth, stamp);
-    }
 }
 
 /// Publishes the events and the list that are due.

@@ -11,6 +11,7 @@ use tokio::task::JoinSet;
 use super::alarms::{self, AlarmDesk, AlarmRequest};
 use super::clocks::Clocks;
 use super::control::{self, Control, ParameterUpdate};
+use super::following::{self, Moves};
 use super::forecast::ForecastDesk;
 use super::inputs::RigInputs;
 use super::publish::{Publisher, PublisherParts};
@@ -52,6 +53,7 @@ pub(super) struct PreparedNode {
     inputs: RigInputs,
     parameters: Arc<Parameters>,
     parameter_updates: Receiver<ParameterUpdate>,
+    moves: Moves,
     alarm_requests: Receiver<AlarmRequest>,
     answering: Answering,
     /// Services and `/clock`.
@@ -109,9 +111,11 @@ impl PreparedNode {
             |client| Driver::from(client).to_string(),
         );
 
+        let (moves, followed) = following::serve(&parameters, &control);
         let mapping = setup.mapping;
         let service_name = |name: &str| setup.service_name(name);
         let mut tasks = flexdrill_ros2::parameters::serve(&mut port, mapping, &parameters);
+        tasks.push(followed);
         tasks.extend(loggers::serve(&mut port, mapping, &node_name));
         tasks.push(Box::pin(type_description::serve(&mut port, mapping, &node_name)));
         tasks.extend(control::serve(&mut port, mapping, &control, service_name)?);
@@ -173,6 +177,7 @@ impl PreparedNode {
             inputs,
             parameters,
             parameter_updates,
+            moves,
             alarm_requests,
             answering,
             tasks,
@@ -257,6 +262,7 @@ impl PreparedNode {
             finish: Arc::clone(&finish),
             window: self.window,
             forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
+            moves: self.moves,
         })
         .map_err(|error| NodeError::Stopped(error.to_string()))?;
         let publisher_thread = spawn("publisher", move || publisher.run())?;

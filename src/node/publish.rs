@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::alarms::{self, AlarmDesk};
 use super::clocks::Clocks;
 use super::control::ParameterUpdate;
+use super::following::{self, Moves};
 use super::forecast::ForecastDesk;
 use super::inputs::RigInputs;
 use super::publishers::Publishers;
@@ -17,7 +18,7 @@ use super::thinned::{Share, Thinned};
 use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
 use crate::compare::RigComparison;
-use crate::health::diagnostics;
+use crate::health::diagnostics::{self, RigEvidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
 use crate::live::LiveServer;
@@ -29,8 +30,8 @@ use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::diagnostic_msgs::DiagnosticArray;
 use flexdrill_messages::outputs::{Encoded, Outputs, ParameterChange};
 use flexdrill_messages::std_msgs::{Float64, Header};
-use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{CdrError, Message, TwinStatus, to_cdr};
+use flexdrill_messages::topics;
+use flexdrill_messages::{CdrError, Residuals, TwinStatus, to_cdr};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::Monitor;
@@ -81,6 +82,8 @@ pub struct PublisherParts {
     pub window: Option<Arc<SafeWindow>>,
     /// Forecasts and what came; none where they are off.
     pub forecasts: Option<ForecastDesk>,
+    /// Takes the moves of what follows the rig.
+    pub moves: Moves,
 }
 
 /// Publishes the run.
@@ -105,6 +108,8 @@ pub struct Publisher {
     /// The last failure was logged.
     failure_logged: bool,
     rig: RigComparison,
+    /// The newest comparison of rig and twin.
+    residuals: Option<Residuals>,
 }
 
 impl Publisher {
@@ -118,6 +123,7 @@ impl Publisher {
         Ok(Self {
             thinned: Thinned::new(&parts.config),
             rig: RigComparison::new(&parts.config),
+            residuals: None,
             parts,
             outputs: None,
             status,
@@ -256,7 +262,8 @@ impl Publisher {
                 if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
                     let stamp = outputs.instant(frame.ticks);
                     self.parts.alarms.observe_tool(&frame.snapshot, stamp);
-                    alarms::compare_with_rig(&mut self.parts, &mut self.rig, &frame, stamp);
+                    let compared = following::compare_with_rig(&mut self.parts, &mut self.rig, &frame, stamp);
+                    self.residuals = compared.or(self.residuals.take());
                 }
                 // The ring has room for all frames in circulation, so that this cannot fail.
                 let _ = self.parts.end.empty.push(frame);
@@ -308,6 +315,10 @@ impl Publisher {
         for update in acting {
             values.extend(update.values);
             self.parts.config = update.config;
+        }
+        self.rig.reconfigure(&self.parts.config);
+        if inputs.reset {
+            self.rig.restart();
         }
         self.parts.alarms.reconfigure(&self.parts.config);
         self.thinned.reconfigure(inputs.schedule, &self.parts.config);
@@ -411,10 +422,14 @@ impl Publisher {
     fn send_diagnostics(&mut self) {
         let alarms = self.parts.alarms.list(self.header());
         let intake = self.parts.inputs.snapshot();
-        let rig = (intake.measured(), self.parts.clocks.age_time());
+        let rig = RigEvidence {
+            measured: intake.measured(),
+            now: self.parts.clocks.age_time(),
+            residuals: self.residuals.as_ref(),
+        };
         let message = DiagnosticArray {
             header: self.header(),
-            status: diagnostics::items(&self.parts.node_name, &self.newest_status, rig, &self.motion, &alarms),
+            status: diagnostics::items(&self.parts.node_name, &self.newest_status, &rig, &self.motion, &alarms),
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
     }
@@ -442,54 +457,6 @@ impl Publisher {
         Header {
             stamp: Time::from_nanoseconds(self.instant()),
             frame_id: self.parts.config.outputs.frame_id.clone(),
-        }
-    }
-}
-
-impl PublisherParts {
-    fn send(&self, encoded: Encoded<'_>) -> Result<(), CdrError> {
-        self.publishers.publish(encoded.topic, encoded.cdr);
-        self.sinks().write(encoded);
-        Ok(())
-    }
-
-    fn sinks(&self) -> Sinks<'_> {
-        Sinks {
-            recording: self.recording.as_ref(),
-            live: self.live.as_ref(),
-        }
-    }
-
-    pub(super) fn send_message<M: Message>(&self, topic: &'static TopicInfo, message: &M, stamp: i64) {
-        match to_cdr(message) {
-            // Sending counts a message that finds a queue full, and returns no error.
-            Ok(cdr) => drop(self.send(Encoded {
-                topic,
-                stamp,
-                cdr: &cdr,
-            })),
-            Err(error) => tracing::error!("{error}"),
-        }
-    }
-}
-
-/// The recording and the viewers, which get the bytes of every message. Writing to them never waits.
-#[derive(Clone, Copy)]
-pub(super) struct Sinks<'a> {
-    pub(super) recording: Option<&'a RecordingThread>,
-    pub(super) live: Option<&'a LiveServer>,
-}
-
-impl Sinks<'_> {
-    /// Writes a message.
-    pub(super) fn write(&self, Encoded { topic, stamp, cdr }: Encoded<'_>) {
-        if let Some(recording) = self.recording {
-            recording.record(topic, stamp, cdr);
-        }
-        if let Some(live) = self.live
-            && let Some(number) = topics::ALL.iter().position(|known| known.name == topic.name)
-        {
-            live.publish(number, stamp, cdr);
         }
     }
 }

@@ -12,6 +12,7 @@ mod common;
 mod calibration;
 mod earlier;
 mod field_log;
+mod following;
 mod logs;
 mod measured;
 mod report;

@@ -11,7 +11,8 @@
 //! - [`smoother`]: the ensemble smoother with multiple data assimilation (ES-MDA).
 //! - [`identify`]: what the data determine, what they do not, and pairs of which they determine one combination only.
 //! - [`fit`]: all of it in one call.
-//! - [`follow`]: the recursive estimate of friction and tare while drilling.
+//! - [`follow`]: the recursive estimate of friction and tare while drilling. [`following`]: the twin's parameters on their
+//!   way to it, within limits.
 //! - [`residual`]: measured less predicted with its band. [`monitor`]: the comparison of rig and twin while drilling.
 //!
 //! # Sources
@@ -22,6 +23,7 @@ pub mod design;
 mod error;
 pub mod fit;
 pub mod follow;
+pub mod following;
 pub mod identify;
 pub mod monitor;
 pub mod noise;

@@ -170,6 +170,11 @@ impl Monitor {
         }
     }
 
+    /// Replaces the offsets of the sensors from the next reading on.
+    pub fn set_tare(&mut self, tare: [f64; Quantity::COUNT]) {
+        self.settings.tare = tare;
+    }
+
     /// Takes a reading.
     pub fn push(&mut self, reading: &Reading) -> Compared {
         let steady = self.is_steady(reading);

@@ -5,13 +5,17 @@ use super::section::section;
 
 section! {
     /// What `flexdrill calibrate` fits to a log, with the ranges that are known beforehand, and what follows the rig while
-    /// it drills. Without effect on the model until a value is fitted.
+    /// it drills. Of these keys only `friction_factor` acts on the model.
     #[derive(Copy)]
     pub struct Calibration(this) {
-        /// Reserved, without effect: the running estimate of friction and tare is published (`twin/residuals`) and changes
-        /// nothing. Default false.
+        /// Whether `friction_factor` and `torque_tare_nm` follow the running estimate of `twin/residuals`, within
+        /// `follow_limits` and `follow_tare_limit_nm`. Default false: the estimate is published and changes nothing.
         follow: bool = false;
-        /// Offset of the surface torque's sensor (N m): what it shows without torque. Default 0.
+        /// Factor on the friction coefficients of both layers (`contact.inner`, `contact.outer`). With `follow` the node
+        /// changes it while it drills. Default 1.
+        friction_factor: f64 = 1.0, above(0.0, 1e3), "", "a coefficient is positive";
+        /// Offset of the surface torque's sensor (N m): what it shows without torque. With `follow` the node changes it while
+        /// it drills. Default 0.
         torque_tare_nm: f64 = 0.0, within(-1e5, 1e5), "N m", "an offset beyond any top drive's torque is a defect";
         /// Offset of the hook load's sensor (kN). Default 0.
         hook_load_tare_kn: f64 = 0.0, within(-1e4, 1e4), "kN", "an offset beyond any hook's load is a defect";
@@ -42,10 +46,18 @@ section! {
         downhole_weight_noise_kn: f64 = 0.4, above(0.0, 1e4), "kN", "no sensor is without noise";
         /// Error of the twin's torque and hook load, as a share (standard deviation).
         model_error: f64 = 0.05, above(0.0, 1.0), "", "no model is exact; an error of 1 compares nothing";
-        /// Limits of the running estimate of friction, as a factor on the configured one.
+        /// Limits of the running estimate of friction and of `friction_factor` while it follows.
         follow_limits: Range = Range::new(0.5, 2.0);
-        /// Largest change of that factor per minute.
+        /// Largest change of `friction_factor` per minute.
         follow_rate: f64 = 0.02, above(0.0, 1.0), "1/min", "faster than friction changes in a well";
+        /// Half of the 90 % band of the estimated friction factor above which nothing follows. A time off bottom narrows it.
+        follow_band: f64 = 0.15, above(0.0, 1.0), "", "a band of the factor itself says nothing";
+        /// Largest distance of the followed torque tare from the configured one (N m).
+        follow_tare_limit_nm: f64 = 200.0, above(0.0, 1e5), "N m", "a larger offset is a defect of the sensor";
+        /// Largest change of the torque tare per minute (N m/min).
+        follow_tare_rate_nm: f64 = 5.0, above(0.0, 1e4), "N m/min", "faster than any sensor drifts";
+        /// Half of the 90 % band of the estimated torque tare above which nothing follows (N m).
+        follow_tare_band_nm: f64 = 15.0, above(0.0, 1e5), "N m", "without a limit any guess would act";
     }
 }
 
@@ -84,13 +96,14 @@ impl Calibration {
             c.below(key, |c| range.check_numbers(c));
         }
         c.below("follow_limits", |c| {
+            let factor = self.friction_factor;
             c.require(
-                self.follow_limits.low <= 1.0 && self.follow_limits.high >= 1.0,
+                self.follow_limits.low <= factor && factor <= self.follow_limits.high,
                 "low",
                 self.follow_limits.low,
                 "",
-                "at most 1, with high at least 1",
-                "the factor begins at 1",
+                format!("at most calibration.friction_factor ({factor}), with high at least that"),
+                "the factor begins there",
             );
         });
     }

@@ -94,7 +94,7 @@ pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
 use checker::Checker;
 use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_core::motion::WhirlSettings;
-use flexdrill_core::tool::{FrictionLaw, LiveParameters, ToolDescription};
+use flexdrill_core::tool::{FrictionLaw, GapDescription, LiveParameters, ToolDescription};
 use flexdrill_core::twin::SimulationSettings;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use lines::Lines;
@@ -328,8 +328,7 @@ impl Config {
             tool.joint = self.tool.joint.describe();
             tool.shortening = self.tool.shortening;
             tool.rayleigh = self.tool.damping.describe();
-            tool.inner = self.contact.inner.describe();
-            tool.outer = self.contact.outer.describe();
+            [tool.inner, tool.outer] = self.layers();
             tool.slip_speed = self.contact.slip_speed;
             tool.bit = self.tool.bit.describe();
             tool.gravity = self.environment.effective_gravity();
@@ -397,12 +396,23 @@ impl Config {
         })
     }
 
+    /// Both layers of contact, with the factor on their friction.
+    fn layers(&self) -> [GapDescription; 2] {
+        [&self.contact.inner, &self.contact.outer].map(|layer| {
+            let mut layer = layer.describe();
+            layer.friction_tangential *= self.calibration.friction_factor;
+            layer.friction_axial *= self.calibration.friction_factor;
+            layer
+        })
+    }
+
     /// Parameters that may change while running, as configured.
     pub fn live(&self) -> LiveParameters {
-        let (inner, outer) = (&self.contact.inner, &self.contact.outer);
+        let friction = |layer: &GapDescription| [layer.friction_tangential, layer.friction_axial];
+        let [inner, outer] = self.layers();
         LiveParameters {
-            inner_friction: [inner.friction_tangential, inner.friction_axial],
-            outer_friction: [outer.friction_tangential, outer.friction_axial],
+            inner_friction: friction(&inner),
+            outer_friction: friction(&outer),
             bit_friction_factor: self.tool.bit.friction_factor,
         }
     }

@@ -58,6 +58,11 @@ impl Config {
         let mut motion = of(&tree, SECTIONS);
         let alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
         motion.insert("alarms".to_owned(), Value::Object(alarms));
+        // A factor of 1 changes nothing, and a file without one has the hash that it had before the key existed.
+        let factor = self.calibration.friction_factor;
+        if factor != 1.0 {
+            motion.insert("friction_factor".to_owned(), Value::from(factor));
+        }
         // As for `hash`: plain numbers, strings and lists can be serialised.
         hex_of(&serde_json::to_vec(&motion).unwrap_or_default())
     }
@@ -67,7 +72,7 @@ impl Config {
 mod tests {
     use super::*;
 
-    /// Sections that change neither the motion nor its levels.
+    /// Sections that change neither the motion nor its levels, but for the factor of friction in `calibration`.
     const OTHERS: &[&str] = &[
         "run",
         "inputs",
@@ -111,12 +116,14 @@ mod tests {
             ("run.title", Value::from("another")),
             ("inputs.rotary_speed.max_rpm", Value::from(100.0)),
             ("alarms.longest_shelving", Value::from(60.0)),
+            ("calibration.follow", Value::from(true)),
         ] {
             assert_eq!(other(key, value).motion_hash(), hash, "{key}");
         }
         for (key, value) in [
             ("well.hole_diameter", Value::from(0.12)),
             ("contact.inner.friction_tangential", Value::from(0.31)),
+            ("calibration.friction_factor", Value::from(1.1)),
             ("alarms.shock.on_delay", Value::from(3.0)),
             ("stick_slip.gate_speed_rpm", Value::from(12.0)),
         ] {

@@ -1342,8 +1342,8 @@ pub mod flexdrill {
         pub drilling: bool,
         /// Measured depth of the bit, from the rig's own zero (m); NaN where the rig does not give it.
         pub bit_depth: f64,
-        /// Running estimate, from the surface torque in steady motion, of the friction in both layers over the configured one, with
-        /// its 90 % band. It is published only: no parameter of the model changes.
+        /// Running estimate, from the surface torque in steady motion, of calibration.friction_factor: the friction in both layers
+        /// over that of contact.inner and contact.outer, with its 90 % band.
         pub friction_factor: f64,
         pub friction_factor_low: f64,
         pub friction_factor_high: f64,
@@ -1351,11 +1351,21 @@ pub mod flexdrill {
         pub torque_tare: f64,
         pub torque_tare_low: f64,
         pub torque_tare_high: f64,
-        /// Why the newest sample changed neither: a value is missing, the motion is not steady, or the sample is far from what is
-        /// expected. Empty where it changed them.
+        /// Why the newest sample changed neither: an input is not good, the motion is not steady, a value is missing, or the sample
+        /// is far from what is expected. Empty where it changed them.
         pub estimate_frozen: std::string::String,
         /// What the residuals that are surely beyond their bands may mean, the likeliest first.
         pub likely_causes: Vec<std::string::String>,
+        /// Whether the twin's friction and the tare follow the running estimate (calibration.follow).
+        pub following: bool,
+        /// Factor on the friction of both layers that acts in the model: calibration.friction_factor in force and as configured.
+        pub applied_friction_factor: f64,
+        pub configured_friction_factor: f64,
+        /// The same of calibration.torque_tare_nm (N m).
+        pub applied_torque_tare: f64,
+        pub configured_torque_tare: f64,
+        /// Why both did not move at this comparison, or move no further. Empty where they follow.
+        pub following_held: std::string::String,
     }
 
     impl Message for Residuals {
@@ -1363,7 +1373,7 @@ pub mod flexdrill {
         const NAME: &'static str = "Residuals";
         const ROS_TYPE: &'static str = "flexdrill/msg/Residuals";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Residuals_";
-        const RIHS01: &'static str = "RIHS01_fb7be46385c6ab9dd66ec52c8036f83a7a626ea54b9c9fd20a2fc419efdc6ae6";
+        const RIHS01: &'static str = "RIHS01_a8aeafd2f76f3982f0310949b863830f17cb520c060d3a898efed1160dc4d6e2";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/Residuals.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1373,7 +1383,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: flexdrill/Residual\n",
             include_str!("../../../msg/Residual.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Residuals", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "residuals", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/Residual"}}, {"name": "steady", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drilling", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "estimate_frozen", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "likely_causes", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Residuals", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "residuals", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/Residual"}}, {"name": "steady", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drilling", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factor_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_tare_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "estimate_frozen", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "likely_causes", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "following", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "applied_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "configured_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "applied_torque_tare", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "configured_torque_tare", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "following_held", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// The inputs of the rig with the time of their measurement, for rigs that provide it; the topics rig/rotary_speed_rpm,

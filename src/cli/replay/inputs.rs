@@ -71,7 +71,14 @@ pub(super) fn replay(
                 }
             }
         }
+        let changes = player.take_followed();
+        if !changes.is_empty() {
+            let values = changes.iter().map(|change| (&change.name, change.value));
+            let followed = player.config().with_values("what follows the rig", values)?;
+            player.reconfigure(followed);
+        }
         let inputs = RunInputs {
+            live: player.config().live(),
             inputs: conditioner.targets(now),
             input_quality: conditioner.quality(now) as u8,
             refinement: player.wanted_refinement(),
@@ -83,8 +90,8 @@ pub(super) fn replay(
                 ..inputs
             } == applied
         });
-        if !same {
-            player.apply(&inputs, &[], applied.is_none())?;
+        if !same || !changes.is_empty() {
+            player.apply(&inputs, &changes, applied.is_none())?;
             applied = Some(inputs);
         }
         for _ in 0..per_period.min(steps - player.step()) {

@@ -9,11 +9,13 @@ use anyhow::{Context as _, bail};
 use super::summary::Tally;
 use crate::alarms::AlarmBook;
 use crate::bag::{BagError, Recorder, Recording, Topic};
+use crate::cli::output::tell;
 use crate::cli::source::MeasuredSample;
-use crate::compare::{RigComparison, Samples};
+use crate::compare::{self, RigComparison, Samples};
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::messages::{CdrError, to_cdr};
+use crate::rig_inputs::Measured;
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
@@ -35,6 +37,17 @@ enum WriteError {
     Bag(#[from] BagError),
 }
 
+/// Refused messages of measured values that are reported one by one.
+const REFUSALS_SHOWN: u64 = 10;
+
+/// What the rig measured, for the comparison with the twin.
+enum RigSource {
+    /// The newest values, as a node keeps them.
+    Received(Measured),
+    /// What a recorded run was compared with, by stamp (ns since 1970), the oldest first.
+    Recorded(VecDeque<(i64, Samples)>),
+}
+
 /// A run that is recorded into a bag.
 pub(super) struct Player {
     run: Run,
@@ -45,8 +58,9 @@ pub(super) struct Player {
     outputs: Outputs,
     alarms: AlarmBook,
     rig: RigComparison,
-    /// What the rig had measured at each comparison, by its stamp, the oldest first.
-    samples: VecDeque<(i64, Samples)>,
+    source: RigSource,
+    /// Values of what follows the rig, in force and to be, since they were taken last.
+    moved: Option<[[f64; 2]; 2]>,
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
     /// What the rig measured, not yet in the bag, the newest first.
@@ -95,7 +109,8 @@ impl Player {
             run,
             outputs: Outputs::new(&config, start),
             rig: RigComparison::new(&config),
-            samples: VecDeque::new(),
+            source: RigSource::Received(Measured::default()),
+            moved: None,
             alarms: AlarmBook::fresh(Arc::new(config.clone()), start),
             initial_rates: config.outputs.rates,
             config,
@@ -112,9 +127,17 @@ impl Player {
         Ok(player)
     }
 
-    /// Compares the run with what the rig had measured at these stamps (ns since 1970), the oldest first.
+    /// Compares the run at these stamps (ns since 1970), the oldest first, with what a recorded run was compared with,
+    /// instead of with the measured values.
     pub(super) fn compare_with(&mut self, samples: impl IntoIterator<Item = (i64, Samples)>) {
-        self.samples = samples.into_iter().collect();
+        self.source = RigSource::Recorded(samples.into_iter().collect());
+    }
+
+    /// The parameters that are to follow the rig from now on, as changes; none where none moves. A recorded run has them
+    /// among its inputs.
+    pub(super) fn take_followed(&mut self) -> Vec<ParameterChange> {
+        let moved = self.moved.take();
+        moved.map_or_else(Vec::new, |[from, to]| compare::changes(from, to))
     }
 
     /// Steps taken since the start or the last reset.
@@ -146,6 +169,7 @@ impl Player {
     pub(super) fn reconfigure(&mut self, config: Config) {
         self.outputs.reconfigure(&config);
         self.alarms.reconfigure(&Arc::new(config.clone()));
+        self.rig.reconfigure(&config);
         self.config = config;
     }
 
@@ -168,6 +192,7 @@ impl Player {
             .applied(inputs, changes, ticks, |encoded| write(recorder, topics, encoded))?;
         if inputs.reset {
             self.tally.resets += 1;
+            self.rig.restart();
         }
         if first || inputs.reset { self.capture() } else { Ok(()) }
     }
@@ -218,24 +243,8 @@ impl Player {
             );
             self.alarms.advance(stamp);
             self.alarms.observe_tool(&self.frame.snapshot, stamp);
-            while self.samples.front().is_some_and(|(at, _)| *at < stamp) {
-                self.samples.pop_front();
-            }
-            if let Some((_, samples)) = self.samples.pop_front_if(|(at, _)| *at == stamp)
-                && let Some((compared, message)) = self.rig.compare(&self.frame, &samples, header.clone())
-            {
-                let cdr = to_cdr(&message)?;
-                write(
-                    recorder,
-                    topics,
-                    Encoded {
-                        topic: &topics::RESIDUALS,
-                        stamp,
-                        cdr: &cdr,
-                    },
-                )?;
-                self.alarms.observe_rig(&compared, samples.bit_depth, stamp);
-            }
+            self.compare_with_rig(stamp)?;
+            let (recorder, topics) = (&mut self.recorder, &self.topics);
             let events = self
                 .alarms
                 .publish(header, stamp, |encoded| write(recorder, topics, encoded))?;
@@ -246,12 +255,56 @@ impl Player {
         Ok(())
     }
 
-    /// Records what the rig measured up to an instant (ns since 1970).
+    /// Compares the frame with what the rig has measured, once per second of model time.
+    fn compare_with_rig(&mut self, stamp: i64) -> anyhow::Result<()> {
+        let samples = match &mut self.source {
+            RigSource::Received(measured) => self
+                .rig
+                .is_due(self.frame.ticks)
+                .then(|| self.rig.samples(measured, stamp)),
+            RigSource::Recorded(samples) => {
+                while samples.front().is_some_and(|(at, _)| *at < stamp) {
+                    samples.pop_front();
+                }
+                samples.pop_front_if(|(at, _)| *at == stamp).map(|(_, samples)| samples)
+            }
+        };
+        let Some(samples) = samples else { return Ok(()) };
+        let header = self.outputs.header_at(self.frame.ticks);
+        let Some(comparison) = self.rig.compare(&self.frame, &samples, header) else {
+            return Ok(());
+        };
+        let encoded = Encoded {
+            topic: &topics::RESIDUALS,
+            stamp,
+            cdr: &to_cdr(&comparison.message)?,
+        };
+        write(&mut self.recorder, &self.topics, encoded)?;
+        self.alarms.observe_rig(&comparison.compared, samples.bit_depth, stamp);
+        self.tally.rig.observe(&comparison.message);
+        if let Some(stopped) = comparison.stopped {
+            tell!("calibration.follow: {stopped}; it follows no further");
+        }
+        self.moved = comparison.moved;
+        Ok(())
+    }
+
+    /// Records what the rig measured up to an instant (ns since 1970), and keeps it for the comparison.
     ///
     /// # Errors
     /// When the bag cannot be written.
     pub(super) fn record_measured(&mut self, until: i64) -> anyhow::Result<()> {
         while let Some(sample) = self.measured.pop_if(|sample| sample.time <= until) {
+            if let RigSource::Received(measured) = &mut self.source {
+                let since_start = sample.time.saturating_sub(self.outputs.instant(0)) as f64 * 1e-9;
+                let skew = self.config.inputs.stamp.max_skew;
+                let accepted = measured.accept(&sample.message, sample.time, since_start, skew);
+                let [_, refused, ..] = measured.counts();
+                match accepted {
+                    Err(why) if refused <= REFUSALS_SHOWN => tell!("at {since_start:.2} s: {why}"),
+                    _ => {}
+                }
+            }
             let encoded = Encoded {
                 topic: &topics::RIG_MEASURED,
                 stamp: sample.time,
@@ -264,6 +317,12 @@ impl Player {
 
     /// Ends the bag.
     pub(super) fn finish(mut self) -> anyhow::Result<(Recording, Tally)> {
+        if let RigSource::Received(measured) = &self.source {
+            let [_, refused, ..] = measured.counts();
+            if refused > REFUSALS_SHOWN {
+                tell!("{refused} messages of measured values were refused in total");
+            }
+        }
         self.tally.alarms.finish(self.alarms.figures());
         self.tally.phases(self.run.simulation().phase_times());
         let recording = self.recorder.finish().context("the bag could not be finished")?;

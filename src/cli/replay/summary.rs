@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::alarms::AlarmTally;
 use crate::cli::output::say;
-use crate::messages::words;
+use crate::messages::{Residuals, words};
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
 use flexdrill_core::motion::{Ageing, Episode, EpisodeLog, Observation, ToolLocation};
 use flexdrill_core::tool::Body;
@@ -40,6 +40,8 @@ pub(super) struct Tally {
     pub resets: u64,
     /// Alarms and their figures.
     pub alarms: AlarmTally,
+    /// What the rig measured against what the twin computed.
+    pub rig: RigTally,
     steps: u64,
     iterations: u64,
     halvings: BTreeMap<u32, u64>,
@@ -89,6 +91,51 @@ impl QualityTally {
         }
         let share = 100.0 * self.judged[level as usize] as f64 / all as f64;
         format!("{level} for {share:.0} % of the time: {}", self.worst)
+    }
+}
+
+/// The comparison of rig and twin over the replay.
+#[derive(Debug, Default)]
+pub(super) struct RigTally {
+    comparisons: u64,
+    judged: u64,
+    /// Judged comparisons with a residual beyond its band.
+    beyond: u64,
+    newest: Option<Residuals>,
+}
+
+impl RigTally {
+    /// Counts a comparison.
+    pub(super) fn observe(&mut self, message: &Residuals) {
+        let ratios = message.residuals.iter().map(|of| of.ratio.abs());
+        let worst = ratios.filter(|ratio| ratio.is_finite()).max_by(f64::total_cmp);
+        self.comparisons += 1;
+        self.judged += u64::from(worst.is_some());
+        self.beyond += u64::from(worst.is_some_and(|worst| worst > 1.0));
+        self.newest = Some(message.clone());
+    }
+
+    /// What was judged, and what has followed the rig; none where the rig measured nothing.
+    fn text(&self) -> Option<(String, Option<String>)> {
+        let newest = self.newest.as_ref()?;
+        let judged = format!(
+            "{} comparisons, {} judged, {} of them beyond a band",
+            self.comparisons, self.judged, self.beyond
+        );
+        let held = match newest.following_held.as_str() {
+            "" => String::new(),
+            held => format!("; {held}"),
+        };
+        let followed = newest.following.then(|| {
+            format!(
+                "friction factor {:.3} (configured {}), torque tare {:.1} N m (configured {}){held}",
+                newest.applied_friction_factor,
+                newest.configured_friction_factor,
+                newest.applied_torque_tare,
+                newest.configured_torque_tare
+            )
+        });
+        Some((judged, followed))
     }
 }
 
@@ -302,6 +349,12 @@ impl Tally {
             row("fastest ageing", self.wear.joints());
             row("work of friction", self.wear.friction());
             row("rejected sub-steps", last.rejected.to_string());
+            if let Some((judged, followed)) = self.rig.text() {
+                row("rig against twin", judged);
+                if let Some(followed) = followed {
+                    row("follows the rig", followed);
+                }
+            }
             row("whirl warnings", format!("{} changes of level", last.warnings));
         }
     }

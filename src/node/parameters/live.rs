@@ -6,7 +6,9 @@ pub const USE_SIM_TIME: &str = "use_sim_time";
 pub const CONFIG_FILE: &str = "config_file";
 
 /// Keys of parameters that may change while running: exact, or a group that ends with a dot.
-const LIVE: [&str; 16] = [
+const LIVE: [&str; 18] = [
+    "calibration.friction_factor",
+    "calibration.torque_tare_nm",
     "contact.inner.friction_tangential",
     "contact.inner.friction_axial",
     "contact.outer.friction_tangential",
@@ -76,6 +78,9 @@ mod tests {
             ("contact.inner.friction_axial", true),
             ("contact.inner.stiffness", false),
             ("tool.bit.friction_factor", true),
+            ("calibration.friction_factor", true),
+            ("calibration.torque_tare_nm", true),
+            ("calibration.follow", false),
             ("tool.links", false),
             ("solver.time_step", false),
             ("inputs.rotary_speed.slew_rpm_per_s", true),

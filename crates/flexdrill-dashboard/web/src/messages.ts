@@ -962,8 +962,8 @@ export interface Residuals {
   /** Measured depth of the bit, from the rig's own zero (m); NaN where the rig does not give it. */
   bit_depth: number;
   /**
-   * Running estimate, from the surface torque in steady motion, of the friction in both layers over the configured one, with
-   * its 90 % band. It is published only: no parameter of the model changes.
+   * Running estimate, from the surface torque in steady motion, of calibration.friction_factor: the friction in both layers
+   * over that of contact.inner and contact.outer, with its 90 % band.
    */
   friction_factor: number;
   friction_factor_low: number;
@@ -973,12 +973,22 @@ export interface Residuals {
   torque_tare_low: number;
   torque_tare_high: number;
   /**
-   * Why the newest sample changed neither: a value is missing, the motion is not steady, or the sample is far from what is
-   * expected. Empty where it changed them.
+   * Why the newest sample changed neither: an input is not good, the motion is not steady, a value is missing, or the sample
+   * is far from what is expected. Empty where it changed them.
    */
   estimate_frozen: string;
   /** What the residuals that are surely beyond their bands may mean, the likeliest first. */
   likely_causes: string[];
+  /** Whether the twin's friction and the tare follow the running estimate (calibration.follow). */
+  following: boolean;
+  /** Factor on the friction of both layers that acts in the model: calibration.friction_factor in force and as configured. */
+  applied_friction_factor: number;
+  configured_friction_factor: number;
+  /** The same of calibration.torque_tare_nm (N m). */
+  applied_torque_tare: number;
+  configured_torque_tare: number;
+  /** Why both did not move at this comparison, or move no further. Empty where they follow. */
+  following_held: string;
 }
 /** Reads a `flexdrill/msg/Residuals`. */
 export function decodeResiduals(reader: CdrReader): Residuals {
@@ -996,6 +1006,12 @@ export function decodeResiduals(reader: CdrReader): Residuals {
     torque_tare_high: reader.float64(),
     estimate_frozen: reader.string(),
     likely_causes: reader.many(reader.length(), () => reader.string()),
+    following: reader.bool(),
+    applied_friction_factor: reader.float64(),
+    configured_friction_factor: reader.float64(),
+    applied_torque_tare: reader.float64(),
+    configured_torque_tare: reader.float64(),
+    following_held: reader.string(),
   };
 }
 

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Residual, Residuals } from "../src/messages";
-import { rows, summary, words } from "../src/views/rig";
+import { following, rows, summary, words } from "../src/views/rig";
 
 function residual(name: string, measured: number, predicted: number, band: number): Residual {
   return {
@@ -33,6 +33,12 @@ function message(time: number, torque: number, more: Partial<Residuals> = {}): R
     torque_tare_high: 30,
     estimate_frozen: "",
     likely_causes: [],
+    following: false,
+    applied_friction_factor: 1,
+    configured_friction_factor: 1,
+    applied_torque_tare: 0,
+    configured_torque_tare: 0,
+    following_held: "calibration.follow is off",
     ...more,
   };
 }
@@ -65,4 +71,17 @@ test("the sentence says what is judged and what a difference may mean", () => {
   );
   assert.match(summary(message(0, 340, { steady: false })), /^Not judged: /);
   assert.match(summary(message(0, NaN)), /^Not judged yet/);
+});
+
+test("what follows the rig is shown in force and as configured, with the reason where it is held", () => {
+  const off = following(message(0, 310));
+  assert.equal(off.state, "Nothing follows the rig: calibration.follow is off.");
+  assert.deepEqual(off.rows[0], ["Friction factor", "1.00", "0.80 to 1.20", "1.000", "1.000"]);
+  const on = { following: true, applied_friction_factor: 1.234, applied_torque_tare: 3.21 };
+  const moving = following(message(0, 310, { ...on, following_held: "" }));
+  assert.equal(moving.state, "The twin follows the rig.");
+  assert.equal(moving.rows[0][3], "1.234");
+  assert.deepEqual(moving.rows[1].slice(3), ["3.2", "0.0"]);
+  const held = following(message(0, 310, { ...on, following_held: "the motion is not steady" }));
+  assert.equal(held.state, "The twin follows the rig, held now: the motion is not steady.");
 });

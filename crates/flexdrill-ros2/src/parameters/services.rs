@@ -92,18 +92,30 @@ impl Parameters {
         self.set(&[change], requester)
     }
 
-    /// Sets all of `changes` or none, publishes the event, and logs the change or the refusal with its requester.
-    fn set(&self, changes: &[Parameter], requester: &str) -> Result<(), Refusal> {
-        let result = self.apply(changes, requester);
+    /// Sets all of `changes` or none for `requester`, if the parameters of `from` have the values given there. Returns
+    /// whether they have.
+    ///
+    /// # Errors
+    /// When a value is refused; then nothing has changed.
+    pub fn set_from(&self, from: &[Parameter], changes: &[Parameter], requester: &str) -> Result<bool, Refusal> {
+        let result = self.apply(from, changes, requester);
         if let Err(reason) = &result {
             tracing::warn!("a parameter change was refused: {reason}; asked for by {requester}");
         }
         result
     }
 
-    fn apply(&self, changes: &[Parameter], requester: &str) -> Result<(), Refusal> {
+    /// Sets all of `changes` or none, publishes the event, and logs the change or the refusal with its requester.
+    fn set(&self, changes: &[Parameter], requester: &str) -> Result<(), Refusal> {
+        self.set_from(&[], changes, requester).map(drop)
+    }
+
+    fn apply(&self, from: &[Parameter], changes: &[Parameter], requester: &str) -> Result<bool, Refusal> {
         let (before, changed) = {
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
+            if from.iter().any(|from| store.get(&from.name) != Some(&from.value)) {
+                return Ok(false);
+            }
             let before: Vec<Option<ParameterValue>> = changes.iter().map(|c| store.get(&c.name).cloned()).collect();
             (
                 before,
@@ -120,7 +132,7 @@ impl Parameters {
             observer(&changed);
         }
         self.publish(Vec::new(), changed);
-        Ok(())
+        Ok(true)
     }
 
     fn publish(&self, new: Vec<Parameter>, changed: Vec<Parameter>) {

@@ -56,11 +56,41 @@ export function summary(newest: Residuals): string {
   return `${state}${depth}. Likely ${newest.likely_causes.slice(0, 3).join(", or ")}.`;
 }
 
+/** What follows the rig: estimates with their bands, values in force and as configured, and why they do not move. */
+export function following(of: Residuals): { title: string; rows: string[][]; state: string } {
+  const band = (low: number, high: number, places: number) => `${number(low, places)} to ${number(high, places)}`;
+  const rows = [
+    [
+      "Friction factor",
+      number(of.friction_factor, 2),
+      band(of.friction_factor_low, of.friction_factor_high, 2),
+      number(of.applied_friction_factor, 3),
+      number(of.configured_friction_factor, 3),
+    ],
+    [
+      "Torque tare (N m)",
+      number(of.torque_tare, 0),
+      band(of.torque_tare_low, of.torque_tare_high, 0),
+      number(of.applied_torque_tare, 1),
+      number(of.configured_torque_tare, 1),
+    ],
+  ];
+  if (!of.following) {
+    return { title: "Friction and tare", rows, state: `Nothing follows the rig: ${of.following_held}.` };
+  }
+  const held = of.following_held;
+  const state = held === "" ? "The twin follows the rig." : `The twin follows the rig, held now: ${held}.`;
+  return { title: "Friction and tare follow the rig", rows, state };
+}
+
 export class RigView implements View {
   readonly element: HTMLElement;
   private readonly state = h("p", { class: "hint", id: "rig-state" });
   private readonly said = h("p", { id: "rig-summary" });
   private readonly table = h("tbody", {});
+  private readonly title = h("h3", {});
+  private readonly follows = h("p", { id: "rig-follows" });
+  private readonly estimate = h("tbody", { id: "rig-estimate" });
   private readonly unit = h("span", { class: "hint" });
   private readonly choice: HTMLSelectElement;
   private readonly strip: Strip;
@@ -82,14 +112,23 @@ export class RigView implements View {
       limits: () => [],
       wide: true,
     });
-    const heads = ["", "measured", "expected, 9 of 10", "ratio"].map((text) => h("th", { scope: "col" }, text));
+    const heads = (...texts: string[]) =>
+      h("thead", {}, h("tr", {}, ...texts.map((text) => h("th", { scope: "col" }, text))));
     this.body = h(
       "div",
       {},
       h("div", { class: "row" }, this.choice, this.unit),
       this.strip.element,
       this.said,
-      h("table", { class: "transfer-table" }, h("thead", {}, h("tr", {}, ...heads)), this.table),
+      h("table", { class: "transfer-table" }, heads("", "measured", "expected, 9 of 10", "ratio"), this.table),
+      this.title,
+      this.follows,
+      h(
+        "table",
+        { class: "transfer-table" },
+        heads("", "estimate", "9 of 10", "in force", "configured"),
+        this.estimate,
+      ),
     );
     this.element = h(
       "section",
@@ -137,6 +176,14 @@ export class RigView implements View {
         const beyond = Math.abs(of.ratio) > 1;
         return [h("tr", { "data-beyond": String(beyond) }, h("th", { scope: "row" }, `${label} (${unit})`), ...cells)];
       }),
+    );
+    const { title, rows: estimates, state } = following(newest);
+    setText(this.title, title);
+    setText(this.follows, state);
+    this.estimate.replaceChildren(
+      ...estimates.map(([name, ...values]) =>
+        h("tr", {}, h("th", { scope: "row" }, name), ...values.map((text) => h("td", {}, text))),
+      ),
     );
   }
 }

@@ -1,25 +1,22 @@
 //! Requests of clients that change the run: parameters, reset, pause, checkpoint.
 
-use std::fs::File;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+mod services;
+
+use std::path::PathBuf;
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::NodeError;
 use super::inputs::RigInputs;
 use super::parameters::{reconfigured, refresh_ranges};
 use super::states::{SavedRun, States};
 use flexdrill_config::{Config, HardBounds, Rates};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_messages::outputs::{self, ParameterChange};
-use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use flexdrill_realtime::link::{Command, Gauges, RequestEnd, RunState, Settings};
-use flexdrill_ros2::args::ArgsError;
-use flexdrill_ros2::dds::port::PortBuilder;
 use flexdrill_ros2::parameters::{Parameter, ParameterStore, ParameterValue, Refusal};
-use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task, asked_by, at_once, shared};
+use flexdrill_ros2::service::asked_by;
+pub use services::serve;
 
 /// Least time between two checkpoints: each one delays the solver for a moment.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(1);
@@ -75,10 +72,16 @@ pub enum ControlError {
         /// The error of the system.
         source: std::io::Error,
     },
+    /// The parameters that follow the rig could not be set back.
+    #[error("the model was not reset, because the parameters that follow the rig could not be set back: {0}")]
+    NotRestored(#[from] Refusal),
     /// The task that wrote the file was ended.
     #[error(transparent)]
     Ended(#[from] tokio::task::JoinError),
 }
+
+/// Sets what follows the rig back to its configured values.
+pub type Restore = dyn Fn() -> Result<(), Refusal> + Send + Sync;
 
 /// Sends commands to the solver.
 pub struct Control {
@@ -97,6 +100,8 @@ pub struct Control {
     checkpoint: Mutex<Option<Instant>>,
     /// The state of a managed node that is not active. Model time stands still in it.
     inactive: Mutex<Option<&'static str>>,
+    /// Acts before a reset.
+    restore: OnceLock<Box<Restore>>,
 }
 
 /// The part of a configuration that may change while the solver runs.
@@ -134,6 +139,7 @@ impl Control {
             gauges,
             checkpoint: Mutex::default(),
             inactive: Mutex::default(),
+            restore: OnceLock::new(),
         })
     }
 
@@ -203,11 +209,19 @@ impl Control {
         Ok(())
     }
 
-    /// Resets the model to its state after the start.
+    /// Calls `restore` before every reset. Only the first one counts.
+    pub fn restore_with(&self, restore: Box<Restore>) {
+        let _ = self.restore.set(restore);
+    }
+
+    /// Resets the model to its state after the start, with the configured values of what follows the rig.
     ///
     /// # Errors
     /// When the solver's queue of commands is full.
     pub fn reset(&self) -> Result<(), ControlError> {
+        if let Some(restore) = self.restore.get() {
+            restore()?;
+        }
         tracing::info!("reset: the model returns to its state after the start{}", asked_by());
         self.send(Command::Reset).map(drop)
     }
@@ -249,70 +263,6 @@ impl Control {
         let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
         states.get(|command| self.send(command))
     }
-
-    fn answer_reset(&self) -> TriggerResponse {
-        let done = self.reset();
-        answer(done.map(|()| "the model returns to its state after the start".to_owned()))
-    }
-
-    fn answer_pause(&self, pause: bool) -> SetBoolResponse {
-        let state = if pause { "paused" } else { "running" };
-        let TriggerResponse { success, message } = answer(self.pause(pause).map(|()| state.to_owned()));
-        SetBoolResponse { success, message }
-    }
-
-    async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
-        if self.gauges.run_state() == RunState::Starting {
-            return answer(Err(ControlError::Starting));
-        }
-        {
-            let mut last = self.checkpoint.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(passed) = last
-                .map(|at: Instant| at.elapsed())
-                .filter(|passed| *passed < CHECKPOINT_INTERVAL)
-            {
-                return answer(Err(ControlError::TooOften(passed.as_secs_f64())));
-            }
-            *last = Some(Instant::now());
-        }
-        let saved = tokio::task::spawn_blocking(move || {
-            let SavedRun {
-                checkpoint, applied, ..
-            } = self.state()?;
-            let step = applied.step;
-            let path = PathBuf::from(format!(
-                "flexdrill_{}_step{step}.checkpoint",
-                &self.config().hash()[..12]
-            ));
-            if let Err(source) = write_whole(&path, &checkpoint) {
-                return Err(ControlError::Write { path, source });
-            }
-            let absolute = std::path::absolute(&path).unwrap_or(path);
-            Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
-        });
-        let result = saved.await.unwrap_or_else(|error| Err(error.into()));
-        match &result {
-            Ok(message) => tracing::info!("checkpoint saved: {message}"),
-            Err(why) => tracing::warn!("no checkpoint: {why}"),
-        }
-        answer(result)
-    }
-}
-
-/// Writes a file completely or not at all. The file is on the disk when this returns.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let temporary = path.with_extension("checkpoint.part");
-    let written = File::create(&temporary)
-        .and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        })
-        .and_then(|()| std::fs::rename(&temporary, path));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written
 }
 
 fn number(value: &ParameterValue) -> Option<f64> {
@@ -321,45 +271,6 @@ fn number(value: &ParameterValue) -> Option<f64> {
         ParameterValue::Integer(value) => Some(*value as f64),
         _ => None,
     }
-}
-
-fn answer(result: Result<String, ControlError>) -> TriggerResponse {
-    match result {
-        Ok(message) => TriggerResponse { success: true, message },
-        Err(error) => TriggerResponse {
-            success: false,
-            message: error.to_string(),
-        },
-    }
-}
-
-/// Creates `~/reset`, `~/pause` and `~/save_checkpoint`; `name` makes a private name absolute.
-///
-/// # Errors
-/// When a remapped name is not allowed.
-pub fn serve(
-    port: &mut PortBuilder,
-    mapping: ServiceMapping,
-    control: &Arc<Control>,
-    name: impl Fn(&str) -> Result<String, ArgsError>,
-) -> Result<Vec<Task>, NodeError> {
-    let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
-        let kind = format!("std_srvs/srv/{kind}");
-        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
-    };
-    let (reset, pause) = (Arc::clone(control), Arc::clone(control));
-    Ok(vec![
-        Box::pin(server("~/reset", "Trigger")?.serve(at_once(move |_: TriggerRequest| reset.answer_reset()))),
-        Box::pin(
-            server("~/pause", "SetBool")?
-                .serve(at_once(move |request: SetBoolRequest| pause.answer_pause(request.data))),
-        ),
-        Box::pin(
-            server("~/save_checkpoint", "Trigger")?.serve(shared(Arc::clone(control), |control, _: TriggerRequest| {
-                control.save_checkpoint()
-            })),
-        ),
-    ])
 }
 
 #[cfg(test)]
@@ -379,7 +290,7 @@ mod tests {
 
     /// A control whose solver reads no commands, as during the build of the model.
     fn bench() -> Bench {
-        let text = include_str!("../../config/default.yaml");
+        let text = include_str!("../../../config/default.yaml");
         let config = Arc::new(Config::from_text("default.yaml", text).unwrap());
         let gauges = Arc::new(Gauges::default());
         let targets = Targets::new(config.simulation().initial_inputs);

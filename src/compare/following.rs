@@ -1,0 +1,312 @@
+//! `calibration.follow`: the twin's friction and the tare of its torque follow the running estimate.
+
+use flexdrill_calibration::BAND;
+use flexdrill_calibration::follow::{Follow, FollowSettings, Frozen, Instant};
+use flexdrill_calibration::following::{Following, FollowingSettings, Held};
+use flexdrill_config::Config;
+
+use crate::messages;
+use crate::messages::outputs::ParameterChange;
+
+/// The parameters that follow, factor of friction and torque tare, in the order of every array here.
+pub const FOLLOWED: [&str; 2] = ["calibration.friction_factor", "calibration.torque_tare_nm"];
+
+/// Who asks for a change by following, for the log and the recording.
+pub const FOLLOW: &str = "calibration.follow";
+
+/// Values of the parameters that follow.
+pub fn followed(config: &Config) -> [f64; 2] {
+    [config.calibration.friction_factor, config.calibration.torque_tare_nm]
+}
+
+/// The parameters of [`FOLLOWED`] with values, as changes that following asks for. Values that stay are left out.
+pub fn changes(from: [f64; 2], to: [f64; 2]) -> Vec<ParameterChange> {
+    let changed = (0..2).filter(|k| from[*k] != to[*k]);
+    changed
+        .map(|k| ParameterChange {
+            name: FOLLOWED[k].to_owned(),
+            value: to[k],
+            asked_by: FOLLOW.to_owned(),
+        })
+        .collect()
+}
+
+/// The running estimate and the parameters on their way to it.
+pub(super) struct Estimate {
+    follow: Follow,
+    /// None without `calibration.follow`.
+    following: Option<Following>,
+    settings: FollowSettings,
+    rules: FollowingSettings,
+    /// Values at the start of the run.
+    configured: [f64; 2],
+    /// Values in force.
+    applied: [f64; 2],
+    /// A limit stops it.
+    stopped: bool,
+}
+
+/// What a sample means.
+pub(super) struct Pushed {
+    pub(super) message: messages::Residuals,
+    /// The values in force and those that are to be, where they change.
+    pub(super) moved: Option<[[f64; 2]; 2]>,
+    /// The limit that has begun to stop it.
+    pub(super) stopped: Option<String>,
+}
+
+impl Estimate {
+    pub(super) fn new(config: &Config) -> Self {
+        let (settings, rules) = settings(config);
+        let configured = followed(config);
+        Self {
+            follow: Follow::new(settings, configured),
+            following: config.calibration.follow.then(|| Following::new(rules)),
+            settings,
+            rules,
+            configured,
+            applied: configured,
+            stopped: false,
+        }
+    }
+
+    /// Adopts the values in force.
+    pub(super) fn reconfigure(&mut self, config: &Config) {
+        self.applied = followed(config);
+    }
+
+    /// Forgets what was estimated.
+    pub(super) fn restart(&mut self) {
+        self.follow = Follow::new(self.settings, self.configured);
+        self.following = self.following.map(|_| Following::new(self.rules));
+        self.stopped = false;
+    }
+
+    /// Factor of friction in force.
+    pub(super) fn applied_factor(&self) -> f64 {
+        self.applied[0]
+    }
+
+    /// Takes a sample and adds to the message what it means.
+    pub(super) fn push(&mut self, instant: &Instant, message: messages::Residuals) -> Pushed {
+        let frozen = self.follow.push(instant);
+        let (applied, follow) = (self.applied, &self.follow);
+        let moved = self
+            .following
+            .as_mut()
+            .map(|following| following.step(instant.step, applied, follow, frozen));
+        let [factor, tare] = [follow.factor(), follow.tare()];
+        let [of_factor, of_tare] = follow.deviations().map(|deviation| BAND * deviation);
+        let message = messages::Residuals {
+            friction_factor: factor,
+            friction_factor_low: factor - of_factor,
+            friction_factor_high: factor + of_factor,
+            torque_tare: tare,
+            torque_tare_low: tare - of_tare,
+            torque_tare_high: tare + of_tare,
+            estimate_frozen: frozen.map_or("", frozen_in_words).to_owned(),
+            following: self.following.is_some(),
+            applied_friction_factor: applied[0],
+            configured_friction_factor: self.configured[0],
+            applied_torque_tare: applied[1],
+            configured_torque_tare: self.configured[1],
+            following_held: match moved {
+                None => "calibration.follow is off".to_owned(),
+                Some(moved) => moved.held.map_or_else(String::new, held_in_words),
+            },
+            ..message
+        };
+        let before = self.stopped;
+        match moved.map(|moved| moved.held) {
+            // A sample that does not count says nothing of limits.
+            None | Some(Some(Held::Frozen(_))) => {}
+            Some(held) => self.stopped = matches!(held, Some(Held::FactorAtLimit(_) | Held::TareAtLimit(_))),
+        }
+        Pushed {
+            stopped: (self.stopped && !before).then(|| message.following_held.clone()),
+            message,
+            moved: moved.and_then(|moved| moved.to).map(|to| [applied, to]),
+        }
+    }
+}
+
+/// How the estimate moves, and how the parameters follow it.
+fn settings(config: &Config) -> (FollowSettings, FollowingSettings) {
+    let given = &config.calibration;
+    let limits = [
+        given.follow_limits.ends(),
+        [-1.0, 1.0].map(|sign| given.torque_tare_nm + sign * given.follow_tare_limit_nm),
+    ];
+    let estimate = FollowSettings {
+        noise: given.torque_noise_nm,
+        model: given.model_error,
+        tare_drift: given.torque_drift_nm,
+        tare_prior: given.torque_tare_range_nm / BAND,
+        factor_limits: limits[0],
+        tare_limits: limits[1],
+        ..FollowSettings::default()
+    };
+    let rules = FollowingSettings {
+        rates: [given.follow_rate, given.follow_tare_rate_nm],
+        bands: [given.follow_band, given.follow_tare_band_nm],
+        limits,
+    };
+    (estimate, rules)
+}
+
+const fn frozen_in_words(frozen: Frozen) -> &'static str {
+    match frozen {
+        Frozen::Missing => "a value is missing",
+        Frozen::BadInput => "an input is not good",
+        Frozen::NotSteady => "the motion is not steady",
+        Frozen::Outlier => "the sample is far from what is expected",
+    }
+}
+
+fn held_in_words(held: Held) -> String {
+    match held {
+        Held::Frozen(frozen) => frozen_in_words(frozen).to_owned(),
+        Held::FactorUncertain(half, most) => format!(
+            "the friction factor is known to +-{half:.2} only, +-{most} is required; a minute of rotation off bottom narrows it"
+        ),
+        Held::TareUncertain(half, most) => format!(
+            "the torque tare is known to +-{half:.0} N m only, +-{most} N m is required; a minute of rotation off bottom \
+             narrows it"
+        ),
+        Held::FactorAtLimit(limit) => format!("the friction factor is at its limit of {limit}"),
+        Held::TareAtLimit(limit) => format!("the torque tare is at its limit of {limit} N m"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn config(values: &[(&str, serde_json::Value)]) -> Config {
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/config/rig.yaml")).unwrap();
+        config.with_values("a test", values.iter().cloned()).unwrap()
+    }
+
+    /// Drilling at a measured torque (N m), with a minute off bottom every five; the twin computes 300 N m, of which 80 N m
+    /// is friction, and off bottom 40 N m of friction alone.
+    fn instant(second: u32, applied: f64, factor: f64) -> Instant {
+        let (bit, friction) = if second % 300 < 60 { (0.0, 40.0) } else { (220.0, 80.0) };
+        Instant {
+            step: 1.0,
+            measured: bit + factor * friction,
+            predicted: bit + applied * friction,
+            friction: applied * friction,
+            applied,
+            good: true,
+            steady: true,
+        }
+    }
+
+    #[test]
+    fn without_the_key_nothing_moves_and_the_message_says_so() {
+        let mut estimate = Estimate::new(&config(&[]));
+        for second in 0..1200 {
+            let Pushed { message, moved, .. } =
+                estimate.push(&instant(second, 1.0, 1.3), messages::Residuals::default());
+            assert_eq!(moved, None);
+            assert!(!message.following);
+            assert_eq!(message.following_held, "calibration.follow is off");
+            assert_eq!(
+                (message.applied_friction_factor, message.configured_friction_factor),
+                (1.0, 1.0)
+            );
+        }
+        assert!(estimate.follow.factor() > 1.2, "the estimate is published all the same");
+    }
+
+    #[test]
+    fn with_the_key_the_values_in_force_follow_and_a_restart_forgets() {
+        let config = config(&[("calibration.follow", true.into())]);
+        let mut estimate = Estimate::new(&config);
+        let mut now = config.clone();
+        for second in 0..3600 {
+            let applied = estimate.applied_factor();
+            let Pushed { message, moved, .. } =
+                estimate.push(&instant(second, applied, 1.3), messages::Residuals::default());
+            assert!(message.following);
+            if second == 0 {
+                assert!(
+                    message
+                        .following_held
+                        .starts_with("the friction factor is known to +-0.3"),
+                    "{}",
+                    message.following_held
+                );
+            }
+            let Some([from, to]) = moved else { continue };
+            assert_eq!(from, [applied, now.calibration.torque_tare_nm]);
+            let changes = changes(from, to);
+            assert!(!changes.is_empty() && changes.iter().all(|change| change.asked_by == FOLLOW));
+            let values = changes.iter().map(|change| (&change.name, change.value));
+            now = now.with_values("following", values).unwrap();
+            estimate.reconfigure(&now);
+        }
+        // The estimate begins at 1 with a standard deviation of 0.2, which an hour of samples outweighs.
+        assert!(
+            (now.calibration.friction_factor - 1.3).abs() < 0.1,
+            "{:?}",
+            now.calibration
+        );
+        assert!(now.calibration.torque_tare_nm.abs() < 8.0, "{:?}", now.calibration);
+        estimate.restart();
+        assert_eq!((estimate.follow.factor(), estimate.follow.tare()), (1.0, 0.0));
+    }
+
+    #[test]
+    fn limits_and_frozen_samples_are_named() {
+        let limited = [
+            ("calibration.follow", true.into()),
+            ("calibration.follow_limits.high", 1.1.into()),
+        ];
+        let mut estimate = Estimate::new(&config(&limited));
+        let mut said = Vec::new();
+        for second in 0..1200 {
+            said.extend(
+                estimate
+                    .push(&instant(second, 1.0, 1.5), messages::Residuals::default())
+                    .stopped,
+            );
+        }
+        assert_eq!(said, ["the friction factor is at its limit of 1.1"], "said once");
+        for (wrong, words) in [
+            (
+                Instant {
+                    good: false,
+                    steady: false,
+                    ..instant(100, 1.0, 1.0)
+                },
+                "an input is not good",
+            ),
+            (
+                Instant {
+                    steady: false,
+                    ..instant(100, 1.0, 1.0)
+                },
+                "the motion is not steady",
+            ),
+            (
+                Instant {
+                    measured: f64::NAN,
+                    ..instant(100, 1.0, 1.0)
+                },
+                "a value is missing",
+            ),
+            (
+                Instant {
+                    measured: 9e3,
+                    ..instant(100, 1.0, 1.0)
+                },
+                "the sample is far from what is expected",
+            ),
+        ] {
+            let Pushed { message, moved, .. } = estimate.push(&wrong, messages::Residuals::default());
+            assert_eq!((moved, message.following_held.as_str()), (None, words));
+            assert_eq!(message.estimate_frozen, words);
+        }
+    }
+}

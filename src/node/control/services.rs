@@ -1,0 +1,121 @@
+//! The services `~/reset`, `~/pause` and `~/save_checkpoint`.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError};
+use std::time::Instant;
+
+use super::{CHECKPOINT_INTERVAL, Control, ControlError};
+use crate::node::NodeError;
+use crate::node::states::SavedRun;
+use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
+use flexdrill_realtime::link::RunState;
+use flexdrill_ros2::args::ArgsError;
+use flexdrill_ros2::dds::port::PortBuilder;
+use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task, at_once, shared};
+
+impl Control {
+    pub(super) fn answer_reset(&self) -> TriggerResponse {
+        let done = self.reset();
+        answer(done.map(|()| "the model returns to its state after the start".to_owned()))
+    }
+
+    pub(super) fn answer_pause(&self, pause: bool) -> SetBoolResponse {
+        let state = if pause { "paused" } else { "running" };
+        let TriggerResponse { success, message } = answer(self.pause(pause).map(|()| state.to_owned()));
+        SetBoolResponse { success, message }
+    }
+
+    async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
+        if self.gauges.run_state() == RunState::Starting {
+            return answer(Err(ControlError::Starting));
+        }
+        {
+            let mut last = self.checkpoint.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(passed) = last
+                .map(|at: Instant| at.elapsed())
+                .filter(|passed| *passed < CHECKPOINT_INTERVAL)
+            {
+                return answer(Err(ControlError::TooOften(passed.as_secs_f64())));
+            }
+            *last = Some(Instant::now());
+        }
+        let saved = tokio::task::spawn_blocking(move || {
+            let SavedRun {
+                checkpoint, applied, ..
+            } = self.state()?;
+            let step = applied.step;
+            let path = PathBuf::from(format!(
+                "flexdrill_{}_step{step}.checkpoint",
+                &self.config().hash()[..12]
+            ));
+            if let Err(source) = write_whole(&path, &checkpoint) {
+                return Err(ControlError::Write { path, source });
+            }
+            let absolute = std::path::absolute(&path).unwrap_or(path);
+            Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
+        });
+        let result = saved.await.unwrap_or_else(|error| Err(error.into()));
+        match &result {
+            Ok(message) => tracing::info!("checkpoint saved: {message}"),
+            Err(why) => tracing::warn!("no checkpoint: {why}"),
+        }
+        answer(result)
+    }
+}
+
+/// Writes a file completely or not at all. The file is on the disk when this returns.
+fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let temporary = path.with_extension("checkpoint.part");
+    let written = File::create(&temporary)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        })
+        .and_then(|()| std::fs::rename(&temporary, path));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written
+}
+
+fn answer(result: Result<String, ControlError>) -> TriggerResponse {
+    match result {
+        Ok(message) => TriggerResponse { success: true, message },
+        Err(error) => TriggerResponse {
+            success: false,
+            message: error.to_string(),
+        },
+    }
+}
+
+/// Creates `~/reset`, `~/pause` and `~/save_checkpoint`; `name` makes a private name absolute.
+///
+/// # Errors
+/// When a remapped name is not allowed.
+pub fn serve(
+    port: &mut PortBuilder,
+    mapping: ServiceMapping,
+    control: &Arc<Control>,
+    name: impl Fn(&str) -> Result<String, ArgsError>,
+) -> Result<Vec<Task>, NodeError> {
+    let mut server = |private: &str, kind: &str| -> Result<ServiceServer, NodeError> {
+        let kind = format!("std_srvs/srv/{kind}");
+        Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
+    };
+    let (reset, pause) = (Arc::clone(control), Arc::clone(control));
+    Ok(vec![
+        Box::pin(server("~/reset", "Trigger")?.serve(at_once(move |_: TriggerRequest| reset.answer_reset()))),
+        Box::pin(
+            server("~/pause", "SetBool")?
+                .serve(at_once(move |request: SetBoolRequest| pause.answer_pause(request.data))),
+        ),
+        Box::pin(
+            server("~/save_checkpoint", "Trigger")?.serve(shared(Arc::clone(control), |control, _: TriggerRequest| {
+                control.save_checkpoint()
+            })),
+        ),
+    ])
+}

@@ -1,0 +1,252 @@
+//! `rig/measured` of a field log against the twin, and the parameters that follow it, through `flexdrill replay`. The
+//! simulated rig is the twin with 1.3 times the friction.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use flexdrill::messages::{AlarmEvent, AppliedInputs, Message, Residuals, SessionInfo, Transfer};
+use flexdrill_config::Config;
+
+/// Friction of the rig over that of the twin.
+const TRUTH: f64 = 1.3;
+/// Seconds of the log: off bottom up to [`DRILLS`], then drilling.
+const SECONDS: u32 = 80;
+const DRILLS: u32 = 20;
+
+/// What the program says of a replay that succeeds.
+fn replay(input: &Path, out: &Path, config: Option<&Path>, more: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
+    command.arg("replay").arg(input).arg("--out").arg(out).args(more);
+    if let Some(config) = config {
+        command.arg("--config").arg(config);
+    }
+    let output = command.output().unwrap();
+    let said = [&output.stdout, &output.stderr]
+        .map(|bytes| String::from_utf8_lossy(bytes))
+        .concat();
+    assert!(output.status.success(), "{said}");
+    said
+}
+
+/// Messages of a topic in a bag.
+fn messages<M: Message>(path: &Path, topic: &str) -> Vec<M> {
+    let all = flexdrill::bag::open(path).unwrap().map(Result::unwrap);
+    all.filter(|message| message.topic.is(topic))
+        .map(|message| message.decode().unwrap())
+        .collect()
+}
+
+/// The bytes of a bag by topic, without the topics in `left_out`.
+fn bytes(path: &Path, left_out: &[&str]) -> BTreeMap<String, Vec<Vec<u8>>> {
+    let mut found: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
+    for message in flexdrill::bag::open(path).unwrap().map(Result::unwrap) {
+        if !left_out.iter().any(|name| message.topic.is(name)) {
+            found.entry(message.topic.name.clone()).or_default().push(message.data);
+        }
+    }
+    found
+}
+
+/// The heavy tool with other values, as a file.
+fn config(folder: &Path, name: &str, values: &[(&str, serde_json::Value)]) -> PathBuf {
+    let config = Config::load(crate::common::root().join("tests/data/heavy.yaml")).unwrap();
+    let config = config.with_values("a test", values.iter().cloned()).unwrap();
+    let path = folder.join(name);
+    std::fs::write(&path, config.to_yaml().unwrap()).unwrap();
+    path
+}
+
+/// A log at 1 Hz with its mapping, in a folder of its own. `torque` gives the surface torque of a second (N m), or nothing
+/// for a log without that column.
+fn log(folder: &Path, name: &str, seconds: u32, torque: Option<&dyn Fn(u32) -> f64>) -> PathBuf {
+    let folder = folder.join(name);
+    std::fs::create_dir(&folder).unwrap();
+    let mut text = String::from(if torque.is_some() {
+        "t,rpm,wob,torque\n"
+    } else {
+        "t,rpm,wob\n"
+    });
+    for second in 0..seconds {
+        let weight = if second < DRILLS { 0 } else { 10 };
+        write!(text, "{second},60,{weight}").unwrap();
+        if let Some(torque) = torque {
+            write!(text, ",{:.4}", torque(second) / 1000.0).unwrap();
+        }
+        text.push('\n');
+    }
+    let mut mapping = String::from(
+        "columns:\n  time: {column: t, format: seconds}\n  rotary_speed: {column: rpm, unit: r/min}\n  \
+         weight_on_bit:\n    direct: {column: wob, unit: kN}\n",
+    );
+    if torque.is_some() {
+        mapping += "  torque: {column: torque, unit: kN.m}\n";
+    }
+    std::fs::write(folder.join("mapping.yaml"), mapping).unwrap();
+    std::fs::write(folder.join("rig.csv"), text).unwrap();
+    folder.join("rig.csv")
+}
+
+/// Torque of the simulated rig by second, with a ripple of a newton metre as its sensor's noise.
+fn rig(folder: &Path) -> impl Fn(u32) -> f64 {
+    let rig = config(folder, "rig.yaml", &[("calibration.friction_factor", TRUTH.into())]);
+    let bag = folder.join("rig.bag");
+    replay(&log(folder, "inputs", SECONDS, None), &bag, Some(&rig), &[]);
+    let all: Vec<Transfer> = messages(&bag, "twin/transfer");
+    let torques: Vec<f64> = all.iter().step_by(10).map(|transfer| transfer.kickoff_torque).collect();
+    move |second| {
+        let noise = (f64::from(second) * 2.4).sin() * std::f64::consts::SQRT_2;
+        torques.get(second as usize).or(torques.last()).unwrap() + noise
+    }
+}
+
+/// The surface torque of a comparison.
+fn ratio(message: &Residuals) -> f64 {
+    message
+        .residuals
+        .iter()
+        .find(|of| of.name == "surface_torque")
+        .unwrap()
+        .ratio
+}
+
+fn disagreed(bag: &Path) -> Vec<(u8, u8)> {
+    let events: Vec<AlarmEvent> = messages(bag, "twin/alarm_events");
+    let of_rig = events.into_iter().filter(|event| event.id == "rig_disagrees");
+    of_rig.map(|event| (event.change, event.priority)).collect()
+}
+
+#[test]
+fn friction_follows_a_rig_within_its_limits_and_only_where_it_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let path = |name: &str| folder.join(name);
+    let torque = rig(folder);
+    let rig_log = log(folder, "log", SECONDS, Some(&torque));
+
+    // Off: rig and twin disagree, and nothing moves.
+    let plain = config(folder, "plain.yaml", &[]);
+    let said = replay(&rig_log, &path("off"), Some(&plain), &[]);
+    let off: Vec<Residuals> = messages(&path("off"), "twin/residuals");
+    let judged = off.iter().filter(|message| ratio(message).is_finite()).count();
+    // Off bottom no mean is filled; drilling it is from 35 s after the change on.
+    assert!(judged >= 20, "{judged}: {said}");
+    assert!(
+        off.iter()
+            .all(|message| !message.following && message.applied_friction_factor == 1.0)
+    );
+    assert!(ratio(off.last().unwrap()) > 1.5, "{:?}", off.last());
+    assert_eq!(disagreed(&path("off")).len(), 1, "{said}");
+    assert!(
+        said.contains("rig against twin") && said.contains("Twin and rig disagree"),
+        "{said}"
+    );
+    // The same motion as that of a log without measured values, to the bit.
+    let short = ["--duration", "30"];
+    replay(&log(folder, "bare", SECONDS, None), &path("bare"), Some(&plain), &short);
+    replay(&rig_log, &path("with"), Some(&plain), &short);
+    let others = ["twin/residuals", "rig/measured"];
+    assert!(bytes(&path("bare"), &others) == bytes(&path("with"), &others));
+    assert!(messages::<Residuals>(&path("bare"), "twin/residuals").is_empty());
+
+    // On: it comes to the truth, the residual returns into its band, the alarm is quiet.
+    let follow = config(folder, "follow.yaml", &[("calibration.follow", true.into())]);
+    let said = replay(&rig_log, &path("on"), Some(&follow), &[]);
+    let on: Vec<Residuals> = messages(&path("on"), "twin/residuals");
+    let last = on.last().unwrap();
+    assert!(last.following, "{last:?}");
+    // Half of the 90 % band of the estimate is below 0.05 by then.
+    assert!((last.applied_friction_factor - TRUTH).abs() < 0.05, "{last:?}");
+    assert!(ratio(last).abs() < 0.5, "{last:?}");
+    assert_eq!(disagreed(&path("on")), [], "{said}");
+    assert!(said.contains("follows the rig"), "{said}");
+    for pair in on.windows(2) {
+        let moved = pair[1].applied_friction_factor - pair[0].applied_friction_factor;
+        // One per minute, and no time is left out.
+        assert!(moved.abs() <= 1.0 / 60.0 + 1e-9, "{pair:?}");
+    }
+    // Every change is in the applied inputs, with who asked for it.
+    let applied: Vec<AppliedInputs> = messages(&path("on"), "twin/applied_inputs");
+    let changes = applied.iter().flat_map(|inputs| {
+        let named = inputs.parameter_name.iter().zip(&inputs.parameter_asked_by);
+        named.filter(|(name, _)| *name == "calibration.friction_factor")
+    });
+    assert!(changes.clone().count() > 15 && changes.clone().all(|(_, by)| by == "calibration.follow"));
+    // The coefficient in force is the configured one, 0.4, times the factor.
+    let last_applied = applied.last().unwrap();
+    assert!(
+        (last_applied.inner_friction[0] - 0.4 * last.applied_friction_factor).abs() < 0.01,
+        "{last_applied:?}"
+    );
+    // The session keeps the configured value.
+    let session: Vec<SessionInfo> = messages(&path("on"), "twin/session");
+    assert!(
+        session[0].configuration.contains("friction_factor: 1"),
+        "{}",
+        session[0].configuration
+    );
+
+    // A replay of the recording repeats it to the bit.
+    let said = replay(&path("on"), &path("again"), None, &[]);
+    assert!(said.contains("exact: the recording has everything"), "{said}");
+    let (first, second) = (bytes(&path("on"), &[]), bytes(&path("again"), &[]));
+    for (topic, recorded) in &first {
+        assert!(Some(recorded) == second.get(topic), "{topic} differs");
+    }
+    assert_eq!(first.len(), second.len());
+}
+
+#[test]
+fn a_limit_stops_it_and_bad_input_freezes_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // A rig whose torque is that of the heavy tool with much more friction, off bottom (19 N m there at 0.2).
+    let torque = |second: u32| {
+        let noise = (f64::from(second) * 2.4).sin() * std::f64::consts::SQRT_2;
+        // Three seconds with a value that no rig measures.
+        if (28..31).contains(&second) { 1e9 } else { 44.0 + noise }
+    };
+    let log = log(folder, "log", DRILLS, Some(&torque));
+    let log = {
+        // The same off bottom for twice the time.
+        let text = std::fs::read_to_string(&log).unwrap();
+        let more: String = (DRILLS..2 * DRILLS).fold(text, |mut text, second| {
+            writeln!(text, "{second},60,0,{:.4}", torque(second) / 1000.0).unwrap();
+            text
+        });
+        std::fs::write(&log, more).unwrap();
+        log
+    };
+    let limited = config(
+        folder,
+        "limited.yaml",
+        &[
+            ("calibration.follow", true.into()),
+            ("calibration.follow_limits.high", 1.1.into()),
+        ],
+    );
+    let out = folder.join("limited");
+    let said = replay(&log, &out, Some(&limited), &[]);
+    let all: Vec<Residuals> = messages(&out, "twin/residuals");
+    assert!(all.iter().all(|message| message.applied_friction_factor <= 1.1));
+    let last = all.last().unwrap();
+    assert_eq!(
+        last.following_held, "the friction factor is at its limit of 1.1",
+        "{last:?}"
+    );
+    assert!(last.applied_friction_factor > 1.09, "{last:?}");
+    assert!(
+        said.contains("calibration.follow: the friction factor is at its limit of 1.1"),
+        "{said}"
+    );
+    // The refused values are missing, and nothing moves meanwhile.
+    assert!(said.contains("surface_torque = 1000000000 N m"), "{said}");
+    let missing = all
+        .windows(2)
+        .filter(|pair| pair[0].following_held == "a value is missing");
+    let still = missing
+        .clone()
+        .all(|pair| pair[0].applied_friction_factor == pair[1].applied_friction_factor);
+    assert!(missing.count() >= 3 && still, "{all:?}");
+}
