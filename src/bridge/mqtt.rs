@@ -128,7 +128,6 @@ impl MqttBridge {
         self.node_update(|node| {
             node.flag(mqtt_figures::ALIVE, Some(false));
             mqtt_figures::figures(node, &TwinFigures::default());
-            mqtt_figures::forecast(node, &Forecast::default());
         });
     }
 
@@ -233,14 +232,19 @@ impl MqttBridge {
         match event {
             LinkEvent::Connected => tracing::info!("{name}: connected to {}", self.broker),
             LinkEvent::Waiting { why, wait } => {
-                let broker = self.broker.to_string();
-                self.log(name, "waiting", || {
-                    format!(
-                        "no connection to {broker}: {}; the next attempt is in {} s",
-                        printable(&why),
-                        wait.as_secs_f64()
-                    )
-                });
+                // A new reason is logged at once.
+                let is_new = self.losses[which] != why;
+                let text = format!(
+                    "no connection to {}: {}; the next attempt is in {} s",
+                    self.broker,
+                    printable(&why),
+                    wait.as_secs_f64()
+                );
+                if is_new {
+                    tracing::warn!("{name}: {text}");
+                } else {
+                    self.log(name, "waiting", || text);
+                }
                 self.losses[which] = why;
             }
             LinkEvent::Note(note) => self.log(name, "note", || printable(&note).into_owned()),
@@ -256,11 +260,12 @@ impl MqttBridge {
         ];
         let mut status = vec![self.item(0, &self.documents.counts(), more)];
         if let Some(node) = &self.sparkplug {
-            let [births, asked, ignored] = node.update(|node| node.counts());
+            let [births, asked, ignored, left_out] = node.update(|node| node.counts());
             let more = vec![
                 ("births", births),
                 ("births_asked_for", asked),
                 ("commands_ignored", ignored),
+                ("metrics_left_out", left_out),
             ];
             status.push(self.item(1, &node.counts(), more));
         }

@@ -5,7 +5,7 @@ use std::io;
 use std::time::Duration;
 
 use rumqttc::tokio_rustls::rustls::{self, CertificateError};
-use rumqttc::{ConnectReturnCode, ConnectionError, MqttOptions, QoS, StateError, TlsError, Transport};
+use rumqttc::{ConnectReturnCode, ConnectionError, Error, MqttOptions, QoS, StateError, TlsError, Transport};
 use tokio::net::TcpStream;
 
 use super::{LARGEST_PAYLOAD, Message};
@@ -236,17 +236,30 @@ impl Broker {
             ConnectionError::MqttState(StateError::AwaitPingResp) => {
                 format!("no sign of life from the broker for {} s", 2 * KEEP_ALIVE_S)
             }
+            ConnectionError::MqttState(StateError::ConnectionAborted) if was_connected => closed.to_owned(),
             // An end without an answer is what a port with TLS does to a client without.
-            ConnectionError::MqttState(StateError::ConnectionAborted) if !was_connected && self.tls == Tls::None => {
-                format!("{closed} without an answer; if this port expects TLS, give --tls-ca or --tls")
+            ConnectionError::MqttState(StateError::ConnectionAborted) => {
+                format!("{closed} without an answer{}", self.tls_hint())
             }
-            ConnectionError::MqttState(StateError::ConnectionAborted) => closed.to_owned(),
+            ConnectionError::MqttState(StateError::Deserialization(Error::Io(error)) | StateError::Io(error)) => {
+                let hint = if was_connected { "" } else { self.tls_hint() };
+                format!("the connection broke: {error}{hint}")
+            }
             ConnectionError::NotConnAck(_) | ConnectionError::MqttState(StateError::Deserialization(_))
                 if !was_connected =>
             {
-                format!("what answers at {self} speaks no MQTT 3.1.1 ({error}); check --broker")
+                let hint = self.tls_hint();
+                format!("what answers at {self} speaks no MQTT 3.1.1 ({error}); check --broker{hint}")
             }
             _ => error.to_string(),
+        }
+    }
+
+    /// What an answer that cannot be understood may mean.
+    fn tls_hint(&self) -> &'static str {
+        match self.tls {
+            Tls::None => "; if this port expects TLS, give --tls-ca or --tls",
+            Tls::System | Tls::Authority(_) => "",
         }
     }
 
@@ -254,7 +267,7 @@ impl Broker {
         let tls = error.get_ref().and_then(|inner| inner.downcast_ref::<rustls::Error>());
         match (tls, error.kind()) {
             (Some(rustls::Error::InvalidCertificate(why)), _) => match why {
-                CertificateError::UnknownIssuer => {
+                CertificateError::UnknownIssuer | CertificateError::BadSignature => {
                     "the broker's certificate is from none of the trusted authorities; check --tls-ca".to_owned()
                 }
                 CertificateError::NotValidForName | CertificateError::NotValidForNameContext { .. } => format!(

@@ -217,7 +217,7 @@ async fn connection<S: Source>(
     let up = Notify::new();
     tokio::select! {
         end = drive(&mut driver, broker, shared, &up, events) => end,
-        () = feed(&client, shared, times, &up, events, stop) => End::Stopped,
+        () = feed(&client, shared, times, &up, stop) => End::Stopped,
     }
 }
 
@@ -238,7 +238,10 @@ async fn drive<S: Source>(
         match driver.poll().await {
             Ok(Event::Incoming(Packet::ConnAck(_))) => {
                 shared.is_open.store(true, Ordering::Relaxed);
+                shared.made.fetch_add(1, Ordering::Relaxed);
+                shared.lock().connected(Instant::now());
                 up.notify_one();
+                let _ = events.send(LinkEvent::Connected).await;
             }
             Ok(Event::Incoming(Packet::PubAck(_))) => {
                 shared.acknowledged.fetch_add(1, Ordering::Relaxed);
@@ -268,20 +271,13 @@ async fn feed<S: Source>(
     shared: &Shared<S>,
     times: LinkTimes,
     up: &Notify,
-    events: &mpsc::Sender<LinkEvent>,
     stop: &mut watch::Receiver<bool>,
 ) {
     tokio::select! {
         () = up.notified() => {}
         () = stopped(stop) => return,
     }
-    shared.made.fetch_add(1, Ordering::Relaxed);
-    let _ = events.send(LinkEvent::Connected).await;
-    let subscriptions = {
-        let mut source = shared.lock();
-        source.connected(Instant::now());
-        source.subscriptions()
-    };
+    let subscriptions = shared.lock().subscriptions();
     let sending = async {
         for topic in subscriptions {
             let _ = client.subscribe(topic, QoS::AtLeastOnce).await;

@@ -148,9 +148,9 @@ impl SparkplugNode {
         }
     }
 
-    /// Births sent, messages that asked for one, and other messages.
-    pub fn counts(&self) -> [u64; 3] {
-        [self.births, self.commands[0], self.commands[1]]
+    /// Births sent, messages that asked for one, other messages, and metrics left out because there were too many.
+    pub fn counts(&self) -> [u64; 4] {
+        [self.births, self.commands[0], self.commands[1], self.refused]
     }
 
     fn set(&mut self, name: &str, kind: DataType, unit: Option<&str>, value: Option<Value>) {
@@ -175,12 +175,6 @@ impl SparkplugNode {
         self.metrics.insert(name.to_owned(), state);
         // Data may only have metrics of the birth.
         self.is_birth_due = true;
-    }
-
-    fn next_seq(&mut self) -> Option<u64> {
-        let seq = self.seq;
-        self.seq = self.seq.wrapping_add(1);
-        Some(u64::from(seq))
     }
 
     fn birth_death_metric(&self, now: u64) -> Metric {
@@ -219,7 +213,7 @@ impl SparkplugNode {
             }
         }));
         self.births += 1;
-        self.message("NBIRTH", Some(now), metrics, true)
+        self.message("NBIRTH", now, metrics)
     }
 
     fn data(&mut self, now: u64) -> Option<Message> {
@@ -230,7 +224,7 @@ impl SparkplugNode {
                 state.metric(now)
             })
             .collect();
-        (!metrics.is_empty()).then(|| self.message("NDATA", Some(now), metrics, true))
+        (!metrics.is_empty()).then(|| self.message("NDATA", now, metrics))
     }
 
     fn death(&self) -> Message {
@@ -250,12 +244,13 @@ impl SparkplugNode {
         }
     }
 
-    fn message(&mut self, kind: &str, timestamp: Option<u64>, metrics: Vec<Metric>, numbered: bool) -> Message {
+    fn message(&mut self, kind: &str, now: u64, metrics: Vec<Metric>) -> Message {
         let payload = Payload {
-            timestamp,
+            timestamp: Some(now),
             metrics,
-            seq: if numbered { self.next_seq() } else { None },
+            seq: Some(u64::from(self.seq)),
         };
+        self.seq = self.seq.wrapping_add(1);
         Message {
             topic: self.name.topic(kind),
             payload: payload.encode_to_vec(),
@@ -435,11 +430,11 @@ mod tests {
             node.received("spBv1.0/a/NCMD/b", &wrong);
         }
         node.received("spBv1.0/a/NCMD/c", &rebirth);
-        assert_eq!(node.counts(), [1, 0, 5]);
+        assert_eq!(node.counts(), [1, 0, 5, 0]);
         let later = start + BIRTH_INTERVAL;
         assert!(node.next(later).is_none());
         node.received("spBv1.0/a/NCMD/b", &rebirth);
-        assert_eq!(node.counts(), [1, 1, 5]);
+        assert_eq!(node.counts(), [1, 1, 5, 0]);
         assert_eq!(node.next(later).unwrap().topic, "spBv1.0/a/NBIRTH/b");
         for cut in 0..rebirth.len() {
             for byte in [0, 0x7f, 0x80, 0xff] {
