@@ -11,7 +11,7 @@ use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{Forecast, Message, message_from_cdr_body};
+use flexdrill_messages::{Message, message_from_cdr_body};
 use flexdrill_realtime::monotonic;
 use flexdrill_text::{Throttles, printable};
 use tokio::sync::{mpsc, watch};
