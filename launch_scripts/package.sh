@@ -50,6 +50,9 @@ installed=$scratch/root/usr/bin/flexdrill
 say "started from the package"
 "$installed" --version
 "$installed" check "$scratch/root/etc/flexdrill/flexdrill.yaml" >/dev/null
+# A program without MQTT says so instead.
+[[ "$("$installed" bridge mqtt --broker host:0 2>&1)" == *"the port must be"* ]] ||
+    fail "the program from the package has no MQTT"
 # As the unit starts it, on this machine only, for three seconds of the model.
 set -a
 . "$scratch/root/etc/flexdrill/environment"

@@ -8,8 +8,8 @@ set -euo pipefail
 # Longest time of all this (s).
 limit=${FLEXDRILL_TEST_LIMIT:-5400}
 
-say "step 1 of 4: packages (a C compiler for SQLite and Zstandard, ip, nft and unshare for private networks, ps, venv for Python)"
-need_packages build-essential iproute2 nftables procps util-linux python3-venv
+say "step 1 of 4: packages (a C compiler for SQLite, Zstandard and TLS, ip, nft and unshare for private networks, ps, venv for Python, an MQTT broker and openssl for its certificates)"
+need_packages build-essential iproute2 nftables procps util-linux python3-venv mosquitto openssl
 # Fast DDS as a peer, where the system has it: other releases do without.
 if apt-cache show libfastrtps-dev >/dev/null 2>&1; then need_packages libfastrtps-dev; fi
 need_rust

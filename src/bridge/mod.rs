@@ -2,6 +2,10 @@
 //! stands on the line and what it means is [`flexdrill_bridge`]; this room joins it to ROS 2.
 
 mod diagnosis;
+#[cfg(feature = "mqtt")]
+pub mod mqtt;
+#[cfg(feature = "mqtt")]
+mod mqtt_figures;
 mod node;
 pub mod wits;
 

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use flexdrill_bridge::TwinFigures;
 use flexdrill_messages::diagnostic_msgs::DiagnosticArray;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Message, to_cdr_body};
@@ -27,7 +26,8 @@ pub enum Outgoing {
 }
 
 impl Outgoing {
-    const ALL: [Self; 3] = [Self::Inputs, Self::Measured, Self::Diagnostics];
+    /// What a rig sends, and the state of the bridge.
+    pub const OF_A_RIG: [Self; 3] = [Self::Inputs, Self::Measured, Self::Diagnostics];
 
     const fn topic(self) -> &'static TopicInfo {
         match self {
@@ -40,14 +40,14 @@ impl Outgoing {
 
 /// A bridge's node.
 pub struct BridgeNode {
-    publishers: Vec<TopicPublisher>,
+    publishers: Vec<(Outgoing, TopicPublisher)>,
     names: Vec<String>,
-    figures: Vec<(&'static TopicInfo, Arc<Inbox<Sample>>)>,
+    received: Vec<(&'static TopicInfo, Arc<Inbox<Sample>>)>,
     port: Port,
 }
 
 impl BridgeNode {
-    /// Joins the network. `receives` says whether the twin's figures are wanted.
+    /// Joins the network, to publish `sends` and to receive the twin's topics `receives`.
     ///
     /// # Errors
     /// When DDS does not start or a name is not allowed.
@@ -56,11 +56,13 @@ impl BridgeNode {
         identity: &NodeIdentity,
         remapping: &Remapping,
         default_name: &str,
-        receives: bool,
+        sends: &[Outgoing],
+        receives: &[&'static TopicInfo],
     ) -> Result<Self, JoinError> {
         let mut port = PortBuilder::new(network, &identity.namespace, &identity.name);
         let (mut publishers, mut names) = (Vec::new(), Vec::new());
-        for topic in Outgoing::ALL.map(Outgoing::topic) {
+        for outgoing in sends {
+            let topic = outgoing.topic();
             let name = remapping.topic(identity, default_name, topic.name)?;
             let offer = Offer {
                 reliable: true,
@@ -69,29 +71,30 @@ impl BridgeNode {
                 rate: RATE,
                 lifespan: None,
             };
-            publishers.push(port.publisher(&name, topic.kind.dds_type, offer));
+            publishers.push((*outgoing, port.publisher(&name, topic.kind.dds_type, offer)));
             names.push(name);
         }
-        let mut figures = Vec::new();
-        for topic in TwinFigures::TOPICS.into_iter().filter(|_| receives) {
+        let mut received = Vec::new();
+        for topic in receives {
             let name = remapping.topic(identity, default_name, topic.name)?;
-            figures.push((
-                topic,
-                port.subscription(&name, topic.kind.dds_type, topic.qos.transient_local),
-            ));
+            let inbox = port.subscription(&name, topic.kind.dds_type, topic.qos.transient_local);
+            received.push((*topic, inbox));
         }
         Ok(Self {
             publishers,
             names,
-            figures,
+            received,
             port: port.start()?,
         })
     }
 
-    /// Publishes a message. Returns false while DDS is down.
+    /// Publishes a message. Returns false while DDS is down, and for what this node does not send.
     pub fn publish<M: Message>(&self, on: Outgoing, message: &M) -> bool {
+        let Some((_, publisher)) = self.publishers.iter().find(|(outgoing, _)| *outgoing == on) else {
+            return false;
+        };
         let Ok(body) = to_cdr_body(message) else { return false };
-        self.publishers[on as usize].publish(body);
+        publisher.publish(body);
         self.port.monitor().health().is_up
     }
 
@@ -100,18 +103,19 @@ impl BridgeNode {
         self.publish(Outgoing::Diagnostics, array);
     }
 
-    /// Absolute names of the topics of the rig's values.
+    /// Absolute names of the topics that it publishes, in the order of `sends`.
     pub fn topics(&self) -> &[String] {
-        &self.names[..2]
+        &self.names
     }
 
-    /// Takes what the twin has sent since the last call. Returns how many messages could not be read.
-    pub fn take_figures(&self, twin: &mut TwinFigures) -> u64 {
+    /// Hands on what the twin has sent since the last call, oldest first within a topic. `take` returns whether it could
+    /// read the message. Returns how many could not be read.
+    pub fn take(&self, mut take: impl FnMut(&'static TopicInfo, &[u8]) -> bool) -> u64 {
         let mut unreadable = 0;
-        for (topic, inbox) in &self.figures {
+        for (topic, inbox) in &self.received {
             while let Some(sample) = inbox.pop() {
                 let taken = match sample {
-                    Sample::Body { body, .. } => twin.take(topic.name, &body).is_ok(),
+                    Sample::Body { body, .. } => take(topic, &body),
                     Sample::Unreadable(_) => false,
                 };
                 unreadable += u64::from(!taken);

@@ -88,7 +88,7 @@ impl WitsBridge {
                     self.node.diagnose(&message);
                 }
                 _ = write.tick(), if writing.is_some() => {
-                    let unreadable = self.node.take_figures(&mut twin);
+                    let unreadable = self.node.take(|topic, body| twin.take(topic.name, body).is_ok());
                     if unreadable > 0 {
                         self.log("figures", || format!("{unreadable} messages of the twin could not be read"));
                     }

@@ -1,4 +1,6 @@
-//! `flexdrill bridge`: joins a rig's own protocol to the twin's topics.
+//! `flexdrill bridge`: joins the twin's topics to a rig's own protocol, or to a broker.
+
+mod mqtt;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -7,19 +9,20 @@ use anyhow::Context as _;
 use clap::{Args, Subcommand};
 
 use super::{WrongUse, signals};
-use crate::bridge::BridgeNode;
 use crate::bridge::wits::WitsBridge;
+use crate::bridge::{BridgeNode, Outgoing};
 use crate::cli::output::say;
 use crate::dds::network::Network;
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
+use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{Place, Times};
 use flexdrill_bridge::wits::Mapping;
 
 /// Name of the node unless it is remapped.
 const WITS_NODE_NAME: &str = "flexdrill_bridge_wits";
 
-/// Join a rig's own protocol to the twin's topics.
+/// Join the twin's topics to a rig's own protocol, or to a broker.
 #[derive(Debug, Args)]
 pub(super) struct BridgeArgs {
     #[command(subcommand)]
@@ -29,6 +32,7 @@ pub(super) struct BridgeArgs {
 #[derive(Debug, Subcommand)]
 enum Protocol {
     Wits(WitsArgs),
+    Mqtt(Box<mqtt::MqttArgs>),
 }
 
 /// Read WITS level 0 from a line, and send the twin's figures back.
@@ -71,7 +75,13 @@ struct LineArgs {
 /// # Errors
 /// When the line, a file or the network cannot be used.
 pub(super) fn run(args: &BridgeArgs, ros_args: &[String]) -> anyhow::Result<()> {
-    let Protocol::Wits(args) = &args.protocol;
+    match &args.protocol {
+        Protocol::Wits(args) => run_wits(args, ros_args),
+        Protocol::Mqtt(args) => mqtt::run(args, ros_args),
+    }
+}
+
+fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
     logging::start(&ros_args);
     let mapping = match &args.map {
@@ -89,11 +99,23 @@ pub(super) fn run(args: &BridgeArgs, ros_args: &[String]) -> anyhow::Result<()> 
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
         let (place, name) = args.line.place(args.baud).await?;
-        let receives = mapping.write.is_some();
-        let node = BridgeNode::new(&network, &identity, &ros_args.remapping, WITS_NODE_NAME, receives)?;
+        let receives: &[_] = if mapping.write.is_some() {
+            &TwinFigures::TOPICS
+        } else {
+            &[]
+        };
+        let sends = &Outgoing::OF_A_RIG;
+        let node = BridgeNode::new(
+            &network,
+            &identity,
+            &ros_args.remapping,
+            WITS_NODE_NAME,
+            sends,
+            receives,
+        )?;
         say!(
             "wits {name} to {}, domain {}; Ctrl-C ends it",
-            node.topics().join(", "),
+            node.topics()[..2].join(", "),
             network.domain_id
         );
         let node_name = identity.full_name();

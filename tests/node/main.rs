@@ -13,6 +13,8 @@ mod alarms;
 mod bridge;
 mod clock;
 mod command_line;
+#[cfg(feature = "mqtt")]
+mod mqtt;
 mod recording;
 mod safe_window;
 mod what_if;

@@ -9,7 +9,7 @@
 use std::path::{Path, PathBuf};
 
 /// A foreign crate, and the crate of the workspace that may use it.
-const OWNERS: [(&str, &str); 11] = [
+const OWNERS: [(&str, &str); 12] = [
     ("rustdds", "flexdrill-ros2"),
     ("ros2-client", "flexdrill-ros2"),
     ("foxglove", "flexdrill-live"),
@@ -18,6 +18,7 @@ const OWNERS: [(&str, &str); 11] = [
     ("rusqlite", "flexdrill-bag"),
     ("csv-core", "flexdrill-field-log"),
     ("serial2-tokio", "flexdrill-bridge"),
+    ("rumqttc", "flexdrill-bridge"),
     ("maud", "flexdrill-report"),
     ("numpy", "flexdrill-python"),
     ("pyo3", "flexdrill-python"),

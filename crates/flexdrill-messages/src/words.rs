@@ -66,6 +66,27 @@ pub fn model_quality(code: u8) -> &'static str {
     found.map_or(UNKNOWN, QualityLevel::name)
 }
 
+/// The state of the twin.
+pub fn twin_state(code: u8) -> &'static str {
+    match code {
+        TwinStatus::STARTING => "starting",
+        TwinStatus::RUNNING => "running",
+        TwinStatus::PAUSED => "paused",
+        TwinStatus::FAILED => "failed",
+        _ => UNKNOWN,
+    }
+}
+
+/// Whether the twin is recording: `off`, `on` or `failed`.
+pub fn recording_state(code: u8) -> &'static str {
+    match code {
+        TwinStatus::RECORDING_OFF => "off",
+        TwinStatus::RECORDING_ON => "on",
+        TwinStatus::RECORDING_FAILED => "failed",
+        _ => UNKNOWN,
+    }
+}
+
 /// The state of an input.
 pub fn input_state(code: u8) -> &'static str {
     match code {

@@ -10,16 +10,6 @@ use crate::reading::Summary;
 use crate::shares::Shares;
 use flexdrill_messages::{TwinStatus, words};
 
-fn state(code: u8) -> &'static str {
-    match code {
-        TwinStatus::STARTING => "starting",
-        TwinStatus::RUNNING => "running",
-        TwinStatus::PAUSED => "paused",
-        TwinStatus::FAILED => "failed",
-        _ => "?",
-    }
-}
-
 /// The section about the trust in the numbers.
 pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
     let health = &summary.health;
@@ -38,7 +28,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                         @if !health.quality_cause.is_empty() {
                             tr { th { "last reason for a lower quality" } td { (health.quality_cause) } }
                         }
-                        tr { th { "state" } td { (shares(&health.states, state)) } }
+                        tr { th { "state" } td { (shares(&health.states, words::twin_state)) } }
                         tr { th { "real-time factor" } td {
                             @if let Some(range) = health.real_time_factor.range() {
                                 (number(range.min)) " to " (number(range.max)) ", mean " (number(range.mean))

@@ -1,0 +1,336 @@
+//! The contents of the documents: SI values with their units, times of the rig's clock in RFC 3339, words instead of codes.
+//! What is not known is `null`.
+
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals, SafeWindow, TwinStatus, words};
+use jiff::Timestamp;
+use serde_json::{Map, Value, json};
+
+use crate::{Figure, Quantity, TwinFigures};
+
+/// A value with its unit.
+fn quantity(value: f64, unit: &str) -> Value {
+    json!({"value": value, "unit": unit_name(unit)})
+}
+
+/// The messages write `N m`, files and other protocols `N.m`.
+fn unit_name(unit: &str) -> String {
+    match unit {
+        "" => "1".to_owned(),
+        unit => unit.replace("N m", "N.m"),
+    }
+}
+
+/// A time in RFC 3339 with milliseconds; `null` for zero, which is "never" in the messages.
+fn time(time: &Time) -> Value {
+    match time.to_nanoseconds() {
+        0 => Value::Null,
+        nanoseconds => at(nanoseconds),
+    }
+}
+
+/// An instant (ns since 1970) in RFC 3339 with milliseconds.
+pub fn at(nanoseconds: i64) -> Value {
+    let milliseconds = nanoseconds.div_euclid(1_000_000);
+    Timestamp::from_millisecond(milliseconds).map_or(Value::Null, |time| json!(format!("{time:.3}")))
+}
+
+/// `null` for an empty text.
+fn text(text: &str) -> Value {
+    if text.is_empty() { Value::Null } else { json!(text) }
+}
+
+/// The document of `bridge`.
+pub fn bridge(now: i64, twin: &str, since: i64) -> Value {
+    json!({
+        "state": "online",
+        "twin": twin,
+        "since": at(since),
+        "time": at(now),
+        "version": env!("CARGO_PKG_VERSION"),
+    })
+}
+
+/// The document of `status`.
+pub fn status(status: &TwinStatus) -> Value {
+    let inputs: Vec<Value> = (0..status.input_name.len())
+        .map(|input| one_input(status, input))
+        .collect();
+    json!({
+        "stamp": time(&status.header.stamp),
+        "sequence": status.sequence,
+        "state": words::twin_state(status.state),
+        "model_time": quantity(status.model_time, "s"),
+        "real_time_factor": quantity(status.real_time_factor, "1"),
+        "lateness": quantity(status.lateness, "s"),
+        "steps_skipped": status.steps_skipped,
+        "model_quality": words::model_quality(status.model_quality),
+        "model_quality_cause": text(&status.model_quality_cause),
+        "inputs": inputs,
+        "recording": words::recording_state(status.recording_state),
+        "recording_messages_lost": status.recording_drops,
+        "config_hash": status.config_hash,
+        "version": status.version,
+    })
+}
+
+fn one_input(status: &TwinStatus, input: usize) -> Value {
+    let name = status.input_name[input].as_str();
+    let unit = Quantity::try_from(name.to_owned()).map_or("", |quantity| quantity.dimension().si().name());
+    let number = |values: &[f64]| values.get(input).copied().unwrap_or(f64::NAN);
+    json!({
+        "name": name,
+        "state": status.input_state.get(input).map(|code| words::input_state(*code)),
+        "applied": quantity(number(&status.input_applied), unit),
+        "received": quantity(number(&status.input_received), unit),
+        "age": quantity(number(&status.input_age), "s"),
+        "at_safe_value": status.input_safe.get(input),
+        "driver": status.input_driver.get(input).map(|driver| text(driver)),
+    })
+}
+
+/// The document of `figures`.
+pub fn figures(twin: &TwinFigures, now: i64) -> Value {
+    let figures: Map<String, Value> = Figure::ALL
+        .into_iter()
+        .map(|figure| {
+            let value = twin.value(figure).unwrap_or(f64::NAN);
+            (
+                figure.name().to_owned(),
+                quantity(value, figure.dimension().si().name()),
+            )
+        })
+        .collect();
+    json!({"time": at(now), "figures": figures})
+}
+
+/// Whether an alarm is one of the document.
+pub fn is_raised(alarm: &Alarm) -> bool {
+    !matches!(
+        alarm.state,
+        Alarm::NORMAL | Alarm::SUPPRESSED_BY_DESIGN | Alarm::OUT_OF_SERVICE
+    )
+}
+
+/// The document of `alarms`: those that stand, wait to be acknowledged or are shelved, the worst first.
+pub fn alarms(list: &AlarmList) -> Value {
+    let raised: Vec<Value> = list.alarms.iter().filter(|alarm| is_raised(alarm)).map(alarm).collect();
+    json!({
+        "stamp": time(&list.header.stamp),
+        "sequence": list.sequence,
+        "active": list.alarms.iter().filter(|alarm| alarm.active).count(),
+        "unacknowledged": list.unacknowledged,
+        "flood": list.flood,
+        "alarms": raised,
+    })
+}
+
+fn alarm(alarm: &Alarm) -> Value {
+    let body = match alarm.body {
+        Alarm::PIPE => Some("flexible pipe"),
+        Alarm::GUIDE => Some("guide pipe"),
+        _ => None,
+    };
+    json!({
+        "id": alarm.id,
+        "name": alarm.name,
+        "state": words::alarm_state(alarm.state),
+        "priority": words::alarm_priority(alarm.priority),
+        "for": if alarm.category == Alarm::DRILLING { "driller" } else { "administrator" },
+        "active": alarm.active,
+        "acknowledged": alarm.acknowledged,
+        "since": time(&alarm.since),
+        "shelved_until": time(&alarm.shelved_until),
+        "body": body,
+        "measured_depth": quantity(alarm.measured_depth, "m"),
+        "inclination": quantity(alarm.inclination, "rad"),
+        "value": quantity(alarm.value, &alarm.unit),
+        "threshold": quantity(alarm.threshold, &alarm.unit),
+        "confidence": quantity(alarm.confidence, "1"),
+        "evidence": text(&alarm.evidence),
+        "cause": text(&alarm.cause),
+        "consequence": text(&alarm.consequence),
+        "what_to_do": text(&alarm.what_to_do),
+        "what_the_engineer_can_do": text(&alarm.what_the_engineer_can_do),
+    })
+}
+
+/// The document of `forecast`.
+pub fn forecast(forecast: &Forecast) -> Value {
+    let bands: Vec<Value> = forecast
+        .bands
+        .iter()
+        .map(|band| {
+            json!({
+                "name": band.name,
+                "unit": unit_name(&band.unit),
+                "p5": band.p5,
+                "p50": band.p50,
+                "p95": band.p95,
+            })
+        })
+        .collect();
+    let alarms: Vec<Value> = forecast
+        .alarms
+        .iter()
+        .map(|chance| {
+            json!({
+                "id": chance.id,
+                "name": chance.name,
+                "priority": words::alarm_priority(chance.priority),
+                "probability": chance.probability,
+                "lower": chance.lower,
+                "upper": chance.upper,
+                "time_to_first": quantity(chance.time_to_first, "s"),
+            })
+        })
+        .collect();
+    json!({
+        "stamp": time(&forecast.header.stamp),
+        "rotary_speed": quantity(forecast.rotary_speed, "rad/s"),
+        "weight_on_bit": quantity(forecast.weight_on_bit, "N"),
+        "members": forecast.members,
+        "failed": forecast.failed,
+        "failure": text(&forecast.failure),
+        "any_alarm": {
+            "probability": forecast.any_alarm,
+            "lower": forecast.any_alarm_lower,
+            "upper": forecast.any_alarm_upper,
+        },
+        "alarms": alarms,
+        "bands_from": time(&forecast.bands_from),
+        "interval": quantity(forecast.interval, "s"),
+        "bands": bands,
+    })
+}
+
+/// The document of `residuals`.
+pub fn residuals(residuals: &Residuals) -> Value {
+    let each: Vec<Value> = residuals
+        .residuals
+        .iter()
+        .map(|residual| {
+            json!({
+                "name": residual.name,
+                "unit": unit_name(&residual.unit),
+                "sample": residual.sample,
+                "measured": residual.measured,
+                "predicted": residual.predicted,
+                "low": residual.low,
+                "high": residual.high,
+                "ratio": residual.ratio,
+            })
+        })
+        .collect();
+    json!({
+        "stamp": time(&residuals.header.stamp),
+        "steady": residuals.steady,
+        "drilling": residuals.drilling,
+        "bit_depth": quantity(residuals.bit_depth, "m"),
+        "residuals": each,
+        "friction_factor": {
+            "value": residuals.friction_factor,
+            "low": residuals.friction_factor_low,
+            "high": residuals.friction_factor_high,
+            "unit": "1",
+        },
+        "torque_tare": {
+            "value": residuals.torque_tare,
+            "low": residuals.torque_tare_low,
+            "high": residuals.torque_tare_high,
+            "unit": "N.m",
+        },
+        "likely_causes": residuals.likely_causes,
+    })
+}
+
+/// The document of `safe_window`.
+pub fn safe_window(map: &SafeWindow) -> Value {
+    let verdicts: Vec<&str> = map
+        .verdict
+        .iter()
+        .map(|verdict| match *verdict {
+            SafeWindow::CLEAR => "clear",
+            SafeWindow::ALARM => "alarm",
+            SafeWindow::DEPENDS_ON_START => "depends on the start",
+            _ => "unknown",
+        })
+        .collect();
+    json!({
+        "stamp": time(&map.header.stamp),
+        "title": map.title,
+        "motion": map.motion,
+        "horizon": quantity(map.horizon, "s"),
+        "limit": map.limit,
+        "priority": words::alarm_priority(map.priority),
+        "rotary_speed": {"values": map.rotary_speed_rpm, "unit": "r/min"},
+        "weight_on_bit": {"values": map.weight_on_bit_kn, "unit": "kN"},
+        "verdict": verdicts,
+        "chance": map.chance,
+        "alarm": map.alarm,
+        "was_run": map.was_run,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_known_is_null_and_foreign_text_is_escaped() {
+        let list = AlarmList {
+            alarms: vec![
+                Alarm::default(),
+                Alarm {
+                    id: "a".into(),
+                    state: Alarm::ACTIVE_UNACKNOWLEDGED,
+                    priority: Alarm::HIGH,
+                    active: true,
+                    value: 2.0,
+                    unit: "N m".into(),
+                    measured_depth: f64::NAN,
+                    evidence: "\"x\"\u{1b}[2J\n".into(),
+                    ..Alarm::default()
+                },
+            ],
+            unacknowledged: 1,
+            ..AlarmList::default()
+        };
+        let written = alarms(&list).to_string();
+        assert!(!written.contains(|c: char| c.is_control()), "{written}");
+        let read: Value = serde_json::from_str(&written).unwrap();
+        assert_eq!(read["active"], 1);
+        let [alarm] = read["alarms"].as_array().unwrap().as_slice() else {
+            panic!("{written}");
+        };
+        assert_eq!(alarm["evidence"], "\"x\"\u{1b}[2J\n");
+        assert_eq!(alarm["value"], json!({"value": 2.0, "unit": "N.m"}));
+        assert_eq!(alarm["measured_depth"], json!({"value": null, "unit": "m"}));
+        assert_eq!(alarm["since"], Value::Null);
+        assert_eq!(alarm["priority"], "high");
+    }
+
+    #[test]
+    fn times_are_rfc_3339_and_inputs_have_the_units_of_their_quantity() {
+        let message = TwinStatus {
+            header: flexdrill_messages::std_msgs::Header {
+                stamp: Time::from_nanoseconds(1_700_000_000_250_999_999),
+                ..Default::default()
+            },
+            state: TwinStatus::RUNNING,
+            input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
+            input_state: vec![TwinStatus::INPUT_OK],
+            input_applied: vec![6.0, 20e3],
+            ..TwinStatus::default()
+        };
+        let document = status(&message);
+        assert_eq!(document["stamp"], "2023-11-14T22:13:20.250Z");
+        assert_eq!(document["state"], "running");
+        assert_eq!(document["inputs"][0]["applied"], json!({"value": 6.0, "unit": "rad/s"}));
+        assert_eq!(document["inputs"][1]["applied"], json!({"value": 20e3, "unit": "N"}));
+        // Arrays of a damaged message may differ in length.
+        assert_eq!(document["inputs"][1]["state"], Value::Null);
+        let figures = figures(&TwinFigures::default(), 0);
+        assert_eq!(figures["figures"]["bit_torque"], json!({"value": null, "unit": "N.m"}));
+    }
+}

@@ -1,0 +1,213 @@
+//! `flexdrill bridge mqtt`: the twin's outputs on a broker.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::super::numbers;
+
+/// Publish the twin's outputs on an MQTT broker: JSON documents with units and, if asked for, Sparkplug B.
+///
+/// Nothing that the broker sends reaches the twin.
+#[derive(Debug, Args)]
+#[cfg_attr(
+    not(feature = "mqtt"),
+    allow(dead_code, reason = "a program without MQTT only says so")
+)]
+pub(super) struct MqttArgs {
+    /// The broker. The port is 1883 unless given, and 8883 with TLS.
+    #[arg(long, value_name = "HOST[:PORT]")]
+    broker: String,
+    /// Beginning of the topics. Default: flexdrill, followed by the namespace.
+    #[arg(long, value_name = "PREFIX")]
+    topic: Option<String>,
+    /// User at the broker.
+    #[arg(long, value_name = "NAME")]
+    user: Option<String>,
+    /// File with the password of the user, in its first line.
+    #[arg(long, value_name = "FILE", requires = "user")]
+    password_file: Option<PathBuf>,
+    /// Encrypt; trust the certificates that this system trusts.
+    #[arg(long, conflicts_with = "tls_ca")]
+    tls: bool,
+    /// Encrypt; trust the authorities in this file (PEM).
+    #[arg(long, value_name = "FILE")]
+    tls_ca: Option<PathBuf>,
+    /// Publish as a Sparkplug B node too.
+    #[arg(long, value_name = "GROUP/NODE")]
+    sparkplug: Option<String>,
+    /// Time between two documents with status and figures (s). Alarms are sent when they change.
+    #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = numbers::seconds)]
+    every: f64,
+    /// Name of the client at the broker. Default: made from the topics.
+    #[arg(long, value_name = "NAME")]
+    client_id: Option<String>,
+    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
+    #[arg(long, value_name = "ID")]
+    domain: Option<u16>,
+    /// Namespace of the twin and of the bridge.
+    #[arg(long, value_name = "NS", default_value = "/")]
+    namespace: String,
+}
+
+/// # Errors
+/// Always: this program has no MQTT.
+#[cfg(not(feature = "mqtt"))]
+pub(super) fn run(_args: &MqttArgs, _ros_args: &[String]) -> anyhow::Result<()> {
+    anyhow::bail!(
+        "this flexdrill was built without MQTT; build it with the feature mqtt, which is on by default: cargo build \
+         --release --features mqtt"
+    )
+}
+
+#[cfg(feature = "mqtt")]
+pub(super) use with_mqtt::run;
+
+#[cfg(feature = "mqtt")]
+mod with_mqtt {
+    use std::io::Read as _;
+    use std::path::Path;
+    use std::time::Duration;
+
+    use anyhow::Context as _;
+    use flexdrill_bridge::mqtt::{Broker, Documents, LinkTimes, SparkplugNode, Tls};
+    use flexdrill_text::printable;
+    use tokio::sync::watch;
+
+    use super::super::super::{WrongUse, signals};
+    use super::MqttArgs;
+    use crate::bridge::mqtt::MqttBridge;
+    use crate::bridge::{BridgeNode, Outgoing};
+    use crate::cli::output::say;
+    use crate::dds::network::Network;
+    use crate::ros::args::RosArgs;
+    use crate::ros::logging;
+
+    /// Name of the node unless it is remapped.
+    const NODE_NAME: &str = "flexdrill_bridge_mqtt";
+    /// Largest file with a password or certificates (bytes).
+    const LARGEST_FILE: u64 = 1 << 20;
+
+    /// # Errors
+    /// When the options are wrong, or a file or the network cannot be used. A broker that is not there is waited for.
+    pub fn run(args: &MqttArgs, ros_args: &[String]) -> anyhow::Result<()> {
+        let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
+        logging::start(&ros_args);
+        let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
+        let identity = ros_args
+            .remapping
+            .identity(&args.namespace, NODE_NAME)
+            .map_err(WrongUse::new)?;
+        for note in notes {
+            tracing::warn!("{note}");
+        }
+        let broker = args.broker()?;
+        let prefix = match &args.topic {
+            Some(prefix) => prefix.clone(),
+            None => format!("flexdrill{}", identity.namespace.trim_end_matches('/')),
+        };
+        let documents = Documents::new(&prefix, args.client_id.as_deref()).map_err(WrongUse::new)?;
+        let sparkplug = match &args.sparkplug {
+            Some(name) => {
+                let name = name.parse().map_err(WrongUse::new)?;
+                Some(SparkplugNode::new(name, args.client_id.as_deref()))
+            }
+            None => None,
+        };
+        if broker.exposes_password() {
+            tracing::warn!("the password crosses the network unencrypted; give --tls-ca or --tls");
+        }
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        runtime.block_on(async {
+            let topics = MqttBridge::topics();
+            let sends = &[Outgoing::Diagnostics];
+            let node = BridgeNode::new(&network, &identity, &ros_args.remapping, NODE_NAME, sends, &topics)?;
+            let also = args.sparkplug.as_ref();
+            say!(
+                "mqtt to {broker}{}, topics {prefix}/...{}, domain {}; Ctrl-C ends it",
+                if broker.is_encrypted() { " with TLS" } else { "" },
+                also.map_or_else(String::new, |name| format!(" and Sparkplug {}", printable(name))),
+                network.domain_id
+            );
+            let every = Duration::from_secs_f64(args.every);
+            let mut bridge = MqttBridge::new(node, identity.full_name(), broker, documents, sparkplug, every);
+            let shutdown = signals::shutdown(false)?;
+            let (stop, stopping) = watch::channel(false);
+            let mut running = std::pin::pin!(bridge.run(LinkTimes::default(), stopping));
+            tokio::select! {
+                () = shutdown => {
+                    // The broker is told that the bridge is gone.
+                    stop.send_replace(true);
+                    running.await;
+                }
+                () = &mut running => {}
+            }
+            anyhow::Ok(())
+        })?;
+        say!("stopped");
+        Ok(())
+    }
+
+    impl MqttArgs {
+        fn broker(&self) -> anyhow::Result<Broker> {
+            let tls = match &self.tls_ca {
+                Some(file) => Tls::Authority(read("--tls-ca", file)?),
+                None if self.tls => Tls::System,
+                None => Tls::None,
+            };
+            let password = match &self.password_file {
+                Some(file) => {
+                    let bytes = read("--password-file", file)?;
+                    let line = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+                    let password = line.strip_suffix(b"\r").unwrap_or(line).to_vec();
+                    anyhow::ensure!(
+                        !password.is_empty(),
+                        "--password-file {}: the first line is empty; the password belongs there",
+                        file.display()
+                    );
+                    warn_of_readers(file);
+                    password
+                }
+                None => Vec::new(),
+            };
+            let user = self.user.clone().map(|user| (user, password));
+            let broker = Broker::new(&self.broker, tls, user);
+            broker.map_err(|error| match &self.tls_ca {
+                Some(file) => anyhow::anyhow!(
+                    "--broker {}, --tls-ca {}: {error}",
+                    printable(&self.broker),
+                    file.display()
+                ),
+                None => WrongUse::new(format!("--broker: {error}")).into(),
+            })
+        }
+    }
+
+    fn read(option: &str, file: &Path) -> anyhow::Result<Vec<u8>> {
+        let place = || format!("{option} {}", file.display());
+        let mut bytes = Vec::new();
+        let opened = std::fs::File::open(file).with_context(place)?;
+        opened
+            .take(LARGEST_FILE + 1)
+            .read_to_end(&mut bytes)
+            .with_context(place)?;
+        anyhow::ensure!(
+            bytes.len() as u64 <= LARGEST_FILE,
+            "{}: the file has more than {LARGEST_FILE} bytes; is it the right one?",
+            place()
+        );
+        Ok(bytes)
+    }
+
+    /// Warns when other users can read the password.
+    fn warn_of_readers(file: &Path) {
+        use std::os::unix::fs::PermissionsExt as _;
+        let mode = std::fs::metadata(file).map_or(0, |data| data.permissions().mode());
+        if mode & 0o077 != 0 {
+            tracing::warn!(
+                "--password-file {}: other users can read it; chmod 600 protects it",
+                file.display()
+            );
+        }
+    }
+}

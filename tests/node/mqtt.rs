@@ -1,0 +1,437 @@
+//! `flexdrill bridge mqtt` with Debian's mosquitto as the broker, read by paho-mqtt and pysparkplug: documents, births,
+//! data and deaths, while broker, bridge and twin are killed and come back. SKIPPED without them.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::common::{Network, Program, python, root, skipped};
+
+/// Longest wait for a message. The slowest is a birth after a broker's return: the waits before an attempt double from
+/// half a second, and a busy machine starts a twin in 20 s.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A broker in a network of its own, where its port is free.
+struct Broker {
+    program: Option<Program>,
+    folder: tempfile::TempDir,
+}
+
+fn mosquitto() -> Option<PathBuf> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    folders.push("/usr/sbin".into());
+    let found = folders
+        .into_iter()
+        .map(|folder| folder.join("mosquitto"))
+        .find(|path| path.is_file());
+    found.or_else(|| skipped("no mosquitto; launch_scripts/test.sh installs it"))
+}
+
+impl Broker {
+    /// A broker with these lines in its configuration.
+    fn start(network: &Network, lines: &str) -> Option<Self> {
+        let folder = tempfile::tempdir().unwrap();
+        let mut broker = Self { program: None, folder };
+        // Without this line a broker that root starts becomes another user, who cannot read the folder.
+        std::fs::write(
+            broker.file("broker.conf"),
+            format!("user root\nlog_dest stdout\n{lines}"),
+        )
+        .unwrap();
+        broker.again(network)?;
+        Some(broker)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn again(&mut self, network: &Network) -> Option<()> {
+        let mut command = network.command(mosquitto()?);
+        command.arg("-c").arg(self.file("broker.conf"));
+        let mut program = Program::start(command);
+        program.wait_for("running");
+        self.program = Some(program);
+        Some(())
+    }
+
+    fn kill(&mut self) {
+        let mut program = self.program.take().unwrap();
+        program.signal("KILL");
+        assert_eq!(program.end(), None);
+    }
+}
+
+/// Foreign eyes on the broker.
+struct Listener {
+    child: Child,
+    input: ChildStdin,
+    lines: Receiver<String>,
+}
+
+impl Listener {
+    fn start(network: &Network) -> Option<Self> {
+        let mut child = network
+            .command(python::with("pysparkplug")?)
+            .arg(root().join("tests/python/mqtt_listener.py"))
+            .args(["127.0.0.1", "1883"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let (sender, lines) = channel();
+        crate::common::program::forward(child.stdout.take().unwrap(), sender);
+        let input = child.stdin.take().unwrap();
+        let mut listener = Self { child, input, lines };
+        listener.wait(|line| line["connected"] == true);
+        Some(listener)
+    }
+
+    /// Waits for a line. Everything that cannot be read fails the test.
+    fn wait(&mut self, is_it: impl Fn(&Value) -> bool) -> Value {
+        let deadline = Instant::now() + PATIENCE;
+        let mut last = Value::Null;
+        while let Ok(line) = self
+            .lines
+            .recv_timeout(deadline.saturating_duration_since(Instant::now()))
+        {
+            let line: Value = serde_json::from_str(&line).unwrap();
+            assert!(line.get("error").is_none(), "{line}");
+            if is_it(&line) {
+                return line;
+            }
+            last = line;
+        }
+        panic!("it did not come; the last was {last}");
+    }
+
+    fn document(&mut self, topic: &str, is_it: impl Fn(&Value) -> bool) -> Value {
+        let line = self.wait(|line| line["topic"] == topic && is_it(&line["json"]));
+        assert_eq!(line["qos"], 1, "{line}");
+        line["json"].clone()
+    }
+
+    fn sparkplug(&mut self, kind: &str, is_it: impl Fn(&Value) -> bool) -> Value {
+        let line = self.wait(|line| line["sparkplug"]["kind"] == kind && is_it(&line["sparkplug"]));
+        assert_eq!(line["topic"], format!("spBv1.0/field/{kind}/rig_7"));
+        // A host that reads a kept birth or death would take it for a new one.
+        assert_eq!(line["retained"], false, "{line}");
+        line["sparkplug"].clone()
+    }
+
+    fn say(&mut self, line: &str) {
+        writeln!(self.input, "{line}").unwrap();
+    }
+}
+
+impl Drop for Listener {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn bridge(network: &Network, more: &[&str]) -> Program {
+    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    command.args(["bridge", "mqtt", "--broker", "127.0.0.1"]).args(more);
+    Program::start(command)
+}
+
+const OPEN: &str = "listener 1883 127.0.0.1\nallow_anonymous true\n";
+
+#[test]
+fn interop_twin_broker_and_bridge_may_be_killed_and_readers_know_what_holds() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut broker) = Broker::start(&network, OPEN) else {
+        return;
+    };
+    let Some(mut listener) = Listener::start(&network) else {
+        return;
+    };
+    let options = ["--topic", "rigs/7", "--sparkplug", "field/rig_7", "--every", "0.5"];
+
+    // Before there is a twin.
+    let mut program = bridge(&network, &options);
+    let first = listener.document("rigs/7/bridge", |_| true);
+    assert_eq!(
+        (&first["state"], &first["twin"]),
+        (&"online".into(), &"not seen".into())
+    );
+    let birth = listener.sparkplug("NBIRTH", |_| true);
+    assert_eq!((&birth["seq"], &birth["metrics"]["bdSeq"]), (&0.into(), &0.into()));
+    assert_eq!(birth["metrics"]["Twin/alive"], false);
+    assert_eq!(birth["metrics"]["Twin/bit_torque"], Value::Null);
+    assert_eq!(birth["metrics"]["Node Control/Rebirth"], false);
+    assert_eq!(birth["types"]["Twin/bit_torque"], "DOUBLE");
+    let alias = &birth["aliases"]["Twin/bit_torque"];
+    assert_eq!(birth["units"][alias.to_string()], "N.m", "{birth}");
+    for without in ["bdSeq", "Node Control/Rebirth"] {
+        assert_eq!(birth["aliases"][without], Value::Null);
+    }
+
+    // With a twin.
+    let mut twin = network.twin(&[]);
+    listener.document("rigs/7/bridge", |bridge| bridge["twin"] == "running");
+    let status = listener.document("rigs/7/status", |status| status["state"] == "running");
+    assert_eq!(status["model_time"]["unit"], "s");
+    assert_eq!(status["inputs"][0]["name"], "rotary_speed");
+    assert_eq!(status["inputs"][0]["applied"]["unit"], "rad/s");
+    let figures = listener.document("rigs/7/figures", |figures| {
+        figures["figures"]["bit_weight"]["value"].is_number()
+    });
+    assert_eq!(figures["figures"]["bit_weight"]["unit"], "N");
+    let alarms = listener.document("rigs/7/alarms", |_| true);
+    assert!(alarms["alarms"].is_array() && alarms["active"].is_u64(), "{alarms}");
+    let data = listener.sparkplug("NDATA", |data| data["metrics"]["Twin/bit_weight"].is_number());
+    assert_eq!(data["named"], 0, "aliases instead of names: {data}");
+    let seq = data["seq"].as_u64().unwrap();
+    let next = listener.sparkplug("NDATA", |_| true);
+    assert_eq!(next["seq"], (seq + 1) % 256);
+
+    // The one command, and one that is none.
+    listener.say("send spBv1.0/field/NCMD/rig_7 nonsense");
+    listener.say("rebirth field rig_7");
+    let again = listener.sparkplug("NBIRTH", |_| true);
+    assert_eq!((&again["seq"], &again["metrics"]["bdSeq"]), (&0.into(), &0.into()));
+    assert_eq!(again["metrics"]["Twin/alive"], true);
+    assert!(again["metrics"]["Alarms/backward_whirl/active"].is_boolean(), "{again}");
+
+    // The broker dies and forgets everything.
+    broker.kill();
+    program.wait_for("nothing listens at 127.0.0.1:1883");
+    broker.again(&network);
+    listener.wait(|line| line["connected"] == true);
+    listener.document("rigs/7/status", |status| status["state"] == "running");
+    listener.say("rebirth field rig_7");
+    let after = listener.sparkplug("NBIRTH", |_| true);
+    assert_eq!((&after["seq"], &after["metrics"]["bdSeq"]), (&0.into(), &1.into()));
+    let Some(mut peer) = network.peer() else { return };
+    peer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "reliable");
+    let counted = |peer: &mut crate::common::Peer| {
+        let deadline = Instant::now() + PATIENCE;
+        while Instant::now() < deadline {
+            for message in peer.take("/diagnostics", 1, 1.0) {
+                let items = message["status"].as_array().unwrap();
+                let named = |name: &str| items.iter().find(|item| item["name"] == name).cloned();
+                if let Some(json) = named("flexdrill_bridge_mqtt: mqtt") {
+                    return [json, named("flexdrill_bridge_mqtt: sparkplug").unwrap()];
+                }
+            }
+        }
+        panic!("no diagnostics");
+    };
+    let value = |item: &Value, key: &str| -> u64 {
+        let pairs = item["values"].as_array().unwrap();
+        let pair = pairs.iter().find(|pair| pair["key"] == key);
+        pair.unwrap_or_else(|| panic!("{key} in {item}"))["value"]
+            .as_str()
+            .unwrap()
+            .parse()
+            .unwrap()
+    };
+    let [json, sparkplug] = counted(&mut peer);
+    assert_eq!(json["message"], "connected, the twin sends");
+    assert_eq!(value(&json, "connections_made"), 2);
+    assert!(
+        value(&json, "messages_acknowledged") > 5 && value(&json, "bytes_sent") > 5000,
+        "{json}"
+    );
+    assert_eq!(value(&sparkplug, "births_asked_for"), 2);
+    assert_eq!(value(&sparkplug, "commands_ignored"), 1);
+
+    // The twin dies: what it sent is no longer true.
+    twin.signal("KILL");
+    twin.end();
+    listener.document("rigs/7/bridge", |bridge| bridge["twin"] == "silent");
+    let silent = listener.sparkplug("NDATA", |data| data["metrics"]["Twin/alive"] == false);
+    assert_eq!(silent["metrics"]["Twin/bit_weight"], Value::Null, "{silent}");
+
+    // The bridge dies: its wills say so, also to those who come later.
+    program.signal("KILL");
+    program.end();
+    listener.document("rigs/7/bridge", |bridge| bridge["state"] == "offline");
+    drop(listener);
+    let Some(mut late) = Listener::start(&network) else {
+        return;
+    };
+    let kept = late.wait(|line| line["topic"] == "rigs/7/bridge");
+    assert_eq!(
+        (&kept["retained"], &kept["json"]["state"]),
+        (&true.into(), &"offline".into())
+    );
+
+    // An orderly end says so too.
+    let mut program = bridge(&network, &options);
+    late.sparkplug("NBIRTH", |_| true);
+    program.signal("TERM");
+    assert_eq!(program.end(), Some(0), "{}", program.said());
+    let mut gone = [false; 2];
+    while gone != [true; 2] {
+        let line = late.wait(|_| true);
+        if line["topic"] == "rigs/7/bridge" && line["json"]["state"] == "offline" {
+            assert!(
+                line["json"]["reason"].as_str().unwrap().contains("was stopped"),
+                "{line}"
+            );
+            gone[0] = true;
+        }
+        if line["sparkplug"]["kind"] == "NDEATH" {
+            assert_eq!(line["sparkplug"]["metrics"]["bdSeq"], 0);
+            gone[1] = true;
+        }
+    }
+}
+
+/// Certificates for `localhost`, of an authority in `ca.pem` and of another in `other.pem`.
+fn certificates(folder: &Path) -> Option<()> {
+    let script = "set -e
+        cat >names <<'END'
+[req]
+distinguished_name = name
+prompt = no
+[name]
+CN = set by -subj
+[authority]
+basicConstraints = critical, CA:TRUE
+[broker]
+subjectAltName = DNS:localhost
+END
+        new='-newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -config names'
+        for ca in ca other; do
+            openssl req -x509 $new -subj /CN=$ca -extensions authority -days 2 -keyout $ca.key -out $ca.pem
+        done
+        openssl req $new -subj /CN=broker -keyout broker.key -out broker.csr
+        openssl x509 -req -in broker.csr -CA ca.pem -CAkey ca.key -CAcreateserial -days 2 -extfile names \
+            -extensions broker -out broker.pem";
+    let made = Command::new("sh").args(["-c", script]).current_dir(folder).output();
+    match made {
+        Ok(output) if output.status.success() => Some(()),
+        Ok(output) => skipped(&format!("openssl: {}", String::from_utf8_lossy(&output.stderr))),
+        Err(error) => skipped(&format!("sh: {error}")),
+    }
+}
+
+#[test]
+fn a_refused_connection_says_what_to_do() {
+    let Some(network) = Network::new() else { return };
+    let lines = "listener 1883 127.0.0.1\nallow_anonymous false\npassword_file FOLDER/users\n\
+        listener 8883 127.0.0.1\ncertfile FOLDER/broker.pem\nkeyfile FOLDER/broker.key\ncafile FOLDER/ca.pem\n";
+    let folder = tempfile::tempdir().unwrap();
+    let Some(()) = certificates(folder.path()) else { return };
+    let in_folder = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (users, ca, other) = (in_folder("users"), in_folder("ca.pem"), in_folder("other.pem"));
+    // mosquitto_passwd comes with mosquitto.
+    let Some(broker) = mosquitto() else { return };
+    let made = Command::new("mosquitto_passwd")
+        .args(["-b", "-c", &users, "rig", "s3cret-right"])
+        .status();
+    if !made.is_ok_and(|status| status.success()) {
+        let Some(()) = skipped("mosquitto_passwd did not make a file of users") else {
+            return;
+        };
+    }
+    drop(broker);
+    let lines = lines.replace("FOLDER", folder.path().to_str().unwrap());
+    let Some(_broker) = Broker::start(&network, &lines) else {
+        return;
+    };
+    let (right, wrong) = (in_folder("right"), in_folder("wrong"));
+    std::fs::write(&right, "s3cret-right\n").unwrap();
+    std::fs::write(&wrong, "s3cret-wrong\n").unwrap();
+
+    let user = ["--user", "rig", "--password-file", &right];
+    let bad_user = ["--user", "rig", "--password-file", &wrong];
+    let cases: [(&str, &[&str], &[&str], &str); 9] = [
+        (
+            "localhost",
+            &[],
+            &[],
+            "the broker requires a user; give --user and --password-file",
+        ),
+        (
+            "localhost",
+            &bad_user,
+            &[],
+            "refuses the user \"rig\" or its password; check --user and --password-file",
+        ),
+        ("localhost", &user, &[], "connected to localhost:1883"),
+        (
+            "localhost:1884",
+            &user,
+            &[],
+            "nothing listens at localhost:1884; check --broker",
+        ),
+        (
+            "nowhere.invalid",
+            &user,
+            &[],
+            "the host \"nowhere.invalid\" cannot be found",
+        ),
+        ("localhost", &user, &["--tls-ca", &ca], "connected to localhost:8883"),
+        (
+            "localhost",
+            &user,
+            &["--tls-ca", &other],
+            "from none of the trusted authorities; check --tls-ca",
+        ),
+        (
+            "127.0.0.1",
+            &user,
+            &["--tls-ca", &ca],
+            "the broker's certificate is not for \"127.0.0.1\"",
+        ),
+        (
+            "localhost:8883",
+            &user,
+            &[],
+            "if this port expects TLS, give --tls-ca or --tls",
+        ),
+    ];
+    for (host, user, tls, expected) in cases {
+        let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+        command.args(["bridge", "mqtt", "--broker", host]).args(user).args(tls);
+        let mut program = Program::start(command);
+        program.wait_for(expected);
+        assert!(!program.said().contains("s3cret"), "{}", program.said());
+        program.signal("INT");
+        assert_eq!(program.end(), Some(0), "{}", program.said());
+    }
+}
+
+#[test]
+fn wrong_options_are_refused_before_anything_starts() {
+    let folder = tempfile::tempdir().unwrap();
+    let empty = folder.path().join("empty");
+    std::fs::write(&empty, "\n").unwrap();
+    let empty = empty.to_str().unwrap();
+    let cases: [(&[&str], i32, &str); 8] = [
+        (&["--broker", "mqtt://a"], 2, "HOST:PORT"),
+        (&["--broker", "a:0"], 2, "the port must be 1 to 65535"),
+        (&["--broker", "a", "--topic", "a/#"], 2, "such as rigs/rig_7"),
+        (&["--broker", "a", "--sparkplug", "rig"], 2, "such as field_a/rig_7"),
+        (&["--broker", "a", "--password-file", empty], 2, "--user"),
+        (
+            &["--broker", "a", "--user", "u", "--password-file", empty],
+            1,
+            "the first line is empty",
+        ),
+        (
+            &["--broker", "a", "--user", "u", "--password-file", "/nowhere"],
+            1,
+            "--password-file /nowhere",
+        ),
+        (&["--broker", "a", "--tls-ca", empty], 1, "-----BEGIN CERTIFICATE-----"),
+    ];
+    for (arguments, code, expected) in cases {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
+        let output = command.args(["bridge", "mqtt"]).args(arguments).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+}
