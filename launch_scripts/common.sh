@@ -1,5 +1,6 @@
 # Shared by the scripts in this folder; sourced, not run.
-# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress and local_dds.
+# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, local_dds, python_tools and
+# python_wheel.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 name=$(basename "$0")
@@ -109,4 +110,40 @@ time_left() {
 local_dds() {
     export ROS_LOCALHOST_ONLY="${ROS_LOCALHOST_ONLY:-1}"
     say "DDS domain ${ROS_DOMAIN_ID:-0}, $([ "$ROS_LOCALHOST_ONLY" = 1 ] && echo "this machine only" || echo "all networks")"
+}
+
+# Where the scripts of the Python package keep what they make.
+python_out=$root/target/python
+
+# The tools of the Python package, versions pinned, in an environment of their own that comes first in PATH: $tools.
+python_tools() {
+    local wanted=$root/crates/flexdrill-python/tests/requirements.txt
+    tools=$python_out/tools
+    [ -x "$tools/bin/python" ] && "$tools/bin/python" -c '' 2>/dev/null || {
+        rm -rf "$tools"
+        mkdir -p "$python_out"
+        python3 -m venv "$tools" || fail "python3 -m venv failed; the package python3-venv of this very Python is needed"
+    }
+    if ! cmp -s "$wanted" "$tools/installed.txt"; then
+        timeout 900 "$tools/bin/python" -m pip install --quiet --disable-pip-version-check -r "$wanted" ||
+            fail "pip could not install what crates/flexdrill-python/tests/requirements.txt names; is there a network?"
+        cp "$wanted" "$tools/installed.txt"
+    fi
+    PATH="$tools/bin:$PATH"
+}
+
+# python_wheel TARGET DIR: builds the wheel for that target of Rust into DIR and checks it: $wheel. zig links against the
+# symbols of glibc 2.17, the oldest that Rust supports, so that the wheel runs on every distribution since 2014.
+python_wheel() {
+    local target=$1 dist=$2 said
+    maturin build --release --locked --zig --compatibility manylinux_2_17 --target "$target" \
+        --manifest-path "$root/crates/flexdrill-python/Cargo.toml" --out "$dist"
+    wheel=$(find "$dist" -name "*_${target%%-*}.whl")
+    [ -f "$wheel" ] || fail "no wheel for $target in $dist, or more than one"
+    # Two judges that are not the builder: the shared libraries and versions of symbols that manylinux allows, and the
+    # functions of Python that its stable interface has had since 3.9.
+    said=$(auditwheel show "$wheel" 2>&1) || fail "auditwheel: $said"
+    printf '%s\n' "$said" | tr '\n' ' ' | grep -Eq 'following platform tag: +"manylinux_2_(5|12|17)_' ||
+        fail "$(basename "$wheel") needs more than manylinux_2_17 has: $said"
+    said=$(abi3audit --strict "$wheel" 2>&1) || fail "abi3audit: $said"
 }

@@ -1,47 +1,35 @@
 #!/usr/bin/env bash
 # The Python package as its users get it: launch_scripts/python_test.sh [--quick]
-# Builds wheel and sdist (into target/python/dist), installs the wheel into a clean environment, and runs tests, types
-# and notebooks against it; the notebooks' pictures go to target/python/notebooks. Does its own set-up (as root or
-# with sudo): Python's venv, and the tools that crates/flexdrill-python/tests/requirements.txt names.
+# Builds wheel (manylinux_2_17) and sdist into target/python/dist, installs the wheel into a clean environment, and runs
+# tests, types and notebooks against it; the notebooks' pictures go to target/python/notebooks. Does its own set-up (as
+# root or with sudo): Python's venv, and the tools that crates/flexdrill-python/tests/requirements.txt names.
 #   --quick   without the environment and the notebooks
 # FLEXDRILL_BINARY names the program whose bits are compared with the package's; default: the one in target/release.
+# launch_scripts/wheels.sh installs the sdist, and tries the wheel in other Pythons.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 quick=""
 case ${1:-} in
 "") ;;
 --quick) quick=yes ;;
-*) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+*) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 esac
 need_packages build-essential python3-venv
 need_rust
 cd "$root"
 crate=$root/crates/flexdrill-python
-out=$root/target/python
+out=$python_out
 dist=$out/dist
 [ -z "${FLEXDRILL_BINARY:-}" ] || FLEXDRILL_BINARY=$(realpath "$FLEXDRILL_BINARY")
 binary=${FLEXDRILL_BINARY:-${CARGO_TARGET_DIR:-$root/target}/release/flexdrill}
 
-say "step 1 of 5: tools in $out/tools, versions pinned"
-tools=$out/tools
-[ -x "$tools/bin/python" ] && "$tools/bin/python" -c '' 2>/dev/null || {
-    rm -rf "$tools"
-    mkdir -p "$out"
-    python3 -m venv "$tools" || fail "python3 -m venv failed; the package python3-venv of this very Python is needed"
-}
-if ! cmp -s "$crate/tests/requirements.txt" "$tools/installed.txt"; then
-    timeout 900 "$tools/bin/python" -m pip install --quiet --disable-pip-version-check -r "$crate/tests/requirements.txt" ||
-        fail "pip could not install what crates/flexdrill-python/tests/requirements.txt names; is there a network?"
-    cp "$crate/tests/requirements.txt" "$tools/installed.txt"
-fi
+say "step 1 of 5: tools, versions pinned"
+python_tools
 
-say "step 2 of 5: the wheel"
+say "step 2 of 5: wheel and sdist"
 rm -rf "$dist"
-PATH="$tools/bin:$PATH"
-# maturin names the oldest glibc that the wheel runs with, as the manylinux tags have it.
-maturin build --release --locked --manifest-path "$crate/Cargo.toml" --out "$dist"
+python_wheel x86_64-unknown-linux-gnu "$dist"
 maturin sdist --manifest-path "$crate/Cargo.toml" --out "$dist"
-wheel=$(find "$dist" -name '*.whl')
 "$tools/bin/python" "$crate/tests/check_package.py" "$dist"
 
 say "step 3 of 5: tests in a clean environment"

@@ -1,51 +1,107 @@
-"""Checks what was built: python check_package.py DIST. Size and contents of the wheel, and that the sdist is
-complete."""
+"""Checks what was built: python check_package.py DIST. Names, size and contents of the wheels, their bills of
+materials and licences, and that the sdist is complete."""
 
 from __future__ import annotations
 
+import json
+import re
 import sys
 import tarfile
 import zipfile
+from email import message_from_bytes
 from pathlib import Path
 
 MOST_BYTES = 15_000_000
+ROOT = Path(__file__).resolve().parents[3]
+LICENCES = ["LICENSE-APACHE", "LICENSE-MIT"]
+CONFIGS = ["coarse.yaml", "default.yaml", "paper.yaml", "rig.yaml"]
+WHEEL_NAME = re.compile(r"flexdrill-[\d.]+-cp39-abi3-manylinux2014_(x86_64|aarch64)\.manylinux_2_17_\1\.whl")
+MACHINES = {"x86_64": 62, "aarch64": 183}
+"""`e_machine` of an ELF file: EM_X86_64, EM_AARCH64."""
+PERMITTED = {"MIT", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause"}
+"""A component may be used under one of these; `deny.toml` has the same, and the exceptions below."""
+EXCEPTIONS = {
+    "foldhash": "Zlib",
+    "unicode-ident": "Unicode-3.0",
+    "target-lexicon": "Apache-2.0 WITH LLVM-exception",
+}
 
 
 def check_wheel(wheel: Path) -> None:
+    name = WHEEL_NAME.fullmatch(wheel.name)
+    if name is None:
+        raise SystemExit(f"{wheel.name}: its name must match {WHEEL_NAME.pattern}")
     size = wheel.stat().st_size
-    with zipfile.ZipFile(wheel) as archive:
-        names = archive.namelist()
-        default = archive.read("flexdrill/configs/default.yaml")
-    needed = ["flexdrill/py.typed", "flexdrill/_native.abi3.so", "flexdrill/_native.pyi", "flexdrill/configs/rig.yaml"]
-    missing = [name for name in needed if name not in names]
-    boms = [name for name in names if "/sboms/" in name]
-    if missing or not boms or b"links: 33" not in default:
-        raise SystemExit(f"{wheel.name}: missing {missing}, bills of materials {boms}")
     if size > MOST_BYTES:
         raise SystemExit(f"{wheel.name} has {size} bytes: must be at most {MOST_BYTES}")
-    print(f"{wheel.name}: {size / 1e6:.1f} MB, {len(names)} files, bill of materials {boms[0]}")
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+        info = next(entry.split("/")[0] for entry in names if ".dist-info/" in entry)
+        needed = ["flexdrill/py.typed", "flexdrill/_native.abi3.so", "flexdrill/_native.pyi", f"{info}/METADATA"]
+        same = {f"flexdrill/configs/{config}": ROOT / "config" / config for config in CONFIGS}
+        same.update({f"{info}/licenses/{licence}": ROOT / licence for licence in LICENCES})
+        missing = [entry for entry in [*needed, *same] if entry not in names]
+        boms = [entry for entry in names if entry.startswith(f"{info}/sboms/")]
+        if missing or len(boms) != 1:
+            raise SystemExit(f"{wheel.name}: missing {missing}, bills of materials {boms}, must be one")
+        for entry, source in same.items():
+            if archive.read(entry) != source.read_bytes():
+                raise SystemExit(f"{wheel.name}: {entry} is not {source}")
+        machine = int.from_bytes(archive.read("flexdrill/_native.abi3.so")[18:20], "little")
+        if machine != MACHINES[name[1]]:
+            raise SystemExit(f"{wheel.name}: machine {machine} of the library must be {MACHINES[name[1]]}")
+        metadata = message_from_bytes(archive.read(f"{info}/METADATA"))
+        components = check_bom(archive.read(boms[0]))
+    licences = (metadata["License-Expression"], sorted(metadata.get_all("License-File", [])))
+    if licences != ("MIT OR Apache-2.0", LICENCES):
+        raise SystemExit(f"{wheel.name}: METADATA names the licences {licences}")
+    print(f"{wheel.name}: {size / 1e6:.1f} MB, {len(names)} files, bill of materials of {components} components")
+
+
+def check_bom(text: bytes) -> int:
+    """The number of components of a CycloneDX bill of materials, all with a version and a permitted licence."""
+    bom = json.loads(text)
+    components = {component["name"]: component for component in bom["components"]}
+    missing = [name for name in ("flexdrill-config", "flexdrill-core", "numpy", "pyo3") if name not in components]
+    if bom["bomFormat"] != "CycloneDX" or missing:
+        raise SystemExit(f"bill of materials: format {bom['bomFormat']}, missing {missing}")
+    for name, component in components.items():
+        licence = " AND ".join(entry["expression"] for entry in component.get("licenses", []))
+        choices = {choice.strip(" ()") for choice in re.split(r" OR |/", licence)}
+        # With AND, as in unicode-ident's, every part must be permitted.
+        parts = [part for choice in choices for part in choice.split(" AND ")]
+        permitted = choices & PERMITTED or (EXCEPTIONS.get(name) in parts)
+        if not component.get("version") or not permitted:
+            raise SystemExit(f"bill of materials: {name} {component.get('version')}, licence {licence!r}: not permitted")
+    return len(components)
 
 
 def check_sdist(sdist: Path) -> None:
-    with tarfile.open(sdist) as archive:
-        names = archive.getnames()
-        default = [member for member in archive.getmembers() if member.name.endswith("configs/default.yaml")]
     root = sdist.name.removesuffix(".tar.gz")
-    needed = ["pyproject.toml", "PKG-INFO", "crates/flexdrill-core/Cargo.toml", "crates/flexdrill-config/Cargo.toml"]
-    missing = [name for name in needed if f"{root}/{name}" not in names]
-    if missing or len(default) != 1 or not default[0].isfile() or default[0].size < 10_000:
-        raise SystemExit(f"{sdist.name}: missing {missing}; configurations {default}")
-    print(f"{sdist.name}: {sdist.stat().st_size / 1e6:.1f} MB, {len(names)} files")
+    needed = ["pyproject.toml", "PKG-INFO", "Cargo.lock", *LICENCES]
+    needed += [f"crates/{name}/Cargo.toml" for name in ("flexdrill-config", "flexdrill-core", "flexdrill-python")]
+    with tarfile.open(sdist) as archive:
+        files = {member.name: member for member in archive.getmembers()}
+        missing = [name for name in needed if f"{root}/{name}" not in files]
+        links = [name for name, member in files.items() if not member.isfile()]
+        configs = [name for name in files if name.rpartition("/configs/")[2] in CONFIGS]
+        if missing or links or len(configs) != len(CONFIGS):
+            raise SystemExit(f"{sdist.name}: missing {missing}, no plain files {links}, configurations {configs}")
+        for name in configs:
+            text = archive.extractfile(name)
+            if text is None or text.read() != (ROOT / "config" / name.rpartition("/")[2]).read_bytes():
+                raise SystemExit(f"{sdist.name}: {name} is not the one in config/")
+    print(f"{sdist.name}: {sdist.stat().st_size / 1e6:.1f} MB, {len(files)} files")
 
 
 def main() -> None:
     dist = Path(sys.argv[1])
     wheels, sdists = sorted(dist.glob("*.whl")), sorted(dist.glob("*.tar.gz"))
-    if len(wheels) != 1:
-        raise SystemExit(f"{dist}: {len(wheels)} wheels, must be one")
-    check_wheel(wheels[0])
-    for sdist in sdists:
-        check_sdist(sdist)
+    if not wheels or len(sdists) != 1:
+        raise SystemExit(f"{dist}: {len(wheels)} wheels and {len(sdists)} sdists, must be one or more and one")
+    for wheel in wheels:
+        check_wheel(wheel)
+    check_sdist(sdists[0])
 
 
 if __name__ == "__main__":
