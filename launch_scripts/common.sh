@@ -49,7 +49,8 @@ need_rust() {
     say "Rust $have"
 }
 
-# Builds the release binary and sets $flexdrill. Shows how much of the build is done and how long the rest takes.
+# Builds the release binary, with the options that are given to cargo, and sets $flexdrill. Shows how much of the build is
+# done and how long the rest takes.
 build() {
     need_packages build-essential
     need_rust
@@ -58,7 +59,7 @@ build() {
     (
         cd "$root"
         export CARGO_TERM_COLOR=never CARGO_TERM_PROGRESS_WHEN=always CARGO_TERM_PROGRESS_WIDTH=100
-        cargo build --release --locked 2>&1
+        cargo build --release --locked "$@" 2>&1
     ) | progress || fail "the build failed; see above"
     flexdrill="${CARGO_TARGET_DIR:-$root/target}/release/flexdrill"
 }

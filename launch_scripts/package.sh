@@ -11,7 +11,7 @@ package=$root/target/package
 release=${CARGO_TARGET_DIR:-$root/target}/release
 not_checked() { say "NOT CHECKED: $*"; }
 
-[ "${1:-}" = --no-build ] || build
+[ "${1:-}" = --no-build ] || build --features opcua
 [ -x "$release/flexdrill" ] || fail "$release/flexdrill is not there"
 command -v cargo-deb >/dev/null ||
     cargo install --quiet --locked cargo-deb --version '^3.8' --root "$tools" ||
@@ -33,6 +33,7 @@ printf 'flexdrill (%s-1) unstable; urgency=medium\n\n  * See CHANGELOG.md of the
     printf 'flexdrill may be used under the Apache License 2.0, which Debian has as\n/usr/share/common-licenses/Apache-2.0, or under this one:\n\n'
     cat LICENSE-MIT
     printf '\nThe font Roboto in it is under the Apache License 2.0.\n'
+    printf 'async-opcua in it, unchanged, is under the Mozilla Public License 2.0: https://crates.io/crates/async-opcua\n'
 } >"$package/copyright"
 
 say "the package"

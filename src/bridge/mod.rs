@@ -7,6 +7,8 @@ pub mod mqtt;
 #[cfg(feature = "mqtt")]
 mod mqtt_figures;
 mod node;
+#[cfg(feature = "opcua")]
+pub mod opcua;
 pub mod wits;
 
 pub use node::{BridgeNode, Outgoing};

@@ -1,6 +1,7 @@
 //! `flexdrill bridge`: joins the twin's topics to a rig's own protocol, or to a broker.
 
 mod mqtt;
+mod opcua;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -33,6 +34,7 @@ pub(super) struct BridgeArgs {
 enum Protocol {
     Wits(WitsArgs),
     Mqtt(Box<mqtt::MqttArgs>),
+    Opcua(Box<opcua::OpcuaArgs>),
 }
 
 /// Read WITS level 0 from a line, and send the twin's figures back.
@@ -78,6 +80,7 @@ pub(super) fn run(args: &BridgeArgs, ros_args: &[String]) -> anyhow::Result<()> 
     match &args.protocol {
         Protocol::Wits(args) => run_wits(args, ros_args),
         Protocol::Mqtt(args) => mqtt::run(args, ros_args),
+        Protocol::Opcua(args) => opcua::run(args, ros_args),
     }
 }
 

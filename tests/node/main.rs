@@ -15,6 +15,8 @@ mod clock;
 mod command_line;
 #[cfg(feature = "mqtt")]
 mod mqtt;
+#[cfg(feature = "opcua")]
+mod opcua;
 mod recording;
 mod safe_window;
 mod what_if;

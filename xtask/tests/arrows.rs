@@ -9,7 +9,7 @@
 use std::path::{Path, PathBuf};
 
 /// A foreign crate, and the crate of the workspace that may use it.
-const OWNERS: [(&str, &str); 12] = [
+const OWNERS: [(&str, &str); 13] = [
     ("rustdds", "flexdrill-ros2"),
     ("ros2-client", "flexdrill-ros2"),
     ("foxglove", "flexdrill-live"),
@@ -19,6 +19,7 @@ const OWNERS: [(&str, &str); 12] = [
     ("csv-core", "flexdrill-field-log"),
     ("serial2-tokio", "flexdrill-bridge"),
     ("rumqttc", "flexdrill-bridge"),
+    ("async-opcua", "flexdrill-bridge"),
     ("maud", "flexdrill-report"),
     ("numpy", "flexdrill-python"),
     ("pyo3", "flexdrill-python"),

@@ -11,11 +11,11 @@ use flexdrill_messages::{
 use serde::{Deserialize, Serialize};
 
 macro_rules! figures {
-    ($($(#[$doc:meta])* $figure:ident $name:literal in $dimension:ident from $field:ident: $value:expr;)*) => {
+    ($($(#[doc = $doc:literal])* $figure:ident $name:literal in $dimension:ident from $field:ident: $value:expr;)*) => {
         /// A figure of the twin.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
         pub enum Figure {
-            $($(#[$doc])* #[serde(rename = $name)] $figure,)*
+            $($(#[doc = $doc])* #[serde(rename = $name)] $figure,)*
         }
 
         impl Figure {
@@ -25,6 +25,16 @@ macro_rules! figures {
             /// The name in mappings and on other protocols.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$figure => $name,)* }
+            }
+
+            /// The topic that it comes from.
+            pub fn topic(self) -> &'static TopicInfo {
+                match self { $(Self::$figure => sources::$field(),)* }
+            }
+
+            /// What it is, in a sentence.
+            pub const fn description(self) -> &'static str {
+                match self { $(Self::$figure => concat!($($doc),*),)* }
             }
 
             /// What it measures; values are in the SI unit of that.
@@ -44,8 +54,42 @@ macro_rules! figures {
                 };
                 value.is_finite().then_some(value)
             }
+
+            /// When the twin computed the newest value (ns since 1970, on the rig's clock).
+            pub fn stamp(&self, figure: Figure) -> Option<i64> {
+                Some(match figure {
+                    $(Figure::$figure => self.$field.as_ref()?.header.stamp.to_nanoseconds(),)*
+                })
+            }
         }
     };
+}
+
+/// The topics by the names of the fields of [`TwinFigures`].
+mod sources {
+    use super::{TopicInfo, topics};
+
+    pub(super) const fn whirl() -> &'static TopicInfo {
+        &topics::WHIRL_WARNINGS
+    }
+    pub(super) const fn alarms() -> &'static TopicInfo {
+        &topics::ALARMS
+    }
+    pub(super) const fn bit() -> &'static TopicInfo {
+        &topics::BIT_STATE
+    }
+    pub(super) const fn joints() -> &'static TopicInfo {
+        &topics::JOINT_DEFLECTIONS
+    }
+    pub(super) const fn contacts() -> &'static TopicInfo {
+        &topics::CONTACT_FORCES
+    }
+    pub(super) const fn transfer() -> &'static TopicInfo {
+        &topics::TRANSFER
+    }
+    pub(super) const fn status() -> &'static TopicInfo {
+        &topics::STATUS
+    }
 }
 
 figures! {

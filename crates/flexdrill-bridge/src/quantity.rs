@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use flexdrill_core::inputs::{Dimension, InputKind, MeasuredKind};
+use flexdrill_config::checker::Checker;
+use flexdrill_core::inputs::{Dimension, InputKind, MeasuredKind, Unit};
 use serde::{Deserialize, Serialize};
 
 /// A quantity of the rig by its name. Rate of penetration and standpipe pressure are both measured and an input.
@@ -95,6 +96,29 @@ impl From<Quantity> for String {
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+/// Checks the keys `unit` and `valid` of an entry of a mapping file.
+pub(crate) fn check_unit_and_range(c: &mut Checker, quantity: Quantity, unit: Unit, valid: Option<[f64; 2]>) {
+    let dimension = quantity.dimension();
+    c.require(
+        unit.dimension() == dimension,
+        "unit",
+        unit,
+        "",
+        format!("one of {}", dimension.units()),
+        "the unit belongs to another quantity",
+    );
+    if let Some([least, most]) = valid {
+        c.require(
+            least.is_finite() && most.is_finite() && least < most,
+            "valid",
+            format!("[{least}, {most}]"),
+            "",
+            "[smallest, largest]",
+            "values outside are left out",
+        );
     }
 }
 

@@ -20,8 +20,10 @@ use flexdrill_messages::to_cdr_body;
 use flexdrill_text::printable;
 
 /// RustDDS warns of every datagram above 1500 bytes and of peers that leave, ros2-client warns of every plain DDS client, and
-/// foxglove reports a closed viewer as an error.
-const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error,foxglove=off";
+/// foxglove reports a closed viewer as an error. async-opcua has a line for every connection and for every fault of a
+/// client; the bridge counts them and logs them with a limit.
+const LIBRARIES: &str = "rustdds=error,ros2_client=error,mio=error,foxglove=off,opcua_client=off,opcua_core=off,\
+                         opcua_crypto=off,opcua_nodes=off,opcua_server=off,opcua_types=off";
 
 /// The publisher of log lines, and the logger's name, while the node runs.
 #[derive(Default)]

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header as RosHeader;
 use flexdrill_messages::{RigInputs, RigMeasured};
@@ -14,7 +13,7 @@ use super::item::{ItemCode, number};
 use super::mapping::{ItemMapping, Mapping, StampSource};
 use super::sequence::{Sequence, SequenceWatch};
 use super::shown;
-use crate::Quantity;
+use crate::{Quantity, messages};
 
 /// Faults of one frame that are described; more are counted.
 const MOST_FAULTS: usize = 16;
@@ -202,6 +201,16 @@ struct Draft {
 }
 
 impl Draft {
+    fn value(&self, quantity: Quantity) -> Option<f64> {
+        self.values.get(&quantity).map(|value| value.value)
+    }
+
+    fn any_fallback(&self, of: impl Fn(Quantity) -> bool) -> bool {
+        self.values
+            .iter()
+            .any(|(&quantity, value)| of(quantity) && value.fallback)
+    }
+
     fn fault(&mut self, kind: ItemFaultKind, code: Option<ItemCode>, text: &[u8], wanted: impl FnOnce() -> String) {
         if self.faults.len() >= MOST_FAULTS {
             self.more_faults += 1;
@@ -406,37 +415,13 @@ fn outcome(records: &[RecordSeen], newest: &[u8], draft: &Draft) -> FrameUse {
 }
 
 fn rig_inputs(draft: &Draft, header: RosHeader, source: &str) -> Option<RigInputs> {
-    let value = |kind: InputKind| {
-        let found = draft.values.iter().find(|(quantity, _)| quantity.input() == Some(kind));
-        found.map(|(_, value)| (kind.from_si(value.value), value.fallback))
-    };
-    let given = InputKind::ALL.map(value);
-    if given.iter().all(Option::is_none) {
-        return None;
-    }
-    let [speed, weight, rate, pressure] = given.map(|given| given.map_or(f64::NAN, |(value, _)| value));
-    Some(RigInputs {
-        header,
-        rotary_speed_rpm: speed,
-        weight_on_bit_kn: weight,
-        quality: quality(given.iter().flatten().any(|(_, fallback)| *fallback)),
-        source: source.to_owned(),
-        rate_of_penetration_m_per_h: rate,
-        standpipe_pressure_mpa: pressure,
-    })
+    let doubtful = draft.any_fallback(|quantity| quantity.input().is_some());
+    messages::rig_inputs(|quantity| draft.value(quantity), header, quality(doubtful), source)
 }
 
 fn rig_measured(draft: &Draft, header: RosHeader, source: &str) -> Option<RigMeasured> {
-    let mut doubtful = false;
-    let mut message = RigMeasured::not_given(header, RigMeasured::GOOD, source.to_owned());
-    for (quantity, value) in &draft.values {
-        if let Quantity::Measured(kind) = quantity {
-            message.set(*kind, value.value);
-            doubtful |= value.fallback;
-        }
-    }
-    message.quality = quality(doubtful);
-    (!message.is_empty()).then_some(message)
+    let doubtful = draft.any_fallback(|quantity| matches!(quantity, Quantity::Measured(_)));
+    messages::rig_measured(|quantity| draft.value(quantity), header, quality(doubtful), source)
 }
 
 /// The codes of both messages are the same.

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::header::LAST_HEADER_ITEM;
 use super::item::ItemCode;
+use crate::quantity::check_unit_and_range;
 use crate::{Figure, Quantity};
 
 /// The units of the items that a mapping does not name.
@@ -252,25 +253,7 @@ fn check_number(c: &mut Checker, code: ItemCode, key: &str) {
 impl ItemMapping {
     fn check(&self, c: &mut Checker, code: ItemCode) {
         check_number(c, code, "quantity");
-        let dimension = self.quantity.dimension();
-        c.require(
-            self.unit.dimension() == dimension,
-            "unit",
-            self.unit,
-            "",
-            format!("one of {}", dimension.units()),
-            "the unit belongs to another quantity",
-        );
-        if let Some([least, most]) = self.valid {
-            c.require(
-                least.is_finite() && most.is_finite() && least < most,
-                "valid",
-                format!("[{least}, {most}]"),
-                "",
-                "[smallest, largest]",
-                "values outside are left out",
-            );
-        }
+        check_unit_and_range(c, self.quantity, self.unit, self.valid);
     }
 }
 

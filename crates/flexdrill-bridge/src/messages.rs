@@ -1,0 +1,51 @@
+//! Values of a rig as messages for the twin.
+
+use flexdrill_core::inputs::InputKind;
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::{RigInputs, RigMeasured};
+
+use crate::Quantity;
+
+/// The inputs among the values (SI) of a rig; `None` where there is none.
+pub fn rig_inputs(
+    value: impl Fn(Quantity) -> Option<f64>,
+    header: Header,
+    quality: u8,
+    source: &str,
+) -> Option<RigInputs> {
+    let given = InputKind::ALL.map(|kind| {
+        let quantity = Quantity::all().find(|quantity| quantity.input() == Some(kind))?;
+        Some(kind.from_si(value(quantity)?))
+    });
+    if given.iter().all(Option::is_none) {
+        return None;
+    }
+    let [speed, weight, rate, pressure] = given.map(|given| given.unwrap_or(f64::NAN));
+    Some(RigInputs {
+        header,
+        rotary_speed_rpm: speed,
+        weight_on_bit_kn: weight,
+        quality,
+        source: source.to_owned(),
+        rate_of_penetration_m_per_h: rate,
+        standpipe_pressure_mpa: pressure,
+    })
+}
+
+/// The measured quantities among the values (SI) of a rig; `None` where there is none.
+pub fn rig_measured(
+    value: impl Fn(Quantity) -> Option<f64>,
+    header: Header,
+    quality: u8,
+    source: &str,
+) -> Option<RigMeasured> {
+    let mut message = RigMeasured::not_given(header, quality, source.to_owned());
+    for quantity in Quantity::all() {
+        if let Quantity::Measured(kind) = quantity
+            && let Some(value) = value(quantity)
+        {
+            message.set(kind, value);
+        }
+    }
+    (!message.is_empty()).then_some(message)
+}

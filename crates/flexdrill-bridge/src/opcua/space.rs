@@ -1,0 +1,423 @@
+//! The nodes of the server: what each variable is, and its value from the twin's messages.
+
+use ::opcua::types::{DataTypeId, Variant};
+use flexdrill_core::inputs::{InputKind, Unit};
+use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::{Residual, SafeWindow, TwinStatus};
+
+use super::state::{Meaning, TwinState};
+use crate::Figure;
+
+/// The namespace of the nodes.
+pub const NAMESPACE: &str = "urn:flexdrill:twin";
+/// Node of the object that all others are below.
+pub const ROOT: &str = "twin";
+/// Folder of the alarms.
+pub const ALARMS: &str = "alarms";
+/// Folder of the targets that a user may write.
+pub const TARGETS: &str = "targets";
+
+/// The type of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A number with a unit.
+    Number(Unit),
+    /// Several of them.
+    Numbers(Unit),
+    /// A text.
+    Text,
+    /// Yes or no.
+    Flag,
+    /// A code or a count.
+    Count,
+    /// Several codes.
+    Codes,
+}
+
+impl Kind {
+    /// The type of its values.
+    pub const fn data_type(self) -> DataTypeId {
+        match self {
+            Self::Number(_) | Self::Numbers(_) => DataTypeId::Double,
+            Self::Text => DataTypeId::String,
+            Self::Flag => DataTypeId::Boolean,
+            Self::Count => DataTypeId::UInt64,
+            Self::Codes => DataTypeId::Byte,
+        }
+    }
+
+    /// Whether its values are arrays.
+    pub const fn is_array(self) -> bool {
+        matches!(self, Self::Numbers(_) | Self::Codes)
+    }
+
+    /// The unit, if it has one.
+    pub const fn unit(self) -> Option<Unit> {
+        match self {
+            Self::Number(unit) | Self::Numbers(unit) => Some(unit),
+            Self::Text | Self::Flag | Self::Count | Self::Codes => None,
+        }
+    }
+}
+
+type Read = Box<dyn Fn(&TwinState) -> Option<Variant> + Send + Sync>;
+
+/// A variable.
+pub struct Variable {
+    /// Its folder below the root.
+    pub folder: &'static str,
+    /// Its name in the folder; `folder/name` is its node id. A name with a slash is in a folder of its own below.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// Its type.
+    pub kind: Kind,
+    /// The topic that it comes from.
+    pub topic: &'static TopicInfo,
+    /// What makes it doubtful.
+    pub meaning: Meaning,
+    figure: Option<Figure>,
+    read: Read,
+}
+
+impl Variable {
+    /// The value; `None` where the twin has none.
+    pub fn value(&self, twin: &TwinState) -> Option<Variant> {
+        (self.read)(twin)
+    }
+
+    /// When the twin computed the value (ns since 1970, on the rig's clock).
+    pub fn stamp(&self, twin: &TwinState) -> Option<i64> {
+        if let Some(figure) = self.figure {
+            return twin.figures().stamp(figure);
+        }
+        let header = match self.topic.name {
+            name if name == topics::STATUS.name => &twin.status()?.header,
+            name if name == topics::RESIDUALS.name => &twin.residuals()?.header,
+            name if name == topics::SAFE_WINDOW.name => &twin.window()?.header,
+            _ => return None,
+        };
+        Some(header.stamp.to_nanoseconds())
+    }
+
+    fn new(
+        folder: &'static str,
+        name: impl Into<String>,
+        description: impl Into<String>,
+        kind: Kind,
+        topic: &'static TopicInfo,
+        read: impl Fn(&TwinState) -> Option<Variant> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            folder,
+            name: name.into(),
+            description: description.into(),
+            kind,
+            topic,
+            meaning: Meaning::Stated,
+            figure: None,
+            read: Box::new(read),
+        }
+    }
+
+    fn meaning(mut self, meaning: Meaning) -> Self {
+        self.meaning = meaning;
+        self
+    }
+}
+
+/// A number, if it is one.
+pub(super) fn number(value: f64) -> Option<Variant> {
+    value.is_finite().then(|| Variant::from(value))
+}
+
+/// All variables but those of the alarms, which the twin names.
+pub fn variables() -> Vec<Variable> {
+    let mut all: Vec<Variable> = Figure::ALL.into_iter().map(of_figure).collect();
+    all.extend(of_status());
+    all.extend(InputKind::ALL.into_iter().flat_map(of_input));
+    all.extend(of_residuals());
+    all.extend(of_window());
+    all
+}
+
+fn of_figure(figure: Figure) -> Variable {
+    let topic = figure.topic();
+    let kind = Kind::Number(figure.dimension().si());
+    let read = move |twin: &TwinState| twin.figures().value(figure).map(Variant::from);
+    let stated = topic.name == topics::STATUS.name || topic.name == topics::ALARMS.name;
+    let on_change = topic.name == topics::WHIRL_WARNINGS.name || topic.name == topics::ALARMS.name;
+    let mut variable = Variable::new("figures", figure.name(), figure.description().trim(), kind, topic, read).meaning(
+        match (stated, on_change) {
+            (true, true) => Meaning::StatedOnChange,
+            (true, false) => Meaning::Stated,
+            (false, true) => Meaning::ComputedOnChange,
+            (false, false) => Meaning::Computed,
+        },
+    );
+    variable.figure = Some(figure);
+    variable
+}
+
+fn of_status() -> Vec<Variable> {
+    let text = |name: &str, description: &str, read: fn(&TwinStatus) -> String| {
+        Variable::new("status", name, description, Kind::Text, &topics::STATUS, move |twin| {
+            Some(Variant::from(read(twin.status()?)))
+        })
+    };
+    let count = |name: &str, description: &str, read: fn(&TwinStatus) -> u64| {
+        Variable::new("status", name, description, Kind::Count, &topics::STATUS, move |twin| {
+            Some(Variant::from(read(twin.status()?)))
+        })
+    };
+    vec![
+        text("state", "starting, running, paused or failed", |status| {
+            match status.state {
+                TwinStatus::STARTING => "starting",
+                TwinStatus::RUNNING => "running",
+                TwinStatus::PAUSED => "paused",
+                TwinStatus::FAILED => "failed",
+                _ => "unknown",
+            }
+            .to_owned()
+        }),
+        text("version", "Version of flexdrill", |status| status.version.clone()),
+        text(
+            "configuration_hash",
+            "SHA-256 of the configuration in force",
+            |status| status.config_hash.clone(),
+        ),
+        text(
+            "model_quality_cause",
+            "Why the model quality is not good; empty if it is",
+            |status| status.model_quality_cause.clone(),
+        ),
+        count("heartbeat", "One more in every status of the twin", |status| {
+            status.sequence
+        }),
+        count("deadline_misses", "Steps that ended after their deadline", |status| {
+            status.deadline_misses
+        }),
+        count("steps_skipped", "Steps skipped because the model was late", |status| {
+            status.steps_skipped
+        }),
+    ]
+}
+
+fn of_input(kind: InputKind) -> Vec<Variable> {
+    let unit = match kind {
+        InputKind::RotarySpeed => Unit::RadianPerSecond,
+        InputKind::WeightOnBit => Unit::Newton,
+        InputKind::RateOfPenetration => Unit::MetrePerSecond,
+        InputKind::StandpipePressure => Unit::Pascal,
+    };
+    // The status lists an input only where it plays a part.
+    let of = move |status: &TwinStatus| status.input_name.iter().position(|name| name == kind.name());
+    let numbers = move |name: &str, description: &str, unit, read: fn(&TwinStatus) -> &[f64]| {
+        Variable::new(
+            "inputs",
+            format!("{}/{name}", kind.name()),
+            description,
+            Kind::Number(unit),
+            &topics::STATUS,
+            move |twin| {
+                let status = twin.status()?;
+                number(*read(status).get(of(status)?)?)
+            },
+        )
+    };
+    let texts = move |name: &str, description: &str, read: fn(&TwinStatus, usize) -> Option<String>| {
+        Variable::new(
+            "inputs",
+            format!("{}/{name}", kind.name()),
+            description,
+            Kind::Text,
+            &topics::STATUS,
+            move |twin| {
+                let status = twin.status()?;
+                read(status, of(status)?).map(Variant::from)
+            },
+        )
+    };
+    vec![
+        numbers("applied", "Value that acts on the model", unit, |status| {
+            &status.input_applied
+        }),
+        numbers("received", "Newest sample as received", unit, |status| {
+            &status.input_received
+        }),
+        numbers("age", "Time since the newest good sample", Unit::Second, |status| {
+            &status.input_age
+        }),
+        texts(
+            "state",
+            "not received, ok, slow, stale, rejected or assumed",
+            |status, index| {
+                let state = match *status.input_state.get(index)? {
+                    TwinStatus::INPUT_NOT_RECEIVED => "not received",
+                    TwinStatus::INPUT_OK => "ok",
+                    TwinStatus::INPUT_SLOW => "slow",
+                    TwinStatus::INPUT_STALE => "stale",
+                    TwinStatus::INPUT_REJECTED => "rejected",
+                    TwinStatus::INPUT_ASSUMED => "assumed",
+                    _ => "unknown",
+                };
+                Some(state.to_owned())
+            },
+        ),
+        texts(
+            "driver",
+            "The publisher that drives it; empty while there is none",
+            |status, index| status.input_driver.get(index).cloned(),
+        ),
+    ]
+}
+
+/// The quantities that are compared, in their SI units.
+const COMPARED: [(&str, Unit); 5] = [
+    ("surface_torque", Unit::NewtonMetre),
+    ("hook_load", Unit::Newton),
+    ("downhole_rotary_speed", Unit::RadianPerSecond),
+    ("downhole_torque", Unit::NewtonMetre),
+    ("downhole_weight_on_bit", Unit::Newton),
+];
+
+fn of_residuals() -> Vec<Variable> {
+    let mut all = Vec::new();
+    for (quantity, unit) in COMPARED {
+        let mut add = |name: &str, description: &str, unit, read: fn(&Residual) -> f64| {
+            let read = move |twin: &TwinState| {
+                let residuals = &twin.residuals()?.residuals;
+                number(read(residuals.iter().find(|residual| residual.name == quantity)?))
+            };
+            let name = format!("{quantity}/{name}");
+            all.push(
+                Variable::new(
+                    "residuals",
+                    name,
+                    description,
+                    Kind::Number(unit),
+                    &topics::RESIDUALS,
+                    read,
+                )
+                .meaning(Meaning::Computed),
+            );
+        };
+        add("measured", "Sliding mean of what the rig measures", unit, |residual| {
+            residual.measured
+        });
+        add("predicted", "The same of what the twin computes", unit, |residual| {
+            residual.predicted
+        });
+        add("low", "Lower end of the band of nine means of ten", unit, |residual| {
+            residual.low
+        });
+        add("high", "Upper end of the band of nine means of ten", unit, |residual| {
+            residual.high
+        });
+        add(
+            "ratio",
+            "Measured less predicted over half of the band; one of ten lies beyond -1 to 1",
+            Unit::One,
+            |residual| residual.ratio,
+        );
+    }
+    all.push(
+        Variable::new(
+            "residuals",
+            "steady",
+            "Speed and weight are steady, and all inputs are good",
+            Kind::Flag,
+            &topics::RESIDUALS,
+            |twin| Some(Variant::from(twin.residuals()?.steady)),
+        )
+        .meaning(Meaning::Computed),
+    );
+    all.push(
+        Variable::new(
+            "residuals",
+            "likely_causes",
+            "What residuals beyond their bands may mean, the likeliest first",
+            Kind::Text,
+            &topics::RESIDUALS,
+            |twin| Some(Variant::from(twin.residuals()?.likely_causes.join("; "))),
+        )
+        .meaning(Meaning::Computed),
+    );
+    all
+}
+
+fn of_window() -> Vec<Variable> {
+    let new = |name: &str, description: &str, kind, read: fn(&SafeWindow) -> Variant| {
+        Variable::new(
+            "safe_window",
+            name,
+            description,
+            kind,
+            &topics::SAFE_WINDOW,
+            move |twin| Some(read(twin.window()?)),
+        )
+        .meaning(Meaning::StatedOnChange)
+    };
+    vec![
+        new(
+            "rotary_speed",
+            "Rotary speeds of the cells, rising",
+            Kind::Numbers(Unit::TurnPerMinute),
+            |window| Variant::from(window.rotary_speed_rpm.clone()),
+        ),
+        new(
+            "weight_on_bit",
+            "Weights on bit of the cells, rising",
+            Kind::Numbers(Unit::Kilonewton),
+            |window| Variant::from(window.weight_on_bit_kn.clone()),
+        ),
+        new(
+            "verdict",
+            "Row by row of the weight: 0 clear, 1 alarm, 2 depends on the start, 3 unknown",
+            Kind::Codes,
+            |window| Variant::from(window.verdict.clone()),
+        ),
+        new(
+            "chance",
+            "Row by row of the weight: largest chance of the likeliest alarm",
+            Kind::Numbers(Unit::One),
+            |window| Variant::from(window.chance.clone()),
+        ),
+        new(
+            "limit",
+            "Chance above which an alarm must be expected",
+            Kind::Number(Unit::One),
+            |window| Variant::from(window.limit),
+        ),
+        new(
+            "horizon",
+            "Model time that each run of the map was judged over",
+            Kind::Number(Unit::Second),
+            |window| Variant::from(window.horizon),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_are_unique_and_described_and_nothing_has_a_value_before_the_twin_speaks() {
+        let all = variables();
+        let mut seen = BTreeSet::new();
+        let empty = TwinState::default();
+        for variable in &all {
+            assert!(
+                seen.insert((variable.folder, variable.name.clone())),
+                "{}",
+                variable.name
+            );
+            assert!(variable.description.len() > 5, "{}", variable.name);
+            assert!(variable.value(&empty).is_none() && variable.stamp(&empty).is_none());
+        }
+        assert!(all.len() > 80, "{}", all.len());
+    }
+}
