@@ -5,6 +5,7 @@ mod bench;
 mod bodies;
 mod buckling;
 mod contacts;
+mod foreign;
 mod hinged_beam;
 mod integration;
 mod joints;
@@ -23,6 +24,7 @@ mod validation;
 use std::fmt;
 
 pub use bench::{Bench, head};
+pub use foreign::{SOFT_STRINGS, SoftString, SoftStringInputs, WELLENG};
 pub use hinged_beam::HingedBeam;
 pub use runs::{CaseRun, with_runs};
 pub use sliding::{ADVANCE, weight_at_kickoff};

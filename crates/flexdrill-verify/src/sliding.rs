@@ -45,16 +45,16 @@ pub(super) fn capstan() -> Result<Vec<Row>, VerifyError> {
 }
 
 /// Weight (N/m in mud) of pipe and guide, friction coefficient, radius (m) and weight on bit (N) of a case.
-struct Heavy {
+pub(super) struct Heavy {
     pipe: f64,
-    guide: f64,
-    friction: f64,
-    radius: f64,
-    weight_on_bit: f64,
+    pub(super) guide: f64,
+    pub(super) friction: f64,
+    pub(super) radius: f64,
+    pub(super) weight_on_bit: f64,
 }
 
 impl Heavy {
-    fn of(bench: &Bench) -> Self {
+    pub(super) fn of(bench: &Bench) -> Self {
         let tool = bench.config.tool();
         let weight = |tube| tool.gravity * SectionProperties::of(tube, tool.material, 1.0).mass;
         Self {

@@ -31,6 +31,12 @@ fn val_sinusoidal_buckling() {
     hold("val_sinusoidal_buckling");
 }
 
+/// welleng 0.30.0, 1602 to 3500 N; tolerance 0.1 %, as the table says.
+#[test]
+fn val_soft_string_of_welleng() {
+    hold("val_soft_string_of_welleng");
+}
+
 /// Every entry of the table has a test of its name here.
 #[test]
 fn the_table_has_no_figure_without_a_test() {

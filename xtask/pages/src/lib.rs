@@ -2,6 +2,7 @@
 //! from the cases of verification and validation.
 
 mod configuration;
+mod laws;
 mod topics;
 mod validation;
 

@@ -2,11 +2,13 @@
 
 #![allow(dead_code, unused_imports)] // every test takes what it needs
 
+mod figures;
 mod random;
 
 use std::sync::OnceLock;
 use std::time::Instant;
 
+pub use figures::{figure, scaled_figure};
 use flexdrill_core::tool::{HingeAngle, JointKind, ToolDescription, Tube, WellSection};
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 pub use random::Random;

@@ -257,17 +257,20 @@ mod tests {
         assert!(left.norm() < 1e-8 && difference.norm() > 0.05, "{left}");
     }
 
+    /// Friction moment of a cross joint's pins, 2 mu r F: 0.1 on pins of 6 mm in a circle of 40 mm. F is the torque over the
+    /// circle, half of the thrust, and both at a right angle. Tolerance: rounding.
     #[test]
-    fn the_pins_carry_torque_and_thrust() {
+    fn analytic_friction_of_the_pins() {
+        use crate::support::figure;
         let pins = PinFriction {
             coefficient: 0.1,
             pin_radius: 6e-3,
             circle_diameter: 0.04,
             slip_rate: 0.02,
         };
-        // 2 x 0.1 x 6 mm x 92.43 N m / 40 mm; a force alone is shared by two pins; both at a right angle.
-        assert!((pins.moment(92.43, 0.0) - 2.7729).abs() < 1e-12);
-        assert!((pins.moment(0.0, 1e3) - 2.0 * 0.1 * 6e-3 * 500.0).abs() < 1e-12);
-        assert!((pins.moment(-40.0, 2e3) - 2.0 * 0.1 * 6e-3 * 1e3 * 2.0_f64.sqrt()).abs() < 1e-12);
+        figure("92.43 N m (N m)", 2.7729, pins.moment(92.43, 0.0), 1e-12);
+        figure("1 kN across (N m)", 0.6, pins.moment(0.0, 1e3), 1e-12);
+        let both = 1.2 * 2.0_f64.sqrt();
+        figure("-40 N m and 2 kN across (N m)", both, pins.moment(-40.0, 2e3), 1e-12);
     }
 }

@@ -156,8 +156,12 @@ mod tests {
         q
     }
 
+    /// Torque and energy of a joint turned by 0.5 mrad beyond its play, against 1e6 N m/rad: 500 N m and 0.125 J; within the
+    /// play nothing. Tolerance 2 %, of the energy 4 %: the joint is bent by 0.047 rad, which changes lengths of arc by half its
+    /// square, and the row counts these.
     #[test]
-    fn within_the_play_nothing_acts_and_beyond_it_a_stiff_spring() {
+    fn analytic_play_of_a_joint() {
+        use crate::support::figure;
         for kind in [JointKind::Universal, JointKind::BallCage] {
             let law = law(kind);
             let (row, play) = at(&law, &apart(&law, 1.9e-3), &[0.0; 6]);
@@ -166,10 +170,9 @@ mod tests {
             for sign in [1.0, -1.0] {
                 let (row, play) = at(&law, &apart(&law, sign * 2.5e-3), &[0.0; 6]);
                 let torque = play.multiplier * row.gradient[3];
-                // 1e6 N m/rad times 0.5 mrad against the lower spin; the joint is bent by 0.047 rad, which changes lengths
-                // of arc by half its square.
-                assert!((torque - sign * 500.0).abs() < 500.0 * 2e-2, "{kind:?} {torque}");
-                assert!((play.energy - 0.125).abs() < 0.125 * 4e-2, "{}", play.energy);
+                let of = format!("{kind:?}, turned {}", if sign > 0.0 { "forward" } else { "back" });
+                figure(&format!("{of}: torque (N m)"), sign * 500.0, torque, 2e-2);
+                figure(&format!("{of}: energy (J)"), 0.125, play.energy, 4e-2);
             }
         }
     }

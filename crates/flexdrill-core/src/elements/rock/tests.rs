@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::support::{figure, scaled_figure};
+use crate::units::rpm_to_rad_per_s;
 
 const CUT: DepthOfCut = DepthOfCut {
     blades: 3,
@@ -75,13 +77,44 @@ fn torque_and_weight_have_the_derivatives_that_the_tangent_uses() {
     }
 }
 
+/// Weakening of the torque with the speed: P = 1 + (mu_s / mu_k - 1) e^(-omega / omega_c), here with mu_s / mu_k = 2 and
+/// omega_c = 5 rad/s. Tolerance: rounding.
 #[test]
-fn weakening_is_what_its_formula_says() {
+fn analytic_weakening() {
     let falls = Weakening { ratio: 2.0, rate: 5.0 };
-    assert_eq!(falls.at(0.0).0, 2.0);
+    figure("P at standstill (-)", 2.0, falls.at(0.0).0, 1e-15);
     let (at, slope) = falls.at(-5.0);
-    assert!((at - (1.0 + (-1.0_f64).exp())).abs() < 1e-15);
-    assert!((slope - (-1.0_f64).exp() / 5.0).abs() < 1e-15);
+    figure("P at -5 rad/s, 1 + 1/e (-)", 1.367_879_441_171_442_3, at, 1e-15);
+    figure("slope there, 1 / 5e (s/rad)", 0.073_575_888_234_288_46, slope, 1e-15);
+}
+
+/// Torque over weight (mm) of a bit in rock on a laboratory rig, by speed: Real, Lobo, Ritto and Pinto, J. Pet. Sci. Eng.
+/// 170 (2018) 755, and Lobo, Ritto, Castello and de Souza, Int. J. Mech. Sci. 177 (2020) 105578. From the authors' record
+/// of 59 s at 1 kHz, below 10 Hz, in bands of speed; the means of speeding up and of slowing down. Ours: the law of
+/// weakening with the largest ratio that the configuration takes, 5, 141.5 r/min and 1.107 mm at high speed, for which the
+/// largest difference is least. The shape is held, the three numbers are fitted.
+///
+/// Tolerance 11 %: the fit leaves 10.4 %, because the measured torque falls faster and faster and an exponential ever more
+/// slowly. Speeding up and slowing down differ by 4 to 15 % of the means; a law of the speed alone cannot have that loop.
+/// The rig's stick-slip (2.6 to 2.8 Hz) is not computed, since inertia and stiffness of the rig are not known to us.
+#[test]
+fn val_measured_weakening_of_the_torque() {
+    let weakening = Weakening {
+        ratio: 5.0,
+        rate: rpm_to_rad_per_s(141.5),
+    };
+    for (speed, up, down) in [
+        (0.0, 5.1, 5.3),
+        (11.5, 4.6, 4.8),
+        (40.0, 4.6, 4.4),
+        (80.0, 4.2, 3.7),
+        (120.0, 3.6, 3.1),
+        (160.0, 2.8, 2.5),
+        (190.0, 2.1, 2.0),
+    ] {
+        let ours = 1.107 * weakening.at(rpm_to_rad_per_s(speed)).0;
+        figure(&format!("at {speed} r/min (mm)"), 0.5 * (up + down), ours, 0.11);
+    }
 }
 
 /// Growth (1/s) of the axial vibration of 50 kg on 1e6 N/m with 5 % of critical damping, under one blade that turns
@@ -142,18 +175,17 @@ fn growth(cutting: f64) -> f64 {
     up / down
 }
 
-/// Unstable from K = 2 k zeta (1 + zeta) = 1.05e5 N/m at the worst delay; growth -0.5611, 0 and 0.5372 1/s at 0.9, 1
-/// and 1.1 K by the characteristic equation m s^2 + c s + k + K (1 - e^(-s t_n)) = 0.
+/// Axial vibration that the path of the blade before excites: 50 kg on 1e6 N/m with 5 % of critical damping are unstable
+/// from K = 2 k zeta (1 + zeta) = 1.05e5 N/m at the worst delay, 32.092 ms. Growth at 0.9, 1 and 1.1 K by the
+/// characteristic equation m s^2 + c s + k + K (1 - e^(-s t_n)) = 0; differences are in 1/s.
+///
+/// Tolerance 0.01 1/s: the straight pieces of the path damp by (omega t_n / 1024)^2 / 8 of the delayed part; other roots
+/// have decayed before the first peak that counts.
 #[test]
-fn regeneration_excites_above_the_critical_cutting_stiffness() {
+fn analytic_regeneration() {
     let critical = 1.05e5;
     for (factor, expected) in [(0.9, -0.5611), (1.0, 0.0), (1.1, 0.5372)] {
         let got = growth(factor * critical);
-        // The grid's straight pieces damp by (omega t_n / 1024)^2 / 8 of the delayed part; other roots have decayed
-        // before the first peak that counts.
-        assert!(
-            (got - expected).abs() < 0.01,
-            "{got} 1/s at {factor} K instead of {expected}"
-        );
+        scaled_figure(&format!("growth at {factor} K (1/s)"), expected, got, 1.0, 0.01);
     }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::*;
 use crate::elements::string::top_drive::SpeedController;
+use crate::support::figure;
 use crate::tool::{Material, Tube};
 
 const STEP: f64 = 5e-4;
@@ -89,21 +90,31 @@ impl Rotor {
     }
 }
 
+/// Waves along a string of 1000 m, 73.0/54.6 mm of steel: impedances J sqrt(G rho) and A sqrt(E rho), delays L / c,
+/// stiffnesses G J / L and E A / L. Tolerance: half of the last digit that the figures are given with.
 #[test]
-fn impedances_and_delays_are_those_of_the_tube() {
+fn analytic_waves_of_a_tube() {
     let piece = plain();
-    // J sqrt(G rho), L / c_t, A sqrt(E rho), L / c_a: the printed digits.
-    assert!((piece.torsion.impedance - 47.770).abs() < 5e-4, "{piece:?}");
-    assert!((piece.torsion.delay - 0.31476).abs() < 1e-5, "{piece:?}");
-    assert!((piece.axial.impedance - 74.15e3).abs() < 5.0, "{piece:?}");
-    assert!((piece.axial.delay - 0.19521).abs() < 5e-6, "{piece:?}");
+    figure("J sqrt(G rho) (N m s)", 47.770, piece.torsion.impedance, 1.1e-5);
+    figure("L / c_t (s)", 0.31476, piece.torsion.delay, 2e-5);
+    figure("A sqrt(E rho) (N s/m)", 74.15e3, piece.axial.impedance, 7e-5);
+    figure("L / c_a (s)", 0.19521, piece.axial.delay, 2.6e-5);
     let line = string(vec![piece], TopDrive::Rigid);
-    assert!((line.description().torsional_stiffness() - 151.8).abs() < 0.05);
-    assert!((line.description().axial_stiffness() - 379.9e3).abs() < 50.0);
+    figure(
+        "G J / L (N m/rad)",
+        151.8,
+        line.description().torsional_stiffness(),
+        3.3e-4,
+    );
+    figure("E A / L (N/m)", 379.9e3, line.description().axial_stiffness(), 1.4e-4);
 }
 
+/// A torque of 92.43 N m at the lower end of that string, its drive held: the echo comes back after 2 L / c = 0.6295 s,
+/// and the end winds up by T L / (G J) = 34.9 degrees on average over whole periods of 4 L / c. Tolerance: 2.5 steps of
+/// 0.5 ms, half a step since the torque begins within the first one and two rows of the cubic; 0.1 degrees, the given
+/// digits.
 #[test]
-fn a_torque_at_the_bottom_comes_back_as_an_echo() {
+fn analytic_echo_and_wind_up() {
     let mut end = Rotor::new(string(vec![plain()], TopDrive::Rigid), 0.0);
     let (load, z) = (92.43, 47.770);
     let mut echo = 0.0;
@@ -114,20 +125,14 @@ fn a_torque_at_the_bottom_comes_back_as_an_echo() {
             echo = end.time;
         }
     }
-    // Half a step, since the torque begins within the first one, and two rows of the cubic.
-    assert!((echo - 0.6295).abs() < 2.5 * STEP, "echo after {echo} s");
-    // The wind-up is that of a static spring on average over whole periods of 4 L / c.
+    figure("echo (s)", 0.6295, echo, 2.5 * STEP / 0.6295);
     let mut wound = 0.0;
     let rounds = (4.0 * 1.25905 / STEP) as u32;
     for _ in 0..rounds {
         end.step(0.0, load);
         wound -= end.angle / f64::from(rounds);
     }
-    assert!(
-        (wound.to_degrees() - 34.9).abs() < 0.1,
-        "{} degrees",
-        wound.to_degrees()
-    );
+    figure("wind-up (degrees)", 34.9, wound.to_degrees(), 3e-3);
 }
 
 /// Period (s) of the free vibration of a rotor, from upward crossings of zero by its angle.
@@ -149,9 +154,11 @@ fn period(end: &mut Rotor, seconds: f64) -> f64 {
     (last - first.unwrap()) / f64::from(crossings)
 }
 
+/// A rotor at the lower end of that string, its drive held, vibrates with x tan(x) = J_string / J, x = omega L / c, here
+/// with J_string / J = 0.05. Tolerance 2e-4: crossings of zero over ten periods 1e-4; the rotor's trapezoid rule and the
+/// interpolation have (omega h)^2 = 1e-7.
 #[test]
-fn a_rotor_vibrates_on_the_string_as_its_equation_says() {
-    // x tan(x) = J_string / J with x = omega L / c; J_string = z tau.
+fn analytic_rotor_on_a_string() {
     let piece = plain();
     let Wave { impedance, delay, .. } = piece.torsion;
     let ratio = 0.05;
@@ -165,24 +172,26 @@ fn a_rotor_vibrates_on_the_string_as_its_equation_says() {
     let mut end = Rotor::new(string(vec![piece], TopDrive::Rigid), inertia);
     (0..4000).for_each(|_| end.step(0.0, 20.0));
     let got = period(&mut end, 120.0);
-    // The rotor's trapezoid rule and the interpolation: (omega h)^2 is 1e-7; crossings over ten periods 1e-4.
-    assert!((got / expected - 1.0).abs() < 2e-4, "{got} s instead of {expected} s");
+    figure("period (s)", expected, got, 2e-4);
 }
 
+/// A bit without inertia on that string that breaks loose from 92.43 to 72.43 N m runs at (T_s - T_k) / z = 0.4187 rad/s
+/// until the echo from the held drive, 0.6295 s later; of all steps, the one that differs most. Tolerance 1e-4: the given
+/// digits.
 #[test]
-fn a_bit_that_breaks_loose_runs_until_the_echo() {
+fn analytic_bit_that_breaks_loose() {
     let mut end = Rotor::new(string(vec![plain()], TopDrive::Rigid), 0.0);
     // Wound up against T_s: begun so, with the drive held.
     end.line.begin(0.0, 0.0, 92.43, 0.0);
-    let mut ran = 0.0_f64;
+    let expected = 20.0 / 47.770;
+    let mut ran = expected;
     for step in 1..1250 {
         end.step(0.0, 72.43);
-        if step > 2 {
-            ran = ran.max((end.speed - 20.0 / 47.770).abs());
+        if step > 2 && (end.speed - expected).abs() > (ran - expected).abs() {
+            ran = end.speed;
         }
     }
-    // 0.4187 rad/s per 20 N m, constant until 0.6295 s.
-    assert!(ran < 1e-5, "differs by {ran} rad/s");
+    figure("speed until the echo (rad/s)", expected, ran, 1e-4);
     (0..20).for_each(|_| end.step(0.0, 72.43));
     assert!(end.speed < 0.0, "the echo has turned it back: {} rad/s", end.speed);
 }
@@ -248,7 +257,7 @@ fn val_free_torsion_of_pipe_and_collars() {
     let mut end = Rotor::new(string(pieces, TopDrive::Rigid), 0.0);
     (0..2000).for_each(|_| end.step(0.0, 100.0));
     let got = period(&mut end, 200.0);
-    assert!((got / 4.42 - 1.0).abs() < 0.01, "{got} s");
+    figure("period (s)", 4.42, got, 0.01);
 }
 
 #[test]
@@ -295,10 +304,12 @@ fn the_energy_of_drive_friction_and_rotor_closes() {
 /// source's period is that of a string that breaks loose and stops as one body, 2 (1 - f) twist / Omega + free
 /// period, 7.86 and 6.95 s; held to -15 to 0 %, since the string begins to wind up before all of it stands: ours is 4
 /// and 5 % shorter. The whole string stands in every swing only where friction is static up to more than the 0.31 m/s
-/// at which the drive turns it, here 0.4 m/s. The source's own speed is not known to us; with 0.01 m/s the lower part
-/// turns on and swings at the free period of 4.4 s. The source's amplitude at the drive, 2 (1 - f) of the break-off
-/// torque from crest to trough, 10.71 and 6.75 kN m, is not held but a bound from below: ours is 1.6 and 1.8 times
-/// that, because a distributed string breaks loose from the top down and overshoots.
+/// at which the drive turns it, here 0.4 m/s; with 0.01 m/s the lower part turns on and swings at the free period of
+/// 4.4 s. The authors' program (Open Source Drilling Community, 2021, MIT) has 0.07 to 0.11 m/s and a viscous drag; with
+/// 0.11 m/s and such a drag our periods are 5.6 and 5.7 s, and the amplitude is 1.3 and 2.0 times the source's. The
+/// source's amplitude at the drive, 2 (1 - f) of the break-off torque from crest to trough, 10.71 and 6.75 kN m, is not
+/// held but a bound from below: ours is 1.6 and 1.8 times that, because a distributed string breaks loose from the top
+/// down and overshoots.
 #[test]
 fn val_break_off_under_distributed_friction() {
     for (from, to, expected_torque, expected_twist) in
@@ -327,8 +338,14 @@ fn val_break_off_under_distributed_friction() {
             torque += held;
             twist += torque * piece.torsion.delay / piece.torsion.impedance;
         }
-        assert!((torque / expected_torque - 1.0).abs() < 0.01, "{torque} N m");
-        assert!((twist / expected_twist - 1.0).abs() < 0.01, "{twist} rad");
+        let hole = format!("hole that builds from {from} to {to} m");
+        figure(
+            &format!("{hole}: break-off torque (N m)"),
+            expected_torque,
+            torque,
+            0.01,
+        );
+        figure(&format!("{hole}: twist (rad)"), expected_twist, twist, 0.01);
         let drive = TopDrive::Controlled(SpeedController {
             inertia: 2900.0,
             proportional: 38e3,
@@ -357,11 +374,9 @@ fn val_break_off_under_distributed_friction() {
         let period = (swings[swings.len() - 1] - swings[0]) / (swings.len() - 1) as f64;
         let published = 2.0 * (1.0 - ratio) * expected_twist / speed + 4.42;
         let amplitude = (high - low) / (2.0 * (1.0 - ratio) * expected_torque);
-        println!("period {period:.3} s of {published:.3} s, amplitude {amplitude:.3} of the source's");
-        assert!(
-            (0.85..=1.0).contains(&(period / published)),
-            "{period} s, {published} s"
-        );
+        assert!(period <= published, "{period} s, {published} s");
+        figure(&format!("{hole}: period (s)"), published, period, 0.15);
+        println!("amplitude {amplitude:.3} of the source's");
         assert!((1.0..2.2).contains(&amplitude), "{amplitude}");
     }
 }
