@@ -40,7 +40,7 @@ impl Broker {
         // Without this line a broker that root starts becomes another user, who cannot read the folder.
         std::fs::write(
             broker.file("broker.conf"),
-            format!("user root\nlog_dest stdout\n{lines}"),
+            format!("user root\nlog_dest stderr\n{lines}"),
         )
         .unwrap();
         broker.again(network)?;
@@ -124,6 +124,20 @@ impl Listener {
         line["sparkplug"].clone()
     }
 
+    /// A document of `rigs/7/bridge` and a message of the node, whichever comes first: they have a connection each.
+    fn both(&mut self, is_document: impl Fn(&Value) -> bool, kind: &str, is_it: impl Fn(&Value) -> bool) -> [Value; 2] {
+        let (mut document, mut message) = (None, None);
+        while document.is_none() || message.is_none() {
+            let line = self.wait(|_| true);
+            if line["topic"] == "rigs/7/bridge" && is_document(&line["json"]) {
+                document = Some(line["json"].clone());
+            } else if line["sparkplug"]["kind"] == kind && is_it(&line["sparkplug"]) {
+                message = Some(line["sparkplug"].clone());
+            }
+        }
+        [document.unwrap(), message.unwrap()]
+    }
+
     fn say(&mut self, line: &str) {
         writeln!(self.input, "{line}").unwrap();
     }
@@ -157,12 +171,11 @@ fn interop_twin_broker_and_bridge_may_be_killed_and_readers_know_what_holds() {
 
     // Before there is a twin.
     let mut program = bridge(&network, &options);
-    let first = listener.document("rigs/7/bridge", |_| true);
+    let [first, birth] = listener.both(|_| true, "NBIRTH", |_| true);
     assert_eq!(
         (&first["state"], &first["twin"]),
         (&"online".into(), &"not seen".into())
     );
-    let birth = listener.sparkplug("NBIRTH", |_| true);
     assert_eq!((&birth["seq"], &birth["metrics"]["bdSeq"]), (&0.into(), &0.into()));
     assert_eq!(birth["metrics"]["Twin/alive"], false);
     assert_eq!(birth["metrics"]["Twin/bit_torque"], Value::Null);
@@ -247,14 +260,18 @@ fn interop_twin_broker_and_bridge_may_be_killed_and_readers_know_what_holds() {
     // The twin dies: what it sent is no longer true.
     twin.signal("KILL");
     twin.end();
-    listener.document("rigs/7/bridge", |bridge| bridge["twin"] == "silent");
-    let silent = listener.sparkplug("NDATA", |data| data["metrics"]["Twin/alive"] == false);
+    let [_, silent] = listener.both(
+        |bridge| bridge["twin"] == "silent",
+        "NDATA",
+        |data| data["metrics"]["Twin/alive"] == false,
+    );
     assert_eq!(silent["metrics"]["Twin/bit_weight"], Value::Null, "{silent}");
 
     // The bridge dies: its wills say so, also to those who come later.
     program.signal("KILL");
     program.end();
-    listener.document("rigs/7/bridge", |bridge| bridge["state"] == "offline");
+    let [_, death] = listener.both(|bridge| bridge["state"] == "offline", "NDEATH", |_| true);
+    assert_eq!(death["metrics"]["bdSeq"], 1);
     drop(listener);
     let Some(mut late) = Listener::start(&network) else {
         return;
@@ -270,21 +287,9 @@ fn interop_twin_broker_and_bridge_may_be_killed_and_readers_know_what_holds() {
     late.sparkplug("NBIRTH", |_| true);
     program.signal("TERM");
     assert_eq!(program.end(), Some(0), "{}", program.said());
-    let mut gone = [false; 2];
-    while gone != [true; 2] {
-        let line = late.wait(|_| true);
-        if line["topic"] == "rigs/7/bridge" && line["json"]["state"] == "offline" {
-            assert!(
-                line["json"]["reason"].as_str().unwrap().contains("was stopped"),
-                "{line}"
-            );
-            gone[0] = true;
-        }
-        if line["sparkplug"]["kind"] == "NDEATH" {
-            assert_eq!(line["sparkplug"]["metrics"]["bdSeq"], 0);
-            gone[1] = true;
-        }
-    }
+    let [end, death] = late.both(|bridge| bridge["state"] == "offline", "NDEATH", |_| true);
+    assert!(end["reason"].as_str().unwrap().contains("was stopped"), "{end}");
+    assert_eq!(death["metrics"]["bdSeq"], 0);
 }
 
 /// Certificates for `localhost`, of an authority in `ca.pem` and of another in `other.pem`.

@@ -149,7 +149,14 @@ async fn no_answer_of_a_broker_ends_the_bridge() {
         running.why().await;
     }
     assert_eq!(running.node.counts().made, CONNECTIONS as u64);
-    assert!(running.node.counts().received > 0);
+    // After all that a right command is read.
+    let mut stream = accept(&listener).await;
+    stream.write_all(&[&ACCEPTED[..], packets[10]].concat()).await.unwrap();
+    let began = Instant::now();
+    while running.node.counts().received == 0 {
+        assert!(began.elapsed() < Duration::from_secs(20));
+        tokio::time::sleep(Duration::from_millis(5)).await;
+    }
     running.end().await;
 }
 

@@ -241,7 +241,10 @@ impl Broker {
             ConnectionError::MqttState(StateError::ConnectionAborted) => {
                 format!("{closed} without an answer{}", self.tls_hint())
             }
-            ConnectionError::MqttState(StateError::Deserialization(Error::Io(error)) | StateError::Io(error)) => {
+            // `Other` is an end within what was taken for a packet.
+            ConnectionError::MqttState(StateError::Deserialization(Error::Io(error)) | StateError::Io(error))
+                if was_connected || error.kind() != io::ErrorKind::Other =>
+            {
                 let hint = if was_connected { "" } else { self.tls_hint() };
                 format!("the connection broke: {error}{hint}")
             }
