@@ -15,8 +15,11 @@ use serde_json::Value;
 /// 2023-11-14 22:13:20 UTC.
 const AT: i64 = 1_700_000_000_000_000_000;
 
+/// Code, description, value, and unit in metric and in field units.
+type Item = (String, String, Value, [String; 2]);
+
 /// What witskit reads; `None`, with a line that says so, where there is no Python or no package.
-fn foreign(frame: &[u8]) -> Option<Vec<(String, String, Value, [String; 2])>> {
+fn foreign(frame: &[u8]) -> Option<Vec<Item>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let given = std::env::var_os("FLEXDRILL_PYTHON").map(PathBuf::from);
     let mut pythons = given.into_iter().chain([root.join(".venv/bin/python")]);
@@ -54,9 +57,9 @@ fn si(unit: &str) -> f64 {
         "M/HR" => 1.0 / 3600.0,
         "F/HR" => 0.3048 / 3600.0,
         "KDN" => 1e4,
-        "KLB" => 4448.221_615_260_5,
+        "KLB" => 4_448.221_615_260_5,
         "KNM" => 1e3,
-        "KFLB" => 4448.221_615_260_5 * 0.3048,
+        "KFLB" => 4_448.221_615_260_5 * 0.3048,
         "RPM" => std::f64::consts::TAU / 60.0,
         "KPA" => 1e3,
         "PSI" => 4.448_221_615_260_5 / (0.0254 * 0.0254),
