@@ -37,7 +37,7 @@ CHECK
 install() {
     rm -rf "$2"
     "$1" -m venv "$2"
-    timeout 1200 "$2/bin/python" -m pip install --quiet --disable-pip-version-check --no-cache-dir "$3" ||
+    timeout 2400 "$2/bin/python" -m pip install --quiet --disable-pip-version-check --no-cache-dir "$3" ||
         fail "pip could not install $3 with $1"
 }
 
