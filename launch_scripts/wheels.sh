@@ -37,7 +37,7 @@ CHECK
 install() {
     rm -rf "$2"
     "$1" -m venv "$2"
-    timeout 1200 "$2/bin/python" -m pip install --quiet --disable-pip-version-check --no-cache-dir "$3" ||
+    timeout 2400 "$2/bin/python" -m pip install --quiet --disable-pip-version-check --no-cache-dir "$3" ||
         fail "pip could not install $3 with $1"
 }
 
@@ -85,9 +85,10 @@ done
 [ ${#missing[@]} -eq 0 ] || not_checked "the wheel in Python ${missing[*]}: not here (pyenv install VERSION)"
 
 say "step 4 of 4: the sdist, compiled in a clean environment"
-# pip unpacks it into TMPDIR. Crates from the registry may be taken from an earlier run, the sdist's own are compiled.
+# pip unpacks it into TMPDIR and compiles it there. Files of an sdist have a fixed date, so that cargo would take a crate
+# of an earlier run for this one: there must be no earlier one.
 mkdir "$scratch/tmp"
-export TMPDIR=$scratch/tmp CARGO_TARGET_DIR=$out/sdist_build
+export TMPDIR=$scratch/tmp CARGO_TARGET_DIR=$scratch/build
 (cd "$scratch" && install python3 "$scratch/sdist" "$sdist")
 run "$scratch/sdist" "the sdist"
 say "done: $(cd "$dist" && echo *)"
