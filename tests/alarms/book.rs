@@ -7,7 +7,7 @@ use std::sync::Arc;
 use flexdrill::alarms::{AlarmBook, AlarmId, NodeState, RecordingState, Request};
 use flexdrill::bag::{Losses, Problem};
 use flexdrill::dds::port::Health;
-use flexdrill::health::diagnostics;
+use flexdrill::health::diagnostics::{self, RigEvidence};
 use flexdrill::health::motion::MotionEvidence;
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::DiagnosticStatus;
@@ -839,7 +839,12 @@ fn diagnostics_never_contradict_the_alarms() {
             _ => {}
         }
         let list = book.list(Header::default());
-        let items = diagnostics::items("n", &status, (&Measured::default(), 0.0), &motion, &list);
+        let rig = RigEvidence {
+            measured: &Measured::default(),
+            now: 0.0,
+            residuals: None,
+        };
+        let items = diagnostics::items("n", &status, &rig, &motion, &list);
         assert_eq!(items.len(), ITEMS.len() + 1);
         for ((name, ids), item) in ITEMS.into_iter().chain([("alarms", &AlarmId::ALL[..])]).zip(&items) {
             assert_eq!(item.name, format!("n: {name}"));
