@@ -262,22 +262,15 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
 
 fn tell_result(study: &Study) {
     for (unknown, estimate) in study.problem.unknowns.iter().zip(&study.outcome.estimates) {
-        let [low, high] = estimate.band;
-        let unit = if unknown.unit.is_empty() {
-            String::new()
-        } else {
-            format!(" {}", unknown.unit)
-        };
+        let [value, low, high] =
+            [estimate.value, estimate.band[0], estimate.band[1]].map(|v| page::shown(unknown.unit, v));
         match estimate.verdict {
-            Verdict::Identified | Verdict::Bounded => say!(
-                "{}: {:.4}{unit}, 90 % band {low:.4} to {high:.4}",
-                unknown.name,
-                estimate.value
-            ),
+            Verdict::Identified | Verdict::Bounded => {
+                say!("{}: {value}, 90 % band {low} to {high}", unknown.name);
+            }
             Verdict::InCombination => say!(
-                "{}: {:.4}{unit}, 90 % band {low:.4} to {high:.4}, only in combination",
-                unknown.name,
-                estimate.value
+                "{}: {value}, 90 % band {low} to {high}, only in combination",
+                unknown.name
             ),
             Verdict::NotIdentifiable => say!(
                 "{}: not identifiable (posterior over prior variance {:.2}), left as it is",

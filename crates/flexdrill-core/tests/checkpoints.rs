@@ -138,7 +138,7 @@ fn other_formats_say_so() {
         assert!(
             error
                 .to_string()
-                .contains(&format!("format {format}, this build reads format 16")),
+                .contains(&format!("format {format}, this build reads format 17")),
             "{error}"
         );
     }

@@ -109,8 +109,8 @@ fn tiles(problem: &Problem, outcome: &Outcome) -> Markup {
     }
 }
 
-/// Value and band in the unit that is shown.
-fn shown(unit: &str, value: f64) -> String {
+/// A value of an unknown whose unit is `unit` (SI, empty for a number alone), as page and command show it: newtons as kN.
+pub fn shown(unit: &str, value: f64) -> String {
     match unit {
         "N" => format!("{} kN", text::number(n_to_kn(value))),
         "" => text::number(value),
