@@ -43,7 +43,7 @@ const REFUSALS_SHOWN: u64 = 10;
 /// What the rig measured, for the comparison with the twin.
 enum RigSource {
     /// The newest values, as a node keeps them.
-    Received(Measured),
+    Received(Box<Measured>),
     /// What a recorded run was compared with, by stamp (ns since 1970), the oldest first.
     Recorded(VecDeque<(i64, Samples)>),
 }
@@ -109,7 +109,7 @@ impl Player {
             run,
             outputs: Outputs::new(&config, start),
             rig: RigComparison::new(&config),
-            source: RigSource::Received(Measured::default()),
+            source: RigSource::Received(Box::default()),
             moved: None,
             alarms: AlarmBook::fresh(Arc::new(config.clone()), start),
             initial_rates: config.outputs.rates,
