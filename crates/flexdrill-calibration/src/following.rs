@@ -169,9 +169,9 @@ mod tests {
             let frozen = self.follow.push(&instant);
             let moved = self.following.step(instant.step, self.applied, &self.follow, frozen);
             if let Some(to) = moved.to {
-                for k in 0..2 {
+                for (k, rate) in SETTINGS.rates.into_iter().enumerate() {
                     // A billionth is more than rounding.
-                    let most = SETTINGS.rates[k] / 60.0 * instant.step.min(60.0) + 1e-9;
+                    let most = rate / 60.0 * instant.step.min(60.0) + 1e-9;
                     assert!(
                         (to[k] - self.applied[k]).abs() <= most,
                         "{moved:?} from {:?}",
