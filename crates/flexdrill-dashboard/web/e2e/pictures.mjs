@@ -1,4 +1,4 @@
-// The pictures of the documents: a calm overview, and a joint that whirls.
+// The pictures of the documents: a calm overview, a joint that whirls, and a rig that is read over WITS.
 //
 // `node e2e/pictures.mjs --flexdrill FILE --out FOLDER [--seconds N]`, in a network of its own (launch_scripts/page_test.sh
 // --pictures makes one). On a machine that does not keep up with the model the pictures show that.
@@ -61,6 +61,16 @@ try {
   });
   await page.waitForTimeout(20_000);
   await shot("dashboard_place");
+  await stop("node");
+  // A rig of a log: its WITS line, the bridge that reads it, and the twin.
+  start("node", "run", "--config", join(root, "config/rig.yaml"));
+  start("rig", "rig", join(root, "config/field_logs/demo.csv"), "--wits", "127.0.0.1:5555", "--from", "60");
+  start("bridge", "bridge", "wits", "--connect", "127.0.0.1:5555");
+  await until("the rig", 60, async () => ["NORMAL", "WATCH", "ACT SOON"].includes(await word()));
+  await page.waitForTimeout(90_000);
+  await page.click("#tab-rig");
+  await page.waitForTimeout(10_000);
+  await shot("dashboard_rig");
 } catch (error) {
   failed = error;
 } finally {
