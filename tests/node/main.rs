@@ -13,6 +13,7 @@ mod alarms;
 mod bridge;
 mod clock;
 mod command_line;
+mod following;
 #[cfg(feature = "mqtt")]
 mod mqtt;
 #[cfg(feature = "opcua")]
