@@ -25,17 +25,20 @@ spread = np.hypot(lateral_y_mm.std(axis=0), lateral_z_mm.std(axis=0))
 joint = int(spread.argmax())
 depth_m = run.joints.measured_depth_m[joint]
 
-figure, (orbit, forces) = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
+# A figure per cell: a notebook shows it, and closes it, where its cell ends.
+figure, orbit = plt.subplots(figsize=(5.5, 4.5), layout="constrained")
 orbit.plot(lateral_y_mm[:, joint], lateral_z_mm[:, joint], linewidth=0.8)
 orbit.set(title=f"joint {joint + 1} at {depth_m:.2f} m", xlabel="horizontal (mm)", ylabel="to the low side (mm)")
 orbit.set_aspect("equal")
 orbit.invert_yaxis()
+plt.show()
 
 # %% [markdown]
 # Largest forces along the tool. Peaks are those within each sampling interval, so that no collision is missed.
 
 # %%
 contacts = run.contacts
+figure, forces = plt.subplots(figsize=(7.5, 4.5), layout="constrained")
 forces.plot(contacts.measured_depth_m, contacts.pipe_guide_normal_peak_n[late].max(axis=0), label="pipe on guide")
 forces.plot(contacts.measured_depth_m, contacts.guide_wall_normal_peak_n[late].max(axis=0), label="guide on wall")
 forces.set(title="largest forces", xlabel="measured depth (m)", ylabel="N")
