@@ -38,8 +38,8 @@ const MOST_CLIENTS: usize = 32;
 /// Least time between two feedbacks.
 const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
 
-/// How often the states of the goals are told again while one is open: looking ahead is idle work, so that on a busy
-/// machine nothing else tells a client for minutes that the node is there.
+/// Interval at which the node publishes the states of its goals again while one is open. Looking ahead is idle work: on a
+/// busy machine a client would otherwise hear nothing of the node for minutes.
 const SIGN_OF_LIFE: Duration = Duration::from_secs(5);
 /// Longest wait for a goal before advice is looked for.
 const IDLE: Duration = Duration::from_millis(200);
@@ -116,7 +116,7 @@ impl WhatIf {
         }
     }
 
-    /// Tells the states of the goals again and again while one is open.
+    /// Publishes the states of the goals at [`SIGN_OF_LIFE`] while one is open.
     async fn shows_life(self: Arc<Self>) {
         let mut ticks = tokio::time::interval(SIGN_OF_LIFE);
         loop {

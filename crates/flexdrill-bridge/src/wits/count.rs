@@ -1,7 +1,8 @@
 //! What came over a connection, in numbers: every byte and every frame is in one of them.
 
-use super::decode::{NotUsed, Reading};
+use super::decode::Reading;
 use super::frame::{DiscardReason, Discarded};
+use super::report::NotUsed;
 use super::{FrameUse, ItemFaultKind, Sequence};
 
 /// The counts of a connection or of all of them.

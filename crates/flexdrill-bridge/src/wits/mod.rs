@@ -12,16 +12,18 @@ mod header;
 mod item;
 mod line;
 mod mapping;
+mod report;
 mod sequence;
 mod write;
 
 pub use count::Counts;
-pub use decode::{Decoder, FrameUse, ItemFault, ItemFaultKind, NotUsed, Reading, RecordSeen};
+pub use decode::{Decoder, Reading, RecordSeen};
 pub use frame::{DiscardReason, Discarded, FrameReader, LONGEST_FRAME, LONGEST_LINE, Piece, RawFrame};
 pub use header::{Header, LAST_HEADER_ITEM};
 pub use item::{ItemCode, NoItemCode};
 pub use line::{Line, LineEvent};
 pub use mapping::{ItemMapping, Mapping, StampSource, UnitSystem, WriteItem, WriteMapping};
+pub use report::{FrameUse, ItemFault, ItemFaultKind, NotUsed};
 pub use sequence::{Sequence, SequenceWatch};
 pub use write::{FrameWriter, RigFrames, TwinFrames};
 
