@@ -2,6 +2,7 @@
 
 mod mqtt;
 mod opcua;
+mod ros_side;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -9,13 +10,11 @@ use std::path::PathBuf;
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
 
+use self::ros_side::RosSideArgs;
 use super::{WrongUse, signals};
+use crate::bridge::Outgoing;
 use crate::bridge::wits::WitsBridge;
-use crate::bridge::{BridgeNode, Outgoing};
 use crate::cli::output::say;
-use crate::dds::network::Network;
-use crate::ros::args::RosArgs;
-use crate::ros::logging;
 use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{Place, Times};
 use flexdrill_bridge::wits::Mapping;
@@ -51,12 +50,8 @@ struct WitsArgs {
     /// Keep the bytes of the line with their times in a new file.
     #[arg(long, value_name = "FILE")]
     capture: Option<PathBuf>,
-    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
-    #[arg(long, value_name = "ID")]
-    domain: Option<u16>,
-    /// Namespace of the node and its topics.
-    #[arg(long, value_name = "NS", default_value = "/")]
-    namespace: String,
+    #[command(flatten)]
+    ros: RosSideArgs,
 }
 
 /// The line; exactly one.
@@ -85,20 +80,11 @@ pub(super) fn run(args: &BridgeArgs, ros_args: &[String]) -> anyhow::Result<()> 
 }
 
 fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
-    let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
-    logging::start(&ros_args);
+    let ros = args.ros.start(ros_args, WITS_NODE_NAME)?;
     let mapping = match &args.map {
         Some(file) => Mapping::load(file)?,
         None => Mapping::default(),
     };
-    let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
-    let identity = ros_args
-        .remapping
-        .identity(&args.namespace, WITS_NODE_NAME)
-        .map_err(WrongUse::new)?;
-    for note in notes {
-        tracing::warn!("{note}");
-    }
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
         let (place, name) = args.line.place(args.baud).await?;
@@ -108,20 +94,13 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
             &[]
         };
         let sends = &Outgoing::OF_A_RIG;
-        let node = BridgeNode::new(
-            &network,
-            &identity,
-            &ros_args.remapping,
-            WITS_NODE_NAME,
-            sends,
-            receives,
-        )?;
+        let node = ros.node(sends, receives)?;
         say!(
             "wits {name} to {}, domain {}; Ctrl-C ends it",
             node.topics()[..2].join(", "),
-            network.domain_id
+            ros.network.domain_id
         );
-        let node_name = identity.full_name();
+        let node_name = ros.identity.full_name();
         let mut bridge = WitsBridge::new(node, node_name, name, mapping, args.capture.as_deref())?;
         let shutdown = signals::shutdown(false)?;
         tokio::select! {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::super::numbers;
+use super::ros_side::RosSideArgs;
 
 /// Publish the twin's outputs on an MQTT broker: JSON documents with units and, if asked for, Sparkplug B.
 ///
@@ -42,12 +43,8 @@ pub(super) struct MqttArgs {
     /// Name of the client at the broker. Default: made from the topics.
     #[arg(long, value_name = "NAME")]
     client_id: Option<String>,
-    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
-    #[arg(long, value_name = "ID")]
-    domain: Option<u16>,
-    /// Namespace of the twin and of the bridge.
-    #[arg(long, value_name = "NS", default_value = "/")]
-    namespace: String,
+    #[command(flatten)]
+    ros: RosSideArgs,
 }
 
 /// # Errors
@@ -76,12 +73,9 @@ mod with_mqtt {
 
     use super::super::super::{WrongUse, signals};
     use super::MqttArgs;
+    use crate::bridge::Outgoing;
     use crate::bridge::mqtt::MqttBridge;
-    use crate::bridge::{BridgeNode, Outgoing};
     use crate::cli::output::say;
-    use crate::dds::network::Network;
-    use crate::ros::args::RosArgs;
-    use crate::ros::logging;
 
     /// Name of the node unless it is remapped.
     const NODE_NAME: &str = "flexdrill_bridge_mqtt";
@@ -91,20 +85,11 @@ mod with_mqtt {
     /// # Errors
     /// When the options are wrong, or a file or the network cannot be used. A broker that is not there is waited for.
     pub fn run(args: &MqttArgs, ros_args: &[String]) -> anyhow::Result<()> {
-        let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
-        logging::start(&ros_args);
-        let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
-        let identity = ros_args
-            .remapping
-            .identity(&args.namespace, NODE_NAME)
-            .map_err(WrongUse::new)?;
-        for note in notes {
-            tracing::warn!("{note}");
-        }
+        let ros = args.ros.start(ros_args, NODE_NAME)?;
         let broker = args.broker()?;
         let prefix = match &args.topic {
             Some(prefix) => prefix.clone(),
-            None => format!("flexdrill{}", identity.namespace.trim_end_matches('/')),
+            None => format!("flexdrill{}", ros.identity.namespace.trim_end_matches('/')),
         };
         let documents = Documents::new(&prefix, args.client_id.as_deref()).map_err(WrongUse::new)?;
         let sparkplug = match &args.sparkplug {
@@ -121,16 +106,16 @@ mod with_mqtt {
         runtime.block_on(async {
             let topics = MqttBridge::topics();
             let sends = &[Outgoing::Diagnostics];
-            let node = BridgeNode::new(&network, &identity, &ros_args.remapping, NODE_NAME, sends, &topics)?;
+            let node = ros.node(sends, &topics)?;
             let also = args.sparkplug.as_ref();
             say!(
                 "mqtt to {broker}{}, topics {prefix}/...{}, domain {}; Ctrl-C ends it",
                 if broker.is_encrypted() { " with TLS" } else { "" },
                 also.map_or_else(String::new, |name| format!(" and Sparkplug {}", printable(name))),
-                network.domain_id
+                ros.network.domain_id
             );
             let every = Duration::from_secs_f64(args.every);
-            let mut bridge = MqttBridge::new(node, identity.full_name(), broker, documents, sparkplug, every);
+            let mut bridge = MqttBridge::new(node, ros.identity.full_name(), broker, documents, sparkplug, every);
             let shutdown = signals::shutdown(false)?;
             let (stop, stopping) = watch::channel(false);
             let mut running = std::pin::pin!(bridge.run(LinkTimes::default(), stopping));

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::ros_side::RosSideArgs;
+
 /// Serve the twin over OPC UA, or follow a rig's server.
 ///
 /// Clients read without a password. With --users and --allow-write a user may write targets, which drive the twin like
@@ -44,12 +46,8 @@ pub(super) struct OpcuaArgs {
     /// Folder for certificates; default $XDG_STATE_HOME/flexdrill/opcua or ~/.local/state/flexdrill/opcua.
     #[arg(long, value_name = "DIR")]
     state: Option<PathBuf>,
-    /// DDS domain, 0 to 232; overrides ROS_DOMAIN_ID.
-    #[arg(long, value_name = "ID")]
-    domain: Option<u16>,
-    /// Namespace of the node and its topics.
-    #[arg(long, value_name = "NS", default_value = "/")]
-    namespace: String,
+    #[command(flatten)]
+    ros: RosSideArgs,
 }
 
 /// The side that the bridge takes; exactly one.
@@ -94,14 +92,12 @@ mod with_opcua {
     use flexdrill_text::printable;
 
     use super::super::super::{WrongUse, signals};
+    use super::super::ros_side::RosSide;
     use super::OpcuaArgs;
     use crate::alarms::state_file;
+    use crate::bridge::Outgoing;
     use crate::bridge::opcua::{RigBridge, ServerBridge};
-    use crate::bridge::{BridgeNode, Outgoing};
     use crate::cli::output::say;
-    use crate::dds::network::Network;
-    use crate::ros::args::{NodeIdentity, RosArgs};
-    use crate::ros::logging;
 
     /// Name of the node unless it is remapped.
     const NODE_NAME: &str = "flexdrill_bridge_opcua";
@@ -112,21 +108,7 @@ mod with_opcua {
     /// When the options are wrong, or a file, a port or the network cannot be used. A rig's server that is not there is
     /// waited for.
     pub fn run(args: &OpcuaArgs, ros_args: &[String]) -> anyhow::Result<()> {
-        let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
-        logging::start(&ros_args);
-        let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
-        let identity = ros_args
-            .remapping
-            .identity(&args.namespace, NODE_NAME)
-            .map_err(WrongUse::new)?;
-        for note in notes {
-            tracing::warn!("{note}");
-        }
-        let node = Join {
-            network: &network,
-            identity: &identity,
-            ros_args: &ros_args,
-        };
+        let ros = args.ros.start(ros_args, NODE_NAME)?;
         // Signing and encrypting take milliseconds, in which the other clients are served.
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(2)
@@ -134,8 +116,8 @@ mod with_opcua {
             .build()?;
         runtime.block_on(async {
             match (args.side.listen, &args.side.connect) {
-                (Some(address), _) => serve(args, address, &node).await,
-                (None, Some(url)) => follow(args, url, &node).await,
+                (Some(address), _) => serve(args, address, &ros).await,
+                (None, Some(url)) => follow(args, url, &ros).await,
                 (None, None) => Err(WrongUse::new("one of --listen and --connect is needed").into()),
             }
         })?;
@@ -143,32 +125,7 @@ mod with_opcua {
         Ok(())
     }
 
-    /// What a node needs to join the network.
-    struct Join<'a> {
-        network: &'a Network,
-        identity: &'a NodeIdentity,
-        ros_args: &'a RosArgs,
-    }
-
-    impl Join<'_> {
-        fn node(
-            &self,
-            sends: &[Outgoing],
-            receives: &[&'static flexdrill_messages::topics::TopicInfo],
-        ) -> anyhow::Result<BridgeNode> {
-            let remapping = &self.ros_args.remapping;
-            Ok(BridgeNode::new(
-                self.network,
-                self.identity,
-                remapping,
-                NODE_NAME,
-                sends,
-                receives,
-            )?)
-        }
-    }
-
-    async fn serve(args: &OpcuaArgs, address: SocketAddr, join: &Join<'_>) -> anyhow::Result<()> {
+    async fn serve(args: &OpcuaArgs, address: SocketAddr, ros: &RosSide) -> anyhow::Result<()> {
         let users = match &args.users {
             Some(file) => Users::load(file)?,
             None => Users::default(),
@@ -201,7 +158,7 @@ mod with_opcua {
         } else {
             &[Outgoing::Diagnostics]
         };
-        let node = join.node(sends, &topics)?;
+        let node = ros.node(sends, &topics)?;
         let place = format!("opc.tcp://{}:{}/", setup.host, address.port());
         say!(
             "opcua at {place}, {}, {}, certificates in {}, domain {}; Ctrl-C ends it",
@@ -216,9 +173,9 @@ mod with_opcua {
                 "read only"
             },
             setup.keys.folder().display(),
-            join.network.domain_id
+            ros.network.domain_id
         );
-        let mut bridge = ServerBridge::new(node, join.identity.full_name(), place, setup);
+        let mut bridge = ServerBridge::new(node, ros.identity.full_name(), place, setup);
         let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}
@@ -227,7 +184,7 @@ mod with_opcua {
         Ok(())
     }
 
-    async fn follow(args: &OpcuaArgs, url: &str, join: &Join<'_>) -> anyhow::Result<()> {
+    async fn follow(args: &OpcuaArgs, url: &str, ros: &RosSide) -> anyhow::Result<()> {
         let file = args
             .map
             .as_ref()
@@ -252,15 +209,15 @@ mod with_opcua {
             keys: keys.folder().to_owned(),
             application_uri,
         };
-        let node = join.node(&Outgoing::OF_A_RIG, &[])?;
+        let node = ros.node(&Outgoing::OF_A_RIG, &[])?;
         say!(
             "opcua from {} to {}, {} nodes, domain {}; Ctrl-C ends it",
             printable(url),
             node.topics()[..2].join(", "),
             mapping.nodes.len(),
-            join.network.domain_id
+            ros.network.domain_id
         );
-        let mut bridge = RigBridge::new(node, join.identity.full_name(), url, &mapping);
+        let mut bridge = RigBridge::new(node, ros.identity.full_name(), url, &mapping);
         let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}
