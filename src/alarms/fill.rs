@@ -171,6 +171,7 @@ fn change(change: &Change) -> u8 {
         Change::Released => AlarmEvent::RELEASED,
         Change::TakenOut => AlarmEvent::TAKEN_OUT,
         Change::PutBack => AlarmEvent::PUT_BACK,
+        Change::Adjusted => AlarmEvent::ADJUSTED,
     }
 }
 

@@ -6,13 +6,15 @@
 //! - `catalogue`: the alarms that exist. `finding`: a condition with its texts.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
 //!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
-//!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes.
+//!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes;
+//!   `adjusted`: what followed from it.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
 //!   of sentences.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
 //!
 //! `docs/alarms.md` is for operators.
 
+mod adjusted;
 mod advice;
 mod catalogue;
 mod fill;
@@ -39,7 +41,7 @@ use std::sync::Arc;
 use crate::messages::outputs::Encoded;
 use crate::messages::std_msgs::Header;
 use crate::messages::topics;
-use crate::messages::{AlarmEvent, AlarmList, CdrError, to_cdr_into};
+use crate::messages::{AlarmEvent, AlarmList, CdrError, Residuals, to_cdr_into};
 use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Priority, Saved, SavedError, Statistics, Time};
 use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::{Advice, AdviceTable, Config};
@@ -47,6 +49,7 @@ use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
 
 use crate::window::SafeWindow;
+use adjusted::Adjusted;
 use advice::{Ahead, Demand, Operating};
 use worst_moment::WorstMoment;
 
@@ -70,6 +73,8 @@ pub struct AlarmBook {
     tested: Option<Tested>,
     /// When rig and twin were compared last in steady motion.
     rig_judged: Time,
+    /// What the twin expects of the rig, as the journal has it.
+    adjusted: Adjusted,
     /// Per alarm: whether its present state began in an earlier run.
     restored: Vec<bool>,
     /// Events that are not yet published.
@@ -108,6 +113,7 @@ impl AlarmBook {
             window: None,
             tested: None,
             rig_judged: Time::MIN,
+            adjusted: Adjusted::default(),
             restored: (0..AlarmId::ALL.len())
                 .map(|index| system.alarm(index).since != 0)
                 .collect(),
@@ -166,6 +172,16 @@ impl AlarmBook {
                     self.observe([(AlarmId::RigDisagrees, Finding::default())], stamp);
                 }
             }
+        }
+    }
+
+    /// Enters what changed of what the twin expects of the rig, as a comparison has it at its stamp.
+    pub fn observe_adjusted(&mut self, residuals: &Residuals, stamp: Time) {
+        if let Some(reason) = self.adjusted.observe(residuals, stamp) {
+            let mut events = Vec::new();
+            self.system
+                .adjusted(AlarmId::RigDisagrees as usize, stamp, &reason, &mut events);
+            self.keep(events);
         }
     }
 

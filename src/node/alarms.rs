@@ -13,9 +13,9 @@ use super::publish::PublisherParts;
 use super::sinks::Sinks;
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use crate::compare::Comparison;
 use crate::window::SafeWindow;
 use flexdrill_alarms::{Refusal, Saved, Time};
-use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
@@ -107,9 +107,10 @@ impl AlarmDesk {
         }
     }
 
-    /// Judges the comparison of rig and twin, at the stamp of its snapshot.
-    pub fn observe_rig(&mut self, compared: &Compared, bit_depth: f64, stamp: Time) {
-        self.book.observe_rig(compared, bit_depth, stamp);
+    /// Judges the comparison of rig and twin, at the stamp of its snapshot, and enters what was adjusted.
+    pub fn observe_rig(&mut self, comparison: &Comparison, bit_depth: f64, stamp: Time) {
+        self.book.observe_rig(&comparison.compared, bit_depth, stamp);
+        self.book.observe_adjusted(&comparison.message, stamp);
     }
 
     /// Judges the node's own state, at the present time on the rig's clock.

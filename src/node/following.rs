@@ -85,7 +85,7 @@ pub(super) fn compare_with_rig(
     };
     let comparison = rig.compare(frame, &samples, header)?;
     parts.send_message(&topics::RESIDUALS, &comparison.message, stamp);
-    parts.alarms.observe_rig(&comparison.compared, samples.bit_depth, stamp);
+    parts.alarms.observe_rig(&comparison, samples.bit_depth, stamp);
     if let Some(stopped) = comparison.stopped {
         tracing::warn!("calibration.follow: {stopped}; it follows no further");
     }

@@ -124,7 +124,18 @@ fn ratio(message: &Residuals) -> f64 {
 fn disagreed(bag: &Path) -> Vec<(u8, u8)> {
     let events: Vec<AlarmEvent> = messages(bag, "twin/alarm_events");
     let of_rig = events.into_iter().filter(|event| event.id == "rig_disagrees");
-    of_rig.map(|event| (event.change, event.priority)).collect()
+    let of_state = of_rig.filter(|event| event.change != AlarmEvent::ADJUSTED);
+    of_state.map(|event| (event.change, event.priority)).collect()
+}
+
+/// Reasons of the entries in the journal that say what was adjusted.
+fn adjusted(bag: &Path) -> Vec<String> {
+    let events: Vec<AlarmEvent> = messages(bag, "twin/alarm_events");
+    let adjusted = events.into_iter().filter(|event| event.change == AlarmEvent::ADJUSTED);
+    adjusted
+        .inspect(|event| assert_eq!(event.from_state, event.to_state, "{event:?}"))
+        .map(|event| event.reason)
+        .collect()
 }
 
 #[test]
@@ -160,6 +171,8 @@ fn friction_follows_a_rig_within_its_limits_and_only_where_it_is_asked_for() {
     assert!(bytes(&path("bare"), &others) == bytes(&path("with"), &others));
     assert!(messages::<Residuals>(&path("bare"), "twin/residuals").is_empty());
 
+    assert_eq!(adjusted(&path("off")), [""; 0]);
+
     // On: it comes to the truth, the residual returns into its band, the alarm is quiet.
     let follow = config(folder, "follow.yaml", &[("calibration.follow", true.into())]);
     let said = replay(&rig_log, &path("on"), Some(&follow), &[]);
@@ -176,6 +189,12 @@ fn friction_follows_a_rig_within_its_limits_and_only_where_it_is_asked_for() {
         // One per minute, and no time is left out.
         assert!(moved.abs() <= 1.0 / 60.0 + 1e-9, "{pair:?}");
     }
+    // The journal has the motion, from the configured value on, gathered per minute.
+    let entries = adjusted(&path("on"));
+    assert!(
+        (1..=2).contains(&entries.len()) && entries[0].starts_with("friction factor from 1.000 to 1."),
+        "{entries:?}"
+    );
     // Every change is in the applied inputs, with who asked for it.
     let applied: Vec<AppliedInputs> = messages(&path("on"), "twin/applied_inputs");
     let changes = applied.iter().flat_map(|inputs| {

@@ -128,6 +128,8 @@ pub enum Change {
     TakenOut,
     /// The configuration switches it on again.
     PutBack,
+    /// What the condition is judged against was adjusted, for which the event has the reason. The state stays.
+    Adjusted,
 }
 
 impl Change {
@@ -145,6 +147,7 @@ impl Change {
             Change::Released => "released",
             Change::TakenOut => "out of service",
             Change::PutBack => "in service",
+            Change::Adjusted => "adjusted",
         }
     }
 }
@@ -242,6 +245,7 @@ impl Standing {
                 };
             }
             Change::PutBack => self.out_of_service = false,
+            Change::Adjusted => {}
         }
     }
 }

@@ -163,6 +163,21 @@ impl AlarmSystem {
         }
     }
 
+    /// Enters into the journal that what an alarm is judged against was adjusted, with the reason. An index that does not
+    /// exist enters nothing.
+    pub fn adjusted(&mut self, index: usize, time: Time, reason: &str, events: &mut Vec<Event>) {
+        if index < self.alarms.len() {
+            self.change(
+                index,
+                time,
+                Change::Adjusted,
+                &Operator { name: "", reason },
+                "",
+                events,
+            );
+        }
+    }
+
     /// Advances the clock of requests, for shelvings and figures. Call it before the observations of that time, which may
     /// carry the time of another clock. When the clock steps back, shelvings end, because their remaining time would be
     /// unknown.

@@ -713,7 +713,8 @@ pub mod flexdrill {
         pub id: std::string::String,
         /// Name for displays.
         pub name: std::string::String,
-        /// ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT or PUT_BACK.
+        /// ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT, PUT_BACK or
+        /// ADJUSTED.
         pub change: u8,
         /// State before the change, as in Alarm.
         pub from_state: u8,
@@ -776,6 +777,8 @@ pub mod flexdrill {
         pub const TAKEN_OUT: u8 = 9;
         /// The configuration returns it to service.
         pub const PUT_BACK: u8 = 10;
+        /// The twin was adjusted to the rig (calibration.follow); the reason says how. The state stays.
+        pub const ADJUSTED: u8 = 11;
     }
 
     impl Message for AlarmEvent {

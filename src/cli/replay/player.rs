@@ -281,6 +281,7 @@ impl Player {
         };
         write(&mut self.recorder, &self.topics, encoded)?;
         self.alarms.observe_rig(&comparison.compared, samples.bit_depth, stamp);
+        self.alarms.observe_adjusted(&comparison.message, stamp);
         self.tally.rig.observe(&comparison.message);
         if let Some(stopped) = comparison.stopped {
             tell!("calibration.follow: {stopped}; it follows no further");

@@ -264,7 +264,10 @@ export interface AlarmEvent {
   id: string;
   /** Name for displays. */
   name: string;
-  /** ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT or PUT_BACK. */
+  /**
+   * ACTIVATED, RAISED, LOWERED, RETURNED, ACKNOWLEDGED, SHELVED, UNSHELVED, SUPPRESSED, RELEASED, TAKEN_OUT, PUT_BACK or
+   * ADJUSTED.
+   */
   change: number;
   /** State before the change, as in Alarm. */
   from_state: number;
@@ -330,6 +333,8 @@ export const AlarmEvent = {
   TAKEN_OUT: 9,
   /** The configuration returns it to service. */
   PUT_BACK: 10,
+  /** The twin was adjusted to the rig (calibration.follow); the reason says how. The state stays. */
+  ADJUSTED: 11,
 } as const;
 /** Reads a `flexdrill/msg/AlarmEvent`. */
 export function decodeAlarmEvent(reader: CdrReader): AlarmEvent {

@@ -3,7 +3,7 @@
 import { alarmLocation, endedAt, engineersAction, isOfSystem, title, worstAt } from "../alarms";
 import * as api from "../api";
 import { h, setText, show } from "../dom";
-import { Alarm, type AlarmList } from "../messages";
+import { Alarm, AlarmEvent, type AlarmList } from "../messages";
 import { stamp } from "../store/topics";
 import { clock, dateAndClock, lapse, number } from "../units";
 import { type Context, Pace, type View } from "../view";
@@ -285,7 +285,11 @@ export class Alarms implements View {
     const cursor = store.cursor ?? Infinity;
     // A drive at standstill suppresses several alarms at once, which the journal shows on request only.
     const matters = (event: api.JournalEntry) =>
-      this.every.checked || event.priority > 0 || event.operator_name !== "" || event.annunciates;
+      this.every.checked ||
+      event.priority > 0 ||
+      event.operator_name !== "" ||
+      event.annunciates ||
+      event.change === AlarmEvent.ADJUSTED;
     const entries = store.journal.filter((event) => matters(event) && Number(BigInt(event.stamp_ns)) / 1e9 <= cursor);
     this.journal.replaceChildren(
       ...entries
