@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::common::{Network, Program, python, root, skipped};
+use crate::common::{Network, Program, python, root, skipped, small_config};
 
 /// Longest wait for a message. The slowest is a birth after a broker's return: the waits before an attempt double from
 /// half a second, and a busy machine starts a twin in 20 s.
@@ -291,6 +291,116 @@ fn interop_twin_broker_and_bridge_may_be_killed_and_readers_know_what_holds() {
     let [end, death] = late.both(|bridge| bridge["state"] == "offline", "NDEATH", |_| true);
     assert!(end["reason"].as_str().unwrap().contains("was stopped"), "{end}");
     assert_eq!(death["metrics"]["bdSeq"], 0);
+}
+
+/// A twin of the short tool that looks ahead and has a map, in a file of the folder.
+fn looking_ahead(network: &Network, folder: &Path) -> Program {
+    super::safe_window::made(&folder.join("map"));
+    let text = std::fs::read_to_string(small_config()).unwrap();
+    // Another YAML file next to the log of the rig would hide its mapping.
+    let config = folder.join("twin.conf");
+    let more = "look_ahead: {forecast: true, forecast_members: 2}\nmap: {file: map/map.json}\n";
+    std::fs::write(&config, format!("{text}\n{more}")).unwrap();
+    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    command.args(["run", "--config"]).arg(&config);
+    Program::start(command)
+}
+
+/// A rig at 60 r/min and 4 kN that measures a torque of 500 N m, far above the twin's.
+fn rig(network: &Network, folder: &Path) -> Program {
+    let mut log = String::from("t,rpm,wob,torque\n");
+    for second in 0..300 {
+        log += &format!("{second},60,4,0.5\n");
+    }
+    let mapping = "columns:\n  time: {column: t, format: seconds}\n  rotary_speed: {column: rpm, unit: r/min}\n  \
+                   weight_on_bit:\n    direct: {column: wob, unit: kN}\n  torque: {column: torque, unit: kN.m}\n";
+    let file = folder.join("rig.csv");
+    std::fs::write(&file, log).unwrap();
+    std::fs::write(folder.join("mapping.yaml"), mapping).unwrap();
+    let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    command.arg("rig").arg(&file);
+    Program::start(command)
+}
+
+#[test]
+fn interop_forecast_residuals_and_map_reach_the_broker() {
+    let Some(network) = Network::new() else { return };
+    let Some(_broker) = Broker::start(&network, OPEN) else {
+        return;
+    };
+    let Some(mut listener) = Listener::start(&network) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let _bridge = bridge(&network, &["--topic", "rigs/7"]);
+    let mut twin = looking_ahead(&network, folder.path());
+    twin.wait_for("model time runs");
+    let _rig = rig(&network, folder.path());
+
+    // Each document when it has what it is for, in the order in which they come.
+    let torque = |document: &Value| {
+        let all = document["residuals"].as_array().unwrap();
+        all.iter().find(|of| of["name"] == "surface_torque").cloned().unwrap()
+    };
+    let at_60 = |forecast: &Value| (forecast["rotary_speed"]["value"].as_f64().unwrap() - 6.283).abs() < 0.001;
+    let [mut forecast, mut residuals, mut map] = [Value::Null, Value::Null, Value::Null];
+    // A forecast is made every half minute, as idle work, and residuals begin 35 s after the speed has come.
+    let deadline = Instant::now() + 4 * PATIENCE;
+    while [&forecast, &residuals, &map].into_iter().any(Value::is_null) {
+        assert!(Instant::now() < deadline, "missing: {forecast} {residuals} {map}");
+        let line = listener.wait(|line| line["topic"].is_string());
+        let document = line["json"].clone();
+        match line["topic"].as_str().unwrap() {
+            "rigs/7/forecast" if document["members"] == 2 && at_60(&document) => forecast = document,
+            "rigs/7/residuals" if torque(&document)["ratio"].is_number() => residuals = document,
+            "rigs/7/safe_window" => map = document,
+            _ => continue,
+        }
+        assert_eq!((&line["qos"], &line["retained"]), (&1.into(), &false.into()), "{line}");
+    }
+
+    assert_eq!(forecast["failed"], 0, "{forecast}");
+    let chance = &forecast["any_alarm"];
+    let in_order = chance["lower"].as_f64() <= chance["probability"].as_f64()
+        && chance["probability"].as_f64() <= chance["upper"].as_f64();
+    assert!(chance["upper"].is_number() && in_order, "{forecast}");
+    let bands = forecast["bands"].as_array().unwrap();
+    let speed = bands.iter().find(|band| band["name"] == "bit_speed").unwrap();
+    let seconds = speed["p50"].as_array().unwrap();
+    assert!(speed["unit"] == "rad/s" && seconds.len() >= 60, "{speed}");
+    for (low, high) in speed["p5"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(speed["p95"].as_array().unwrap())
+    {
+        assert!(low.as_f64() <= high.as_f64(), "{speed}");
+    }
+
+    let of = torque(&residuals);
+    assert_eq!((&of["unit"], &of["measured"]), (&"N.m".into(), &500.0.into()), "{of}");
+    // What the twin expects is far below, and the ratio has the sign of the difference.
+    assert!(
+        of["high"].as_f64().unwrap() < 500.0 && of["ratio"].as_f64().unwrap() > 1.0,
+        "{of}"
+    );
+    assert_eq!(
+        (&residuals["steady"], &residuals["drilling"]),
+        (&true.into(), &true.into())
+    );
+
+    assert_eq!(
+        map["rotary_speed"],
+        serde_json::json!({"values": [40.0, 80.0], "unit": "r/min"})
+    );
+    assert_eq!(
+        map["weight_on_bit"],
+        serde_json::json!({"values": [2.0, 6.0], "unit": "kN"})
+    );
+    assert_eq!(map["verdict"], serde_json::json!(vec!["clear"; 4]), "{map}");
+
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0), "{}", twin.said());
 }
 
 /// Certificates for `localhost`, of an authority in `ca.pem` and of another in `other.pem`.

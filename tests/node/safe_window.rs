@@ -13,7 +13,7 @@ const WINDOW: (&str, &str) = ("/twin/safe_window", "flexdrill/msg/SafeWindow");
 const ALARMS: (&str, &str) = ("/twin/alarms", "flexdrill/msg/AlarmList");
 
 /// A map of the short tool, 40 and 80 r/min by 2 and 6 kN, made as a user makes it.
-fn made(folder: &Path) {
+pub(crate) fn made(folder: &Path) {
     let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .arg("map")
         .arg(small_config())
