@@ -44,6 +44,10 @@ const FILES: &[(&str, &str)] = &[
         "hinged_beam_in_tube",
         include_str!("../../../config/verify/hinged_beam_in_tube.yaml"),
     ),
+    (
+        "helical_buckling",
+        include_str!("../../../config/verify/helical_buckling.yaml"),
+    ),
     ("hooke_chain", include_str!("../../../config/verify/hooke_chain.yaml")),
     ("hooke_pair", include_str!("../../../config/verify/hooke_pair.yaml")),
     ("hooke_single", include_str!("../../../config/verify/hooke_single.yaml")),

@@ -6,6 +6,7 @@ mod bodies;
 mod buckling;
 mod contacts;
 mod foreign;
+mod helix;
 mod hinged_beam;
 mod integration;
 mod joints;

@@ -45,6 +45,18 @@ pub const VALIDATIONS: &[Validation] = &[
         run: sinusoidal,
     },
     Validation {
+        name: "val_helical_buckling",
+        shows: "axial load at which a helix on the wall of a level hole has the energy of the straight pipe, by runs in \
+                which the pipe lies at rest as one and as the other, and the helix's force on the wall",
+        source: "Chen, Lin and Cheatham, J. Energy Resour. Technol. 112 (3), 1990: 2 sqrt(2) sqrt(EI w sin(i) / r); the \
+                 helix's force on the wall per length is r F^2 / 4EI. Dawson and Paslay, J. Pet. Tech. 36 (10), 1984, \
+                 have the sinusoidal load.",
+        reason: "The published helix is even. Gravity makes a turn uneven by w / (5 EI r k^4) = 0.1 rad, which lowers \
+                 the energy by 2.5 % of w r and so the load by 1.25 %.",
+        command: "cargo test --release -p flexdrill-verify --test validation val_helical_buckling",
+        run: super::helix::buckling,
+    },
+    Validation {
         name: "val_soft_string_of_welleng",
         shows: "force at the kick-off (N) of a guide that advances round a quarter circle of 32 m, by a program of others",
         source: "welleng 0.30.0 (PyPI), its soft string after Johancsik, Friesen and Dawson (SPE 11380), 2000 stations, \

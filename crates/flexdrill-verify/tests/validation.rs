@@ -31,6 +31,12 @@ fn val_sinusoidal_buckling() {
     hold("val_sinusoidal_buckling");
 }
 
+/// Chen, Lin and Cheatham, 3.957 kN; tolerance 3 %, as the table says.
+#[test]
+fn val_helical_buckling() {
+    hold("val_helical_buckling");
+}
+
 /// welleng 0.30.0, 1602 to 3500 N; tolerance 0.1 %, as the table says.
 #[test]
 fn val_soft_string_of_welleng() {
