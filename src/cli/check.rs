@@ -81,6 +81,17 @@ impl fmt::Display for Summary<'_> {
                 config.outer_clearance() * 1e3
             ),
         )?;
+        let preload = config.guide_preload_moment();
+        if preload > 0.0 {
+            row(
+                "guide preload",
+                format!(
+                    "{:.2} kN m where the hole bends the guide most, {:.2} % of strain in its steel",
+                    preload * 1e-3,
+                    100.0 * config.guide_bending_strain(),
+                ),
+            )?;
+        }
         let count = config.unknowns();
         row(
             "unknowns",

@@ -74,21 +74,37 @@ impl Config {
         PI * (lightest / self.contact.inner.stiffness).sqrt()
     }
 
-    /// Strain at the outer fibre of the guide that lies in the path, by the tightest section of the well and by straight
-    /// ones; 0 where it is without stress.
-    pub fn guide_bending_strain(&self) -> f64 {
+    /// Largest curvature of the guide in the path against its shape as made (1/m), by the tightest section of the well
+    /// and by straight ones; 0 where it is without stress.
+    fn guide_bend(&self) -> f64 {
         let Some(free) = self.tool.guide.free_curvature() else {
             return 0.0;
         };
         let (sin, cos) = (free.phase.sin(), free.phase.cos());
         let bent = |path: f64| (path - free.curvature * cos).hypot(free.curvature * sin);
-        let largest = self
-            .well
+        self.well
             .sections
             .iter()
             .map(|section| bent(section.curvature()))
-            .fold(0.0, f64::max);
-        0.5 * self.tool.guide.outer_diameter * largest
+            .fold(0.0, f64::max)
+    }
+
+    /// Strain at the outer fibre of the guide that lies in the path, where it is bent most. What slots take until they
+    /// close strains nothing; without a curvature at which they close, the tube counts as a plain one.
+    pub fn guide_bending_strain(&self) -> f64 {
+        let taken_by_slots = self.tool.guide.slots_close_at().unwrap_or(0.0);
+        0.5 * self.tool.guide.outer_diameter * (self.guide_bend() - taken_by_slots).max(0.0)
+    }
+
+    /// Bending moment of the guide that lies in the path (N m), where it is bent most; 0 where it is without stress.
+    pub fn guide_preload_moment(&self) -> f64 {
+        let (guide, material) = (&self.tool.guide, self.tool.material.describe());
+        let bending = |factor: f64| SectionProperties::of(guide.section(), material, factor).bending;
+        let (open, bend) = (bending(guide.bending_factor), self.guide_bend());
+        let beyond = guide
+            .slots_close_at()
+            .map_or(0.0, |close_at| (bend - close_at).max(0.0));
+        open * bend + (bending(1.0) - open) * beyond
     }
 
     /// Clearance between guide and wall (m).

@@ -13,6 +13,8 @@ const INNER_DIAMETER: Bound = Bound::within(0.0, 2.0);
 const BENDING_FACTOR: Bound = Bound::above(0.0, 10.0);
 /// Up to the tightest arc that a well may have.
 const FREE_CURVATURE: Bound = Bound::within(0.0, 2.0);
+/// A curvature of 10 1/m is that of an arc narrower than a hand.
+const SLOTS_CLOSE_AT: Bound = Bound::above(0.0, 10.0);
 const PHASE: Bound = Bound::within(-360.0, 360.0);
 const DIAMETER_REASON: &str = "given in metres";
 
@@ -80,6 +82,12 @@ pub struct Guide {
     #[serde(default)]
     #[schemars(transform = PHASE.in_schema())]
     pub free_curvature_phase_deg: f64,
+    /// Curvature against the shape as made at which the slots close: a number in 1/m, or `never`. Beyond it the guide
+    /// bends with the stiffness of the whole tube, `bending_factor` 1. Default never.
+    ///
+    /// Allowed: above 0, at most 10 1/m
+    #[serde(default)]
+    pub slots_close_at: SlotsClose,
     /// `true` holds every node in all directions, like the outer beam of the paper's Fig. 8. Default false.
     #[serde(default)]
     pub fixed: bool,
@@ -107,6 +115,31 @@ pub enum AsBuilt {
 impl Default for FreeBend {
     fn default() -> Self {
         Self::Path(AsBuilt::AsBuilt)
+    }
+}
+
+/// `never`, or a number in 1/m.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(transform = SLOTS_CLOSE_AT.in_schema())]
+pub enum SlotsClose {
+    /// At no curvature.
+    Never(Never),
+    /// In 1/m.
+    At(f64),
+}
+
+/// The word for slots that stay open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Never {
+    /// Open however far the guide bends.
+    Never,
+}
+
+impl Default for SlotsClose {
+    fn default() -> Self {
+        Self::Never(Never::Never)
     }
 }
 
@@ -280,6 +313,40 @@ impl Guide {
                 "0 while tool.guide.free_curvature is as_built",
                 "such a guide bends along the path",
             ),
+        }
+        self.check_slots(c);
+    }
+
+    fn check_slots(&self, c: &mut Checker) {
+        let SlotsClose::At(curvature) = self.slots_close_at else {
+            return;
+        };
+        let reason = "the width of a slot over its distance from the next one and the tube's outer radius; never for a \
+                      tube without slots";
+        c.number("slots_close_at", curvature, SLOTS_CLOSE_AT, "1/m", reason);
+        c.require(
+            self.bending_factor < 1.0,
+            "slots_close_at",
+            curvature,
+            "1/m",
+            format!("never while tool.guide.bending_factor is {}", self.bending_factor),
+            "a tube as stiff as one without slots has none that close",
+        );
+        c.require(
+            !self.fixed,
+            "slots_close_at",
+            curvature,
+            "1/m",
+            "never while tool.guide.fixed is true",
+            "a guide that is held at every node does not bend",
+        );
+    }
+
+    /// Curvature at which the slots close (1/m).
+    pub(super) fn slots_close_at(&self) -> Option<f64> {
+        match self.slots_close_at {
+            SlotsClose::Never(_) => None,
+            SlotsClose::At(curvature) => Some(curvature),
         }
     }
 

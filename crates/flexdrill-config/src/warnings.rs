@@ -142,7 +142,16 @@ impl Config {
 
     fn warn_of_yield(&self, warnings: &mut Vec<String>) {
         let strain = self.guide_bending_strain();
-        if strain > YIELD_STRAIN {
+        if strain <= YIELD_STRAIN {
+            return;
+        }
+        if let Some(close_at) = self.tool.guide.slots_close_at() {
+            warnings.push(format!(
+                "tool.guide.slots_close_at: bent into the hole, the guide closes its slots at {close_at} 1/m and is strained by {:.2} % beyond, above the {:.2} % at which S-135 drill pipe yields: it would keep the bend or break; wider slots close later",
+                100.0 * strain,
+                100.0 * YIELD_STRAIN,
+            ));
+        } else {
             warnings.push(format!(
                 "tool.guide.free_curvature: bent into the hole, a plain tube of {} m is strained by {:.2} %, beyond the {:.2} % at which S-135 drill pipe yields: it would keep the bend or break; only slots that take the bend prevent this (tool.guide.bending_factor {})",
                 self.tool.guide.outer_diameter,
@@ -244,6 +253,21 @@ mod tests {
         // (1/3.2 - 0.23) x 51 mm = 0.42 %.
         let bent = straight.with_value("tool.guide.free_curvature", 0.23).unwrap();
         assert!(yields(&bent).is_empty());
+        // Slots that close at 0.25 1/m leave (1/3.2 - 0.25) x 51 mm = 0.32 % to the tube, at 0.2 1/m 0.57 %.
+        let slotted = straight.with_value("tool.guide.bending_factor", 0.05).unwrap();
+        let closing = |at: f64| {
+            yields(
+                &slotted
+                    .with_value("tool.guide.slots_close_at", serde_json::json!(at))
+                    .unwrap(),
+            )
+        };
+        assert!(closing(0.25).is_empty());
+        let warnings = closing(0.2);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        for part in ["tool.guide.slots_close_at", "0.2 1/m", "0.57 %", "0.45 %"] {
+            assert!(warnings[0].contains(part), "'{part}' is not in {}", warnings[0]);
+        }
         // Against the build the same bend is an addition.
         let turned = r#"[{"at": "top", "body": "guide", "fix": ["psi"]}]"#;
         let turned: serde_json::Value = serde_json::from_str(turned).unwrap();

@@ -448,6 +448,21 @@ fn impossible_pressures_preloads_and_mud_name_both_keys() {
             "0 to 2 1/m",
         ),
     ] {
+        (
+            "slots_close_at: 0.2",
+            "tool.guide.slots_close_at = 0.2 1/m",
+            "tool.guide.bending_factor is 1",
+        ),
+        (
+            "bending_factor: 0.05, slots_close_at: 0.2, fixed: true",
+            "tool.guide.slots_close_at = 0.2 1/m",
+            "tool.guide.fixed",
+        ),
+        (
+            "bending_factor: 0.05, slots_close_at: 0",
+            "tool.guide.slots_close_at = 0 1/m",
+            "above 0, at most 10 1/m",
+        ),
         let with = format!("inner_diameter: 0.080, {guide}}}");
         let error = error_of(&replaced("inner_diameter: 0.080}", &with));
         assert!(error.contains(key) && error.contains(reason), "{error}");

@@ -46,9 +46,8 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-#[test]
-fn advance_and_snapshot_allocate_nothing() {
-    let mut simulation = simulation(&ToolDescription::paper());
+fn advances_without_allocation(tool: &ToolDescription) {
+    let mut simulation = simulation(tool);
     let mut snapshot = simulation.new_snapshot();
     let inputs = Inputs {
         rotary_speed: 4.19,
@@ -65,7 +64,17 @@ fn advance_and_snapshot_allocate_nothing() {
         }
     }
     assert_eq!(ALLOCATIONS.get() - before, 0);
+}
+
+#[test]
+fn advance_and_snapshot_allocate_nothing() {
+    advances_without_allocation(&ToolDescription::paper());
+    // Slots that open and close.
+    advances_without_allocation(&ToolDescription::paper().with(|tool| {
+        (tool.guide_bending_factor, tool.guide_slots_close_at) = (0.05, Some(0.01));
+    }));
     // And the counter counts.
+    let before = ALLOCATIONS.get();
     drop(std::hint::black_box(vec![1_u8; 100]));
     assert_eq!(ALLOCATIONS.get() - before, 1);
 }

@@ -107,6 +107,11 @@ const FILES: &[(&str, &str)] = &[
     ("tilted_link", include_str!("../../../config/verify/tilted_link.yaml")),
     ("toggle", include_str!("../../../config/verify/toggle.yaml")),
     (
+        "slots_couples",
+        include_str!("../../../config/verify/slots_couples.yaml"),
+    ),
+    ("slots_wall", include_str!("../../../config/verify/slots_wall.yaml")),
+    (
         "string_windup",
         include_str!("../../../config/verify/string_windup.yaml"),
     ),

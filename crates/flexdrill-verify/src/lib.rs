@@ -19,6 +19,7 @@ mod rig;
 mod runs;
 mod shortening;
 mod sliding;
+mod slots;
 pub mod step_error;
 mod validation;
 
@@ -242,6 +243,20 @@ pub const CASES: &[Case] = &[
         reason: "Chords turn about axes that are half the turn of an element off the tube's, 6e-5; the \
                  elements resolve the turn within 3e-5.",
         run: preload::turning,
+    },
+    Case {
+        name: "slots_couples",
+        shows: "bending of a guide whose slots close",
+        reason: "All elements bend alike: what the iteration leaves of the couples.",
+        run: slots::under_couples,
+    },
+    Case {
+        name: "slots_wall",
+        shows: "its force on the wall of an arc",
+        reason: "Within an element the curvature varies as with open slots, 0.2 % of the way; the force falls by three \
+                 times that, because closing the slots takes most of the way. The thrust that the shear becomes takes \
+                 0.1 %.",
+        run: slots::on_the_wall,
     },
     Case {
         name: "hooke_single",

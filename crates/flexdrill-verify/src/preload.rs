@@ -15,7 +15,7 @@ const TOOL: f64 = 2e-3;
 const TURN: f64 = 2e-4;
 
 /// Radius of all arcs here (m).
-const RADIUS: f64 = 3.2;
+pub(super) const RADIUS: f64 = 3.2;
 /// Torque on the lower end of the guide that turns (N m).
 const TORQUE: f64 = 100.0;
 
@@ -25,7 +25,7 @@ fn guide(bench: &Bench) -> SectionProperties {
 }
 
 /// How far the middle of a straight tube lies from the arc between its ends (m).
-fn chord(length: f64) -> f64 {
+pub(super) fn chord(length: f64) -> f64 {
     RADIUS * (1.0 / (0.5 * length / RADIUS).cos() - 1.0)
 }
 

@@ -41,6 +41,9 @@ impl Chain {
         for (couple, q) in self.model.preload.iter().zip(&state.q) {
             stored -= couple * q;
         }
+        if !self.closed_slots.is_empty() {
+            stored += self.slots_energy();
+        }
         stored += point.kinetic;
         point.friction.fill(0.0);
         point.contact_dissipation = 0.0;

@@ -3,6 +3,7 @@
 use super::active::WHOLE_CORRECTIONS;
 use super::residual::Evaluation;
 use super::shortening::StretchTangents;
+use super::slots::add_slots;
 use super::{Chain, NODE, SINGLE_CORRECTIONS};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
@@ -45,7 +46,8 @@ impl ChainEquations<'_> {
             .energy(point, self.model, state, conditions, self.interactions);
     }
 
-    /// Evaluates the residual at `to`: spans, contacts, what is attached, joints, in this order.
+    /// Evaluates the residual at `to`: spans, contacts, slots, what is attached, joints, in this
+    /// order.
     fn residual_by(&mut self, evaluation: Evaluation, to: &mut State, conditions: &Conditions) {
         let Self {
             model,
@@ -57,6 +59,7 @@ impl ChainEquations<'_> {
         chain.span_forces(evaluation, model, to, conditions);
         stopwatch.lap(Phase::Assembly);
         chain.contact_forces(interactions, model, to, conditions);
+        chain.close_slots(to);
         chain.gather(to);
         stopwatch.lap(Phase::Contact);
         chain.attached_forces(&mut interactions.bit, model, to, conditions);
@@ -103,6 +106,8 @@ impl ChainEquations<'_> {
                 factors: at.factors,
             });
         }
+        let stiffness = at.factors.stiffness;
+        add_slots(&mut chain.additions, &chain.active, &chain.closed_slots, stiffness);
         chain.set_spins(model.moment_scale);
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
@@ -158,6 +163,13 @@ impl ChainEquations<'_> {
                 factors: at.factors,
             });
         }
+        let stiffness = at.factors.stiffness;
+        add_slots(
+            &mut chain.single_additions,
+            &chain.active,
+            &chain.closed_slots,
+            stiffness,
+        );
         chain.set_spins(model.moment_scale);
         let (sweep, of_joints) = (&mut chain.single_sweep, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];

@@ -35,6 +35,7 @@ mod residual;
 mod shortening;
 mod single;
 mod slaving;
+mod slots;
 mod solve;
 mod start;
 mod tangent;
@@ -50,6 +51,7 @@ use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::joint::Joint;
 use crate::elements::mud_wall::Motion;
 use crate::elements::shortening::Stretch;
+use crate::elements::slots::{Closed, Slots};
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
@@ -107,6 +109,8 @@ pub(crate) struct ChainModel {
     kinds: Vec<LinkMatrices>,
     /// The spans, top to bottom.
     links: Vec<Link>,
+    /// The guide's slots in each span; none where they never close.
+    slots: Vec<Slots>,
     /// Rotational rows per joint that are constraints; with play none.
     joint_rows: usize,
     numbering: Numbering,
@@ -158,7 +162,9 @@ pub(crate) struct Chain {
     geometric_forces: Vec<Aligned<EndForces>>,
     /// How each span of the pipe is stretched; none where spans do not shorten.
     stretches: Vec<Stretch>,
-    /// Those of contacts, and whether there are any.
+    /// What the guide's slots do in each span where they are closed; none where they never close.
+    closed_slots: Vec<Option<Closed>>,
+    /// Those of contacts and closed slots, and whether there are any.
     contact_forces: Vec<Aligned<EndForces>>,
     has_contacts: Vec<bool>,
     /// How the stations of each span move in both annuli of mud; empty where mud near walls does not count.
@@ -191,6 +197,8 @@ impl Chain {
         let (kinds, mut links) = links::links(model, &points, spans);
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
         let spans = links.len();
+        // Each span is one element then.
+        let slots: Vec<Slots> = model.slots().map(|(_, slots, _)| *slots).collect();
         let mut driven: Vec<usize> = places.driven.into_iter().collect();
         driven.extend(places.driven.map(|spin| spin + FIRST_ROW));
         let held = numbering.held(model, places.driven);
@@ -244,6 +252,7 @@ impl Chain {
             linear: vec![Aligned([[0.0; 16]; 2]); spans],
             geometric_forces: vec![Aligned([[0.0; 16]; 2]); spans],
             stretches: vec![Stretch::default(); if model.shortens() { spans } else { 0 }],
+            closed_slots: vec![None; slots.len()],
             contact_forces: vec![Aligned([[0.0; 16]; 2]); spans],
             has_contacts: vec![false; spans],
             mud: vec![
@@ -273,6 +282,7 @@ impl Chain {
                 nodes: points,
                 kinds,
                 links,
+                slots,
                 joint_rows,
                 numbering,
                 places,

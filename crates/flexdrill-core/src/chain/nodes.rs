@@ -1,5 +1,6 @@
 //! Where the chain has its nodes: at every station that something is attached to, and between them where a span would
-//! otherwise have too many elements, vibrate too slowly or be too compliant.
+//! otherwise have too many elements, vibrate too slowly or be too compliant. Where slots of the guide close: at every
+//! station.
 
 use super::slaving::LinkMatrices;
 use super::{LEAST_FREQUENCY, MOST_COMPLIANCE, MOST_STATIONS, NODE};
@@ -40,6 +41,10 @@ impl Nodes {
         let last = model.last();
         let mut attached = vec![false; last + 1];
         (attached[0], attached[last]) = (true, true);
+        if model.has_slots() {
+            // What inner stations do would depend on which slots are closed.
+            attached.fill(true);
+        }
         for &station in &model.joint_stations {
             attached[station] = true;
         }

@@ -1,5 +1,5 @@
-//! The laws of the tool's parts, one per file: beam, joint, gap, rigid body on a node, the guide's preload, the pressure in
-//! the pipe, the mud around it, rock, string above.
+//! The laws of the tool's parts, one per file: beam, joint, gap, rigid body on a node, the guide's preload and slots, the
+//! pressure in the pipe, the mud around it, rock, string above.
 
 pub mod beam;
 pub mod element_form;
@@ -13,4 +13,5 @@ pub mod pressure;
 pub mod rock;
 pub mod shortening;
 pub mod slip;
+pub mod slots;
 pub mod string;

@@ -33,6 +33,24 @@ const PSI: [usize; 2] = [3, 9];
 const PHI_Y: [usize; 2] = [4, 10];
 const PHI_Z: [usize; 2] = [5, 11];
 
+/// Curvature (1/m) of the path between two node frames that are turned by `turn` (rad) against each other, whose chord has
+/// the length `length` (m): that at which the chord's beam is bent by rotations psi alone as by phi_z, 1/R in an arc.
+pub(crate) fn path_curvature(length: f64, turn: f64) -> f64 {
+    2.0 * libm::sin(0.5 * turn) / length
+}
+
+/// Curvature of a tube against its shape as made (1/m), in the plane of the path and across it, at small tilts: in a path
+/// of curvature `path` (1/m), turned by `spin` (rad) and bent by `bent`, the changes of phi_y and phi_z (rad) over
+/// `length` (m).
+pub(super) fn change_of_curvature(path: f64, free: FreeCurvature, length: f64, spin: f64, bent: [f64; 2]) -> [f64; 2] {
+    let bent = [path + bent[0] / length, bent[1] / length];
+    if free.curvature == 0.0 {
+        return bent;
+    }
+    let (sin, cos) = libm::sincos(spin + free.phase);
+    [bent[0] - free.curvature * cos, bent[1] - free.curvature * sin]
+}
+
 /// The preload of one guide element, in the frames of its nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Preload {
@@ -51,9 +69,7 @@ impl Preload {
     /// Of an element of bending stiffness `bending` (N m2) and length `length` (m, the chord's) between two node frames
     /// that are turned by `turn` (rad) against each other, positive where the path builds.
     pub fn of(free: FreeCurvature, bending: f64, length: f64, turn: f64) -> Self {
-        let (sin, cos) = (libm::sin(0.5 * turn), libm::cos(0.5 * turn));
-        // The curvature at which the chord's beam is bent by rotations psi alone as by phi_z: 1/R in an arc.
-        let path = 2.0 * sin / length;
+        let (path, cos) = (path_curvature(length, turn), libm::cos(0.5 * turn));
         let along = free.curvature * libm::cos(free.phase);
         let across = free.curvature * libm::sin(free.phase);
         let (excess, turned) = (bending * (path - along), path * length);
@@ -95,13 +111,11 @@ impl Preload {
         }
     }
 
-    /// Bending moment (N m, >= 0) in the element: EI |k - kf|, with the curvature k of the axis and that of the tube as
+    /// Bending moment (N m, >= 0) in the element, closed [slots](super::slots) left out: EI |k - kf|, with the curvature k of the axis and that of the tube as
     /// made, which turns with the guide. `spin` (rad) is the mean of both nodes; `bent` the changes of phi_y and phi_z (rad)
     /// from the upper to the lower node.
     pub fn moment(&self, spin: f64, bent: [f64; 2]) -> f64 {
-        let (sin, cos) = libm::sincos(spin + self.free.phase);
-        let in_plane = self.path + bent[0] / self.length - self.free.curvature * cos;
-        let across = bent[1] / self.length - self.free.curvature * sin;
+        let [in_plane, across] = change_of_curvature(self.path, self.free, self.length, spin, bent);
         self.bending * libm::hypot(in_plane, across)
     }
 

@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::station::{Bore, Station};
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
-use crate::elements::preload::Preload;
-use crate::tool::{SectionProperties, ToolDescription, frame_along};
+use crate::elements::preload::{Preload, path_curvature};
+use crate::elements::slots::Slots;
+use crate::tool::{FreeCurvature, SectionProperties, ToolDescription, frame_along};
 
 /// A pipe element, in its link's frame.
 #[derive(Debug, Clone)]
@@ -35,6 +36,8 @@ pub struct GuideElement {
     pub geometric: ElementMatrix,
     /// Of a guide that is not without stress in the path.
     pub preload: Option<Preload>,
+    /// Of a guide whose slots close as it bends.
+    pub slots: Option<Slots>,
 }
 
 impl PipeElement {
@@ -68,6 +71,7 @@ impl GuideElement {
             gamma.fixed_view_mut::<3, 3>(6 * n, 6 * n).copy_from(r);
             gamma.fixed_view_mut::<3, 3>(6 * n + 3, 6 * n + 3).copy_from(r);
         }
+        let turn = below.inclination - above.inclination;
         let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
         Self {
             rotation,
@@ -75,9 +79,23 @@ impl GuideElement {
             stiffness: turned(beam.stiffness()),
             mass: turned(beam.mass()),
             geometric: turned(beam.geometric()),
-            preload: d.guide_free_curvature.map(|free| {
-                let turn = below.inclination - above.inclination;
-                Preload::of(free, beam.section.bending, beam.length, turn)
+            preload: d
+                .guide_free_curvature
+                .map(|free| Preload::of(free, beam.section.bending, beam.length, turn)),
+            slots: d.guide_slots_close_at.map(|close_at| {
+                let path = path_curvature(beam.length, turn);
+                let whole = SectionProperties::of(d.guide_section, d.material, 1.0);
+                Slots {
+                    stiffening: whole.bending - beam.section.bending,
+                    close_at,
+                    length: beam.length,
+                    path,
+                    // A tube without stress in the path was made with its curvature.
+                    free: d.guide_free_curvature.unwrap_or(FreeCurvature {
+                        curvature: path,
+                        phase: 0.0,
+                    }),
+                }
             }),
             beam,
         }

@@ -18,6 +18,7 @@ use crate::elements::joint::Joint;
 use crate::elements::mud::{Lateral, Mud, MudLump};
 use crate::elements::preload::Preload;
 use crate::elements::pressure::PipePressure;
+use crate::elements::slots::Slots;
 use crate::linear::Layout;
 use crate::tool::{Direction, Shortening, ToolDescription, WobPath};
 use crate::validation::ValidationError;
@@ -217,6 +218,17 @@ impl Model {
     pub fn preloads(&self) -> impl Iterator<Item = (&Preload, [usize; 2])> {
         let ends = self.stations.windows(2).zip(&self.guide);
         ends.filter_map(|(ends, element)| Some((element.preload.as_ref()?, [ends[0].guide, ends[1].guide])))
+    }
+
+    /// The guide's elements whose slots close: their number, their slots, and the first unknowns of their nodes.
+    pub fn slots(&self) -> impl Iterator<Item = (usize, &Slots, [usize; 2])> {
+        let ends = self.stations.windows(2).zip(&self.guide).enumerate();
+        ends.filter_map(|(e, (ends, element))| Some((e, element.slots.as_ref()?, [ends[0].guide, ends[1].guide])))
+    }
+
+    /// Whether the guide's slots close.
+    pub fn has_slots(&self) -> bool {
+        self.description.guide_slots_close_at.is_some()
     }
 
     /// Adds to `forces` (by unknown) those that matrices over the lateral motion of each station, `matrix` of its mud, make

@@ -50,6 +50,7 @@ impl ToolDescription {
             },
             guide_bending_factor: 1.0,
             guide_free_curvature: None,
+            guide_slots_close_at: None,
             guide_fixed: false,
             hole_diameter: 0.118,
             joint: JointDescription::new(JointKind::Universal, deg_to_rad(6.0)),

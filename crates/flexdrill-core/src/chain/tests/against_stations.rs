@@ -1,7 +1,7 @@
 //! Residual, tangent and solution against those over all stations, multipliers among the unknowns.
 
 use super::*;
-use crate::dynamics::stations::add_shortening_tangent;
+use crate::dynamics::stations::{add_shortening_tangent, add_slots_tangent};
 
 /// Over the fewest nodes there can be, and over those that steps of this size need.
 fn check(tool: &ToolDescription, h: f64, seed: u64) {
@@ -103,6 +103,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         if model.shortens() {
             add_shortening_tangent(&mut system, &model, &full, &conditions, factors);
         }
+        add_slots_tangent(&mut system, &model, &full, factors);
         whole.linearise(&at_stations, &model, &full, &conditions, factors);
         whole.increment.add_to(&mut system);
         let mut matrix = DMatrix::zeros(model.unknowns(), model.unknowns());
@@ -303,6 +304,16 @@ fn preloaded_guides() {
         check(&tool, 5e-4, 19);
         tool.guide_bending_factor = 0.05;
         check(&with_soft_contacts(tool), 5e-4, 20);
+    }
+}
+
+/// Guides with open and closed slots, straight, bent, and as the path.
+#[test]
+fn slots_that_close() {
+    for (elements, seed) in [(1, 3), (4, 11)] {
+        for tool in with_slots(&small(5, elements)) {
+            check(&tool, 5e-4, seed);
+        }
     }
 }
 

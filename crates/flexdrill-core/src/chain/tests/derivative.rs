@@ -94,6 +94,9 @@ fn the_tangent_is_the_derivative_of_the_residual() {
         check_derivative(&with_friction(small(6, 3), inner, outer));
     }
     check_derivative(&with_shortening(small(6, 3)));
+    for tool in with_slots(&small(6, 3)) {
+        check_derivative(&tool);
+    }
     check_derivative(&with_mud(small(6, 3)));
     check_derivative(&with_mud_near_walls(small(6, 3)));
     let mut tool = small(6, 3);

@@ -54,6 +54,24 @@ fn with_shortening(mut tool: ToolDescription) -> ToolDescription {
     tool
 }
 
+/// Soft guides of three shapes as made, whose slots are closed in part of a lively state.
+fn with_slots(tool: &ToolDescription) -> [ToolDescription; 3] {
+    let free = |curvature: f64, phase: f64| Some(FreeCurvature { curvature, phase });
+    [None, free(0.0, 0.0), free(0.2, 0.7)].map(|free| {
+        let mut tool = tool.clone();
+        (tool.guide_bending_factor, tool.guide_free_curvature) = (0.05, free);
+        tool.guide_slots_close_at = Some(0.3);
+        if free.is_some() {
+            tool.supports.push(Support {
+                location: Location::Top,
+                body: Body::Guide,
+                directions: vec![Direction::Psi],
+            });
+        }
+        tool
+    })
+}
+
 /// Play; the contact is soft, as the spins of a lively state are far apart.
 fn with_play(mut tool: ToolDescription) -> ToolDescription {
     tool.joint.play.half_angle = 0.05;

@@ -19,7 +19,7 @@ use crate::dynamics::numbered::Numbered;
 #[cfg(test)]
 use crate::dynamics::state::joint_rotations;
 use crate::dynamics::state::{Deflection, State, element_values, motion};
-use crate::dynamics::stations::{Assembler, add_mud_forces, inner_forces, mud_motions, outer_force};
+use crate::dynamics::stations::{Assembler, add_mud_forces, inner_forces, mud_motions, outer_force, slots_energy};
 use crate::elements::string::StringLine;
 use crate::model::Model;
 
@@ -224,6 +224,9 @@ impl EnergyPoint {
         });
         for (preload, nodes) in model.preloads() {
             stored += preload.energy(&element_values(&state.q, nodes));
+        }
+        if model.has_slots() {
+            stored += slots_energy(model, state);
         }
         if model.shortens() {
             stored += self.add_shortening(model, state, conditions);

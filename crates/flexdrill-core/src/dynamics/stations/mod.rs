@@ -8,6 +8,7 @@ mod equations;
 mod joints;
 mod residual;
 mod shortening;
+mod slots;
 mod tangent;
 
 pub(crate) use assembler::Assembler;
@@ -15,3 +16,6 @@ pub(crate) use contacts::{add_mud_forces, inner_forces, mud_motions, outer_force
 pub(crate) use equations::{StationEquations, StationRoom};
 #[cfg(test)]
 pub(crate) use shortening::add_shortening_tangent;
+#[cfg(test)]
+pub(crate) use slots::add_slots_tangent;
+pub(crate) use slots::slots_energy;

@@ -24,6 +24,7 @@ impl Assembler {
         if model.shortens() {
             self.shortening_forces(model, state, conditions);
         }
+        self.slots_moments(model, state);
         let numbered = Numbered::of(model);
         numbered.add_mass_forces(&mut self.residual, state, conditions, |_| true);
         self.contact_forces(interactions, model, state, conditions);

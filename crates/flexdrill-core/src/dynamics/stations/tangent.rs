@@ -3,6 +3,7 @@
 
 use super::assembler::Assembler;
 use super::shortening::add_shortening_tangent;
+use super::slots::add_slots_tangent;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
@@ -28,6 +29,7 @@ impl Assembler {
         if model.shortens() {
             add_shortening_tangent(&mut self.system, model, state, conditions, factors);
         }
+        add_slots_tangent(&mut self.system, model, state, factors);
         self.linearise(interactions, model, state, conditions, factors);
         self.increment.add_to(&mut self.system);
         for &unknown in model.held.iter().chain(&model.driven).chain(&model.padding) {
@@ -198,7 +200,7 @@ pub(super) fn add_pipe_element(system: &mut BlockSystem, model: &Model, e: usize
     add_columns(&mut system.lower[e].pipe.data.0, 0, &part(m, 6, 0), factor);
 }
 
-fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix, factor: f64) {
+pub(super) fn add_guide_element(system: &mut BlockSystem, e: usize, m: &ElementMatrix, factor: f64) {
     let m = &m.data.0;
     system.add_scaled(e, 6, &part(m, 0, 0), factor);
     system.add_scaled(e + 1, 6, &part(m, 6, 6), factor);

@@ -255,6 +255,23 @@ fn a_preloaded_guide() {
     check(&tool);
 }
 
+/// Some of the slots are closed, some open.
+#[test]
+fn slots_that_close() {
+    for free in [
+        None,
+        Some(FreeCurvature {
+            curvature: 0.2,
+            phase: 0.7,
+        }),
+    ] {
+        let mut tool = small();
+        (tool.guide_bending_factor, tool.guide_free_curvature) = (0.05, free);
+        tool.guide_slots_close_at = Some(0.15);
+        check(&tool);
+    }
+}
+
 #[test]
 fn mud_around_the_pipes() {
     let mut tool = small();

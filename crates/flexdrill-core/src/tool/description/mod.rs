@@ -39,6 +39,9 @@ pub struct ToolDescription {
     pub guide_bending_factor: f64,
     /// Curvature of the guide as made; `None` where it is without stress in the path.
     pub guide_free_curvature: Option<FreeCurvature>,
+    /// Curvature against its shape as made at which the slots of the guide close (1/m): beyond it the guide bends with the
+    /// stiffness of the whole tube. `None` where they never do.
+    pub guide_slots_close_at: Option<f64>,
     /// Every guide node held in all six directions (the verification cases' fixed outer beam).
     pub guide_fixed: bool,
     /// Diameter of the bore (m), Eq. 31.

@@ -141,11 +141,12 @@ fn transfer_sample(stepper: &Stepper, [inner, outer]: &[Rubbing; 2]) -> Transfer
 
 /// Bending moment of each element of a preloaded guide (N m).
 fn guide_moments<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = f64> + 'a {
-    model.preloads().map(|(preload, [above, below])| {
+    let slots = model.guide.iter().map(|element| element.slots.as_ref());
+    model.preloads().zip(slots).map(|((preload, [above, below]), slots)| {
         let of = |node: usize, direction: Direction| state.q[node + direction as usize];
         let spin = 0.5 * (of(above, Direction::Psi) + of(below, Direction::Psi));
         let bent = [Direction::PhiY, Direction::PhiZ].map(|about| of(below, about) - of(above, about));
-        preload.moment(spin, bent)
+        preload.moment(spin, bent) + slots.map_or(0.0, |slots| slots.moment(spin, bent))
     })
 }
 
