@@ -149,8 +149,8 @@ pub struct Schema {
     /// Rigid bodies added to nodes. Default none.
     #[serde(default)]
     pub masses: Vec<Mass>,
-    /// Beginning of a run: `static` from rest under gravity and the initial weight on bit, or `as_given` with
-    /// `initial`. Default static.
+    /// Beginning of a run: `static` from rest under gravity and the initial weight on bit, `slid_in` the same with the
+    /// friction of the wall against an advance that has just ended, or `as_given` with `initial`. Default static.
     #[serde(default)]
     pub start: Start,
     /// Motion at the beginning; only with `start: as_given`.
@@ -347,7 +347,8 @@ impl Config {
             tool.initial_pipe_velocity = self.initial.velocity;
             tool.initial_pipe_displacement = self.initial.displacement;
             tool.initial_spin_rate = rpm_to_rad_per_s(self.initial.spin_rpm);
-            tool.static_start = self.start == Start::Static;
+            tool.static_start = self.start != Start::AsGiven;
+            tool.slid_in = self.start == Start::SlidIn;
         })
     }
 

@@ -12,6 +12,9 @@ pub enum Start {
     /// At rest under gravity and the initial weight on bit, so that the tool does not drop when the run begins.
     #[default]
     Static,
+    /// The same after the guide has been slid in: the friction of the wall is at its limit against an advance that has
+    /// just ended, and holds weight back. Needs `contact.outer.friction: bristle`.
+    SlidIn,
     /// On the bore's centre line with the motion given in `initial`.
     AsGiven,
 }

@@ -6,8 +6,9 @@ use super::checker::Checker;
 use super::inputs::Measured;
 use super::place::Mesh;
 use super::rock::Law;
+use super::start::Start;
 use super::string::Model;
-use flexdrill_core::tool::WeightPlace;
+use flexdrill_core::tool::{FrictionLaw, WeightPlace};
 
 impl Schema {
     /// Whether the hoist lowers the tool: the rock then holds the bit.
@@ -21,6 +22,27 @@ impl Schema {
             elements_per_link: self.tool.elements_per_link,
             length: self.well.length(),
         }
+    }
+
+    /// What a guide that has been slid in needs to keep its friction.
+    fn check_slid_in(&self, c: &mut Checker) {
+        let slid_in = self.start == Start::SlidIn;
+        c.require(
+            !slid_in || self.contact.outer.friction == FrictionLaw::Bristle,
+            "start",
+            "slid_in",
+            "",
+            "static, or contact.outer.friction: bristle",
+            "only bristles hold friction at rest",
+        );
+        c.require(
+            !slid_in || !self.tool.guide.fixed,
+            "start",
+            "slid_in",
+            "",
+            "static while tool.guide.fixed is true",
+            "a guide that is held at every node has not slid",
+        );
     }
 
     /// String, rock and the keys that exclude each other.
@@ -150,6 +172,7 @@ impl Schema {
             }
         });
         c.below("initial", |c| self.initial.check(c, self.start));
+        self.check_slid_in(c);
         c.below("solver", |c| self.solver.check(c));
         c.below("inputs", |c| self.inputs.check(c));
         c.below("network", |c| self.network.check(c));

@@ -422,6 +422,7 @@ fn impossible_pressures_preloads_and_mud_name_both_keys() {
             "environment.mud.film = squeeze",
             "environment.mud.viscosity above 0",
         ),
+        ("start: slid_in\n", "start = slid_in", "contact.outer.friction: bristle"),
     ] {
         let error = error_of(&(GOOD.to_owned() + more));
         assert!(error.contains(key) && error.contains(reason), "{error}");
@@ -447,7 +448,6 @@ fn impossible_pressures_preloads_and_mud_name_both_keys() {
             "tool.guide.free_curvature = -0.1 1/m",
             "0 to 2 1/m",
         ),
-    ] {
         (
             "slots_close_at: 0.2",
             "tool.guide.slots_close_at = 0.2 1/m",
@@ -463,6 +463,7 @@ fn impossible_pressures_preloads_and_mud_name_both_keys() {
             "tool.guide.slots_close_at = 0 1/m",
             "above 0, at most 10 1/m",
         ),
+    ] {
         let with = format!("inner_diameter: 0.080, {guide}}}");
         let error = error_of(&replaced("inner_diameter: 0.080}", &with));
         assert!(error.contains(key) && error.contains(reason), "{error}");

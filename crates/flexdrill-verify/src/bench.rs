@@ -26,6 +26,10 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/capstan_chain.yaml"),
     ),
     (
+        "capstan_slid_in",
+        include_str!("../../../config/verify/capstan_slid_in.yaml"),
+    ),
+    (
         "capstan_weight",
         include_str!("../../../config/verify/capstan_weight.yaml"),
     ),
@@ -41,12 +45,12 @@ const FILES: &[(&str, &str)] = &[
     ),
     ("hanging_link", include_str!("../../../config/verify/hanging_link.yaml")),
     (
-        "hinged_beam_in_tube",
-        include_str!("../../../config/verify/hinged_beam_in_tube.yaml"),
-    ),
-    (
         "helical_buckling",
         include_str!("../../../config/verify/helical_buckling.yaml"),
+    ),
+    (
+        "hinged_beam_in_tube",
+        include_str!("../../../config/verify/hinged_beam_in_tube.yaml"),
     ),
     ("hooke_chain", include_str!("../../../config/verify/hooke_chain.yaml")),
     ("hooke_pair", include_str!("../../../config/verify/hooke_pair.yaml")),
@@ -102,15 +106,15 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/sinusoidal_buckling.yaml"),
     ),
     ("sliding_mass", include_str!("../../../config/verify/sliding_mass.yaml")),
-    ("stuck_guide", include_str!("../../../config/verify/stuck_guide.yaml")),
-    ("tied_rods", include_str!("../../../config/verify/tied_rods.yaml")),
-    ("tilted_link", include_str!("../../../config/verify/tilted_link.yaml")),
-    ("toggle", include_str!("../../../config/verify/toggle.yaml")),
     (
         "slots_couples",
         include_str!("../../../config/verify/slots_couples.yaml"),
     ),
     ("slots_wall", include_str!("../../../config/verify/slots_wall.yaml")),
+    ("stuck_guide", include_str!("../../../config/verify/stuck_guide.yaml")),
+    ("tied_rods", include_str!("../../../config/verify/tied_rods.yaml")),
+    ("tilted_link", include_str!("../../../config/verify/tilted_link.yaml")),
+    ("toggle", include_str!("../../../config/verify/toggle.yaml")),
     (
         "string_windup",
         include_str!("../../../config/verify/string_windup.yaml"),

@@ -447,6 +447,13 @@ pub const CASES: &[Case] = &[
         run: sliding::capstan_chain,
     },
     Case {
+        name: "capstan_slid_in",
+        shows: "friction that holds at rest what slid in",
+        reason: "As capstan: friction at the surface of the guide makes 5e-4 of the angle. Bristles keep the forces of \
+                 the start to what its rest leaves.",
+        run: sliding::slid_in,
+    },
+    Case {
         name: "stuck_guide",
         shows: "how far a push reaches along a guide that sticks",
         reason: "The bristles' own slip is 0.9 nm of 47 um; the reach ends where the movement has fallen to \

@@ -44,6 +44,24 @@ pub(super) fn capstan() -> Result<Vec<Row>, VerifyError> {
     )])
 }
 
+pub(super) fn slid_in() -> Result<Vec<Row>, VerifyError> {
+    let case = "capstan_slid_in";
+    let mut bench = Bench::new(case)?;
+    let missing = |what| VerifyError::Missing { case, what };
+    let duration = bench.config.run.duration.ok_or(missing("the end of the run"))?;
+    let weight = bench.config.simulation().initial_inputs.weight_on_bit;
+    let expected = (bench.config.tool().outer.friction_axial * FRAC_PI_2).exp();
+    let mut rows = Vec::new();
+    for (time, quantity) in [(0.0, "at the start"), (duration, "after some steps at rest")] {
+        bench.run_to(time)?;
+        let at_top = bench.simulation.weight_at_kickoff();
+        let got = at_top.ok_or(missing("the support of the guide at the kick-off"))? / weight;
+        let quantity = format!("force at the kick-off over weight {quantity}");
+        rows.push(Row::relative(case, quantity, expected, got, 1e-3));
+    }
+    Ok(rows)
+}
+
 /// Weight (N/m in mud) of pipe and guide, friction coefficient, radius (m) and weight on bit (N) of a case.
 pub(super) struct Heavy {
     pipe: f64,

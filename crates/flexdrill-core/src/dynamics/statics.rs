@@ -43,6 +43,8 @@ const STEPS: [f64; 2] = [1e-3, 5.0];
 /// At rest when nothing moves faster (m/s, rad/s) over steps of the largest size: ten times what Newton's tolerance
 /// lets through there.
 const REST: f64 = 1e-6;
+/// Friction that no contact holds (N): what the wall resists with is at its limit then.
+const BEYOND_ANY_LIMIT: f64 = 1e12;
 /// Steps before giving up.
 const MOST_STEPS: u32 = 2000;
 
@@ -97,7 +99,7 @@ impl Stepper {
 
     /// Brings the tool to rest under gravity and `inputs` by damped steps of growing size. Friction and bit torque of the
     /// regularised laws vanish at rest, so it is left out on the way. The tool does not advance at rest: the rate of
-    /// penetration does not enter.
+    /// penetration does not enter. The friction of the wall on a guide that has been slid in is at its limit all the way.
     ///
     /// # Errors
     /// When steps fail at the smallest size or the tool keeps moving.
@@ -107,7 +109,15 @@ impl Stepper {
             ..*inputs
         };
         let mut state = self.as_given(inputs, 0.0)?;
-        let conditions = settling(self.held(self.conditions(0.0, inputs)));
+        let slid_in = self.model().description.slid_in;
+        if slid_in {
+            // Along the guide, against the advance.
+            state
+                .bristles
+                .iter_mut()
+                .for_each(|[_, wall]| *wall = [0.0, -BEYOND_ANY_LIMIT]);
+        }
+        let conditions = settling(self.held(self.conditions(0.0, inputs)), slid_in);
         let most_iterations = self.tolerances().max_iterations;
         let mut equations = self.over_stations();
         let mut trial = state.clone();
@@ -155,6 +165,9 @@ impl Stepper {
                 limit: REST,
             });
         }
+        if slid_in {
+            equations.interactions.keep_bristles(&mut state);
+        }
         let mut rest = state;
         rest.v.fill(0.0);
         rest.a.fill(0.0);
@@ -171,8 +184,10 @@ impl Stepper {
     }
 }
 
-fn settling(mut conditions: Conditions) -> Conditions {
-    for layer in [&mut conditions.inner, &mut conditions.outer] {
+/// Conditions while settling: without friction, but for that of the wall on a guide that has been slid in.
+fn settling(mut conditions: Conditions, slid_in: bool) -> Conditions {
+    let wall = (!slid_in).then_some(&mut conditions.outer);
+    for layer in [Some(&mut conditions.inner), wall].into_iter().flatten() {
         layer.surface.friction_tangential = 0.0;
         layer.surface.friction_axial = 0.0;
     }

@@ -75,6 +75,7 @@ impl ToolDescription {
             initial_pipe_displacement: [0.0; 3],
             initial_spin_rate: 0.0,
             static_start: true,
+            slid_in: false,
         }
     }
 

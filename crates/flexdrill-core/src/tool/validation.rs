@@ -1,9 +1,9 @@
 //! What a description must satisfy before a model can be built from it.
 
 use super::description::{
-    BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, LiveParameters, LoadHistory,
-    Location, Material, PressureEnd, PressureSource, ToolDescription, Tube, WeightPlace, WellDescription, WellSection,
-    WobPath,
+    BitDescription, Body, Direction, FrictionLaw, GapDescription, JointDescription, JointKind, LiveParameters,
+    LoadHistory, Location, Material, PressureEnd, PressureSource, ToolDescription, Tube, WeightPlace, WellDescription,
+    WellSection, WobPath,
 };
 use super::well::WellPath;
 use crate::validation::{Bound, ValidationError, count, length, require};
@@ -256,6 +256,16 @@ impl ToolDescription {
             Bound::Finite.check(&format!("initial_pipe_displacement[{k}]"), displacement, "m")?;
         }
         Bound::Finite.check("initial_spin_rate", self.initial_spin_rate, "rad/s")?;
+        require(
+            !self.slid_in || self.static_start,
+            "slid_in",
+            "a guide that has been slid in is at rest; set static_start to true or slid_in to false",
+        )?;
+        require(
+            !self.slid_in || (self.outer.friction_law == FrictionLaw::Bristle && !self.guide_fixed),
+            "slid_in",
+            "only a guide that may slide, with outer.friction_law Bristle, holds friction at rest; set slid_in to false",
+        )?;
         let moves = self.initial_pipe_velocity != [0.0; 3]
             || self.initial_pipe_displacement != [0.0; 3]
             || self.initial_spin_rate != 0.0;

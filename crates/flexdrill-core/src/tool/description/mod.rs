@@ -90,6 +90,9 @@ pub struct ToolDescription {
     pub initial_spin_rate: f64,
     /// Whether the run starts from rest under gravity and the initial weight on bit.
     pub static_start: bool,
+    /// With a start from rest: the guide has been slid into the hole, so that the friction of the wall is at its limit
+    /// against an advance that has just ended. Needs [`FrictionLaw::Bristle`] at the wall, which holds it.
+    pub slid_in: bool,
 }
 
 /// The bore's centre line: sections one after another in the vertical X-Z plane.
