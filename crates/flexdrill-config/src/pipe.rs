@@ -350,6 +350,11 @@ impl Guide {
         }
     }
 
+    /// Whether the slots close at some curvature.
+    pub fn closes_slots(&self) -> bool {
+        self.slots_close_at().is_some()
+    }
+
     /// The free bend, if it is not that of the path.
     pub(super) fn free_curvature(&self) -> Option<FreeCurvature> {
         match self.free_curvature {

@@ -46,8 +46,7 @@ pub const VALIDATIONS: &[Validation] = &[
     },
     Validation {
         name: "val_helical_buckling",
-        shows: "axial load at which a helix on the wall of a level hole has the energy of the straight pipe, by runs in \
-                which the pipe lies at rest as one and as the other, and the helix's force on the wall",
+        shows: "axial load at which a helix on the wall of a level hole has the energy of the straight pipe",
         source: "Chen, Lin and Cheatham, J. Energy Resour. Technol. 112 (3), 1990: 2 sqrt(2) sqrt(EI w sin(i) / r); the \
                  helix's force on the wall per length is r F^2 / 4EI. Dawson and Paslay, J. Pet. Tech. 36 (10), 1984, \
                  have the sinusoidal load.",
