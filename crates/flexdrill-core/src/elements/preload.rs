@@ -111,9 +111,9 @@ impl Preload {
         }
     }
 
-    /// Bending moment (N m, >= 0) in the element, closed [slots](super::slots) left out: EI |k - kf|, with the curvature k of the axis and that of the tube as
-    /// made, which turns with the guide. `spin` (rad) is the mean of both nodes; `bent` the changes of phi_y and phi_z (rad)
-    /// from the upper to the lower node.
+    /// Bending moment (N m, >= 0) in the element: EI |k - kf|, with the curvature k of the axis and that of the tube as
+    /// made, which turns with the guide. Closed [slots](super::slots) add theirs. `spin` (rad) is the mean of both nodes;
+    /// `bent` the changes of phi_y and phi_z (rad) from the upper to the lower node.
     pub fn moment(&self, spin: f64, bent: [f64; 2]) -> f64 {
         let [in_plane, across] = change_of_curvature(self.path, self.free, self.length, spin, bent);
         self.bending * libm::hypot(in_plane, across)
