@@ -2,7 +2,8 @@
 //! Dawson, J. Pet. Tech. 36 (6), 1984), here for the guide on the wall and the pipe in the guide.
 //!
 //! With the compression N of the guide, the curvature kappa and the inclination i of the hole, the weights per length
-//! w_g and w_p of guide and pipe in mud and the axial friction coefficient mu_x, down the hole:
+//! w_g and w_p of guide and pipe in mud and the axial friction coefficient mu_x of the wall in the interval of the hole,
+//! down the hole:
 //!
 //! ```text
 //! dN/ds = w_g cos i - mu_x f |N kappa + (w_g + w_p) sin i|,      f = v / sqrt(v^2 + u^2).
@@ -50,8 +51,9 @@ impl SoftString {
         for piece in 0..PIECES {
             let (inclination, curvature) = (path.inclination(middle(piece)), path.curvature(middle(piece)));
             let (sin, cos) = libm::sincos(inclination);
+            let friction = tool.outer.friction_axial * tool.wall_friction_factors.of(path.interval(middle(piece)));
             let contact = (weight * curvature + (guide + pipe) * sin).abs();
-            weight = (weight + (guide * cos - tool.outer.friction_axial * contact) * length).max(0.0);
+            weight = (weight + (guide * cos - friction * contact) * length).max(0.0);
             let inner = (pipe * sin - tension * curvature).abs();
             friction_torque += tool.inner.friction_tangential * radius(tool) * inner * length;
             tension -= along(piece);
@@ -100,5 +102,54 @@ fn bit_torque(tool: &ToolDescription, weight: f64, speed: f64) -> f64 {
         }
         // The paper's Eq. 1.
         _ => by_weight,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use flexdrill_core::tool::{WallFrictionFactors, WellDescription, WellSection};
+
+    use super::*;
+
+    #[test]
+    fn the_wall_rubs_in_each_interval_with_its_factor() {
+        let paper = ToolDescription::paper();
+        let well = WellDescription {
+            start_inclination: 0.0,
+            sections: vec![
+                WellSection::Arc {
+                    radius: 3.2,
+                    angle: FRAC_PI_2,
+                },
+                WellSection::Straight { length: 10.0 },
+            ],
+        };
+        let pipe = paper.pipe_sections[0];
+        let tool = ToolDescription::new(well, paper.hole_diameter, 100, pipe, paper.guide_section).with(|tool| {
+            tool.wall_friction_factors = WallFrictionFactors {
+                arc: 0.5,
+                after_arc: 2.0,
+                ..WallFrictionFactors::ONE
+            };
+        });
+        let load = Load {
+            speed: 4.0,
+            weight: 20e3,
+            advance: 1e-3,
+            longest: 60.0,
+        };
+        let of = |tool: &ToolDescription| SoftString::of(tool, &load, true).weight_at_bit;
+        let mu = tool.outer.friction_axial;
+        // Without weight the level part takes nothing. The 1340 pieces of the arc leave out (mu pi / 2)^2 / 2 / 1340.
+        let weightless = tool.clone().with(|tool| tool.gravity = 0.0);
+        let expected = 20e3 * (-0.5 * mu * FRAC_PI_2).exp();
+        assert!((of(&weightless) / expected - 1.0).abs() < 3e-5);
+        // The level part takes its factor times mu w L: without friction there, that much more arrives.
+        let free = tool.clone().with(|tool| tool.wall_friction_factors.after_arc = 0.0);
+        let taken = 2.0 * mu * weights(&tool).iter().sum::<f64>() * 10.0;
+        // The pieces at the boundary are 4 mm long.
+        assert!(((of(&free) - of(&tool)) / taken - 1.0).abs() < 1e-3);
     }
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::checker::{Bound, Checker};
 use super::json_schema;
 use super::section::section;
-use flexdrill_core::tool::{FrictionLaw, GapDescription};
+use flexdrill_core::tool::{FrictionLaw, GapDescription, HoleInterval, WallFrictionFactors as Factors};
 
 /// Sliding speeds of the regularisation (m/s).
 const SLIP_SPEED: Bound = Bound::within(1e-6, 1.0);
@@ -22,10 +22,51 @@ section! {
         /// Contact of the guide with the wall, steel on rock.
         #[serde(deserialize_with = "outer_layer")]
         outer: Layer = Layer::OUTER, below;
+        /// Factors on the friction of the guide on the wall (`contact.outer.friction_tangential` and `friction_axial`), by
+        /// the interval of the hole in which a station lies. A station carries the contact of half an element on either
+        /// side of it: where a boundary lies within, its factor is the mean of both intervals by length.
+        wall_friction_factors: WallFrictionFactors = WallFrictionFactors::default(), below;
         /// Sliding speed at which the regularised friction reaches 71 % of the Coulomb friction (m/s). A smaller value
         /// is closer to Coulomb's law and needs more iterations.
         slip_speed: f64 = 0.01, within(1e-6, 1.0), "m/s",
             "0 would make friction jump at standstill; above 1 m/s it hardly holds anything";
+    }
+}
+
+section! {
+    /// Factors on the friction of the guide on the wall by interval of the hole.
+    #[derive(Copy)]
+    pub struct WallFrictionFactors(this) {
+        /// In straight sections before the first arc, and in all of a hole without arcs. Default 1.
+        before_arc: f64 = 1.0, within(0.0, 100.0), "", "0 is without friction; no wall rubs a hundred times as much";
+        /// In the arcs. Default 1.
+        arc: f64 = 1.0, within(0.0, 100.0), "", "0 is without friction; no wall rubs a hundred times as much";
+        /// In straight sections after the first arc. Default 1.
+        after_arc: f64 = 1.0, within(0.0, 100.0), "", "0 is without friction; no wall rubs a hundred times as much";
+    }
+}
+
+impl WallFrictionFactors {
+    /// The same friction all along the hole.
+    pub(super) fn are_one(&self) -> bool {
+        *self == Self::default()
+    }
+
+    pub(super) const fn describe(&self) -> Factors {
+        Factors {
+            before_arc: self.before_arc,
+            arc: self.arc,
+            after_arc: self.after_arc,
+        }
+    }
+
+    /// The name of the key of an interval below `contact.wall_friction_factors`.
+    pub const fn key(interval: HoleInterval) -> &'static str {
+        match interval {
+            HoleInterval::BeforeArc => "before_arc",
+            HoleInterval::Arc => "arc",
+            HoleInterval::AfterArc => "after_arc",
+        }
     }
 }
 

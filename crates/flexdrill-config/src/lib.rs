@@ -63,7 +63,7 @@ pub use alarms::{Advice, AdviceTable, Alarms, NodeAlarm, ToolAlarm};
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
 pub use calibration::{Calibration, Range};
 pub use checker::NumberKey;
-pub use contact::{Contact, Layer};
+pub use contact::{Contact, Layer, WallFrictionFactors};
 pub use derived::Unknowns;
 pub use environment::Environment;
 pub use error::{ConfigError, Problem};
@@ -330,6 +330,7 @@ impl Config {
             tool.shortening = self.tool.shortening;
             tool.rayleigh = self.tool.damping.describe();
             [tool.inner, tool.outer] = self.layers();
+            tool.wall_friction_factors = self.contact.wall_friction_factors.describe();
             tool.slip_speed = self.contact.slip_speed;
             tool.bit = self.tool.bit.describe();
             tool.gravity = self.environment.effective_gravity();

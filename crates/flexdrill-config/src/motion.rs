@@ -58,7 +58,12 @@ impl Config {
         let mut motion = of(&tree, SECTIONS);
         let alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
         motion.insert("alarms".to_owned(), Value::Object(alarms));
-        // A factor of 1 changes nothing, and a file without one has the hash that it had before the key existed.
+        // Factors of 1 change nothing, and a file without them has the hash that it had before the keys existed.
+        if self.contact.wall_friction_factors.are_one()
+            && let Some(contact) = motion.get_mut("contact").and_then(Value::as_object_mut)
+        {
+            contact.remove("wall_friction_factors");
+        }
         let factor = self.calibration.friction_factor;
         if factor != 1.0 {
             motion.insert("friction_factor".to_owned(), Value::from(factor));
@@ -124,6 +129,7 @@ mod tests {
             ("well.hole_diameter", Value::from(0.12)),
             ("contact.inner.friction_tangential", Value::from(0.31)),
             ("calibration.friction_factor", Value::from(1.1)),
+            ("contact.wall_friction_factors.arc", Value::from(1.1)),
             ("alarms.shock.on_delay", Value::from(3.0)),
             ("stick_slip.gate_speed_rpm", Value::from(12.0)),
         ] {

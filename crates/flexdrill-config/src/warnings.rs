@@ -1,8 +1,8 @@
 //! Warnings about values that are allowed but probably unintended.
 
 use super::solver::{Solver, StepTaken};
-use super::{Config, HardBounds};
-use flexdrill_core::tool::{AddedMass, Location};
+use super::{Config, HardBounds, WallFrictionFactors};
+use flexdrill_core::tool::{AddedMass, HoleInterval, Location};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// Smallest duration of a collision of pipe and guide, in steps. The default tool's lasts 1.5 steps and is accurate; at
@@ -28,6 +28,7 @@ impl Config {
         self.warn_of_play(&mut warnings);
         self.warn_of_yield(&mut warnings);
         self.warn_of_mud(&mut warnings);
+        self.warn_of_idle_factors(&mut warnings);
         let off_mesh = self.tool.pipe.pieces_off_mesh(self.tool.elements_per_link);
         if !off_mesh.is_empty() {
             warnings.push(format!(
@@ -80,6 +81,23 @@ impl Config {
             warnings.push(
                 "masses at all stations and environment.mud.added_mass both add mass along the tool: leave out masses that stand for mud".to_owned(),
             );
+        }
+    }
+
+    fn warn_of_idle_factors(&self, warnings: &mut Vec<String>) {
+        let (well, factors) = (self.well.describe(), self.contact.wall_friction_factors.describe());
+        for interval in HoleInterval::ALL {
+            let (factor, key) = (factors.of(interval), WallFrictionFactors::key(interval));
+            if factor != 1.0 && !well.has(interval) {
+                let missing = match interval {
+                    HoleInterval::BeforeArc => "no straight section before its first arc",
+                    HoleInterval::Arc => "no arc",
+                    HoleInterval::AfterArc => "no straight section after an arc",
+                };
+                warnings.push(format!(
+                    "contact.wall_friction_factors.{key} {factor} acts nowhere: well.sections has {missing}"
+                ));
+            }
         }
     }
 
@@ -212,6 +230,25 @@ mod tests {
         }
         let finer = stiff.with_value("solver.time_step", 3.8e-4).unwrap();
         assert!(short_contacts(&finer).is_empty());
+    }
+
+    #[test]
+    fn a_factor_of_an_interval_that_the_hole_does_not_have_is_warned_of() {
+        let idle = |key: &str, factor: f64| {
+            let key = format!("contact.wall_friction_factors.{key}");
+            let mut warnings = Vec::new();
+            let config = default_tool().with_value(&key, factor).unwrap();
+            config.warn_of_idle_factors(&mut warnings);
+            warnings
+        };
+        assert!(idle("arc", 2.0).is_empty() && idle("after_arc", 1.0).is_empty());
+        assert_eq!(
+            idle("after_arc", 1.5),
+            [
+                "contact.wall_friction_factors.after_arc 1.5 acts nowhere: well.sections has no straight section after an arc"
+            ]
+        );
+        assert_eq!(idle("before_arc", 0.5).len(), 1);
     }
 
     #[test]

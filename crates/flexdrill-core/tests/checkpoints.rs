@@ -52,6 +52,7 @@ fn another_tool_or_other_settings_are_refused() {
     };
     with_tool("stiffness", |tool| tool.inner.stiffness = 2e7);
     with_tool("friction", |tool| tool.outer.friction_axial = 0.31);
+    with_tool("friction of an interval", |tool| tool.wall_friction_factors.arc = 1.1);
     with_tool("a single bit", |tool| {
         tool.gravity = f64::from_bits(tool.gravity.to_bits() + 1);
     });

@@ -353,7 +353,7 @@ fn strings_hoists_and_rocks_that_do_not_go_together_are_refused() {
 #[test]
 fn errors_name_field_value_bound_and_unit() {
     type Change = fn(&mut ToolDescription);
-    let cases: [(Change, &str); 14] = [
+    let cases: [(Change, &str); 15] = [
         (|t| t.links = 0, "links = 0: must be 1 to 20000"),
         (
             |t| t.links = 19_999,
@@ -382,6 +382,10 @@ fn errors_name_field_value_bound_and_unit() {
         (
             |t| t.inner.friction_axial = -0.2,
             "inner.friction_axial = -0.2: must be finite and at least 0",
+        ),
+        (
+            |t| t.wall_friction_factors.after_arc = -1.0,
+            "wall_friction_factors.after_arc = -1: must be finite and at least 0",
         ),
         (
             |t| t.joint.limit = f64::NAN,

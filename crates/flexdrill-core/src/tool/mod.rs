@@ -12,10 +12,11 @@ pub use crate::elements::string::{
     Feed, Hoist, Piece, SpeedController, StringDescription, TopDrive, WallFriction, Wave,
 };
 pub use description::{
-    AddedMass, BitDescription, Body, Direction, FreeCurvature, FrictionLaw, GapDescription, HingeAngle,
+    AddedMass, BitDescription, Body, Direction, FreeCurvature, FrictionLaw, GapDescription, HingeAngle, HoleInterval,
     JointDescription, JointKind, JointPlay, LiveParameters, LoadHistory, Location, Material, MudDamping,
     MudDescription, MudFilm, PinFriction, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource,
-    Rayleigh, Shortening, Support, ToolDescription, Tube, WeightPlace, WellDescription, WellSection, WobPath,
+    Rayleigh, Shortening, Support, ToolDescription, Tube, WallFrictionFactors, WeightPlace, WellDescription,
+    WellSection, WobPath,
 };
 pub use section::SectionProperties;
 pub use well::{WellPath, frame_along, tangent};

@@ -7,7 +7,8 @@
 
 use super::{
     BitDescription, Body, Direction, GapDescription, JointDescription, JointKind, Location, Material, Rayleigh,
-    RockLaw, Shortening, Support, ToolDescription, Tube, WeightPlace, WellDescription, WellSection, WobPath,
+    RockLaw, Shortening, Support, ToolDescription, Tube, WallFrictionFactors, WeightPlace, WellDescription,
+    WellSection, WobPath,
 };
 use crate::units::deg_to_rad;
 
@@ -58,6 +59,7 @@ impl ToolDescription {
             rayleigh: Rayleigh { alpha: 2.0, beta: 1e-4 },
             inner: GapDescription::new(1e7, 0.2),
             outer: GapDescription::new(2e7, 0.3),
+            wall_friction_factors: WallFrictionFactors::ONE,
             slip_speed: 0.01,
             bit: BitDescription::new(0.118, 0.235),
             rock: RockLaw::Paper,

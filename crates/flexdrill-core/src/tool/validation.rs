@@ -2,8 +2,8 @@
 
 use super::description::{
     BitDescription, Body, Direction, FrictionLaw, GapDescription, JointDescription, JointKind, LiveParameters,
-    LoadHistory, Location, Material, PressureEnd, PressureSource, ToolDescription, Tube, WeightPlace, WellDescription,
-    WellSection, WobPath,
+    LoadHistory, Location, Material, PressureEnd, PressureSource, ToolDescription, Tube, WallFrictionFactors,
+    WeightPlace, WellDescription, WellSection, WobPath,
 };
 use super::well::WellPath;
 use crate::validation::{Bound, ValidationError, count, length, require};
@@ -29,6 +29,7 @@ impl ToolDescription {
         Bound::NotNegative.check("rayleigh.beta", self.rayleigh.beta, "s")?;
         self.inner.validate("inner")?;
         self.outer.validate("outer")?;
+        self.wall_friction_factors.validate()?;
         Bound::Positive.check("slip_speed", self.slip_speed, "m/s")?;
         self.bit.validate()?;
         Bound::NotNegative.check("gravity", self.gravity, "m/s2")?;
@@ -302,6 +303,17 @@ impl WellDescription {
             }
         }
         Ok(())
+    }
+}
+
+impl WallFrictionFactors {
+    fn validate(&self) -> Checked {
+        let factors = [
+            ("before_arc", self.before_arc),
+            ("arc", self.arc),
+            ("after_arc", self.after_arc),
+        ];
+        Bound::NotNegative.check_all("wall_friction_factors", &factors, "")
     }
 }
 

@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::tool::{WellDescription, WellSection};
+use crate::tool::{HoleInterval, WellDescription, WellSection};
 
 /// A well path with its points and frames at any measured depth.
 #[derive(Debug, Clone)]
@@ -19,6 +19,7 @@ struct Piece {
     /// Change of inclination per metre (1/m), 0 where straight.
     curvature: f64,
     origin: Vector3<f64>,
+    interval: HoleInterval,
 }
 
 impl WellPath {
@@ -28,7 +29,7 @@ impl WellPath {
         let mut start = 0.0;
         let mut inclination = description.start_inclination;
         let mut origin = Vector3::zeros();
-        for section in &description.sections {
+        for (section, interval) in description.sections.iter().zip(description.intervals()) {
             let (length, curvature) = match *section {
                 WellSection::Straight { length } => (length, 0.0),
                 WellSection::Arc { radius, angle } => (radius * angle, 1.0 / radius),
@@ -38,6 +39,7 @@ impl WellPath {
                 inclination,
                 curvature,
                 origin,
+                interval,
             };
             origin = piece.position(length);
             inclination += curvature * length;
@@ -69,6 +71,22 @@ impl WellPath {
         piece.position(along)
     }
 
+    /// Interval of the hole at measured depth `depth`; at a boundary the one below.
+    pub fn interval(&self, depth: f64) -> HoleInterval {
+        self.piece(depth).0.interval
+    }
+
+    /// Mean over the length from measured depth `top` to `bottom` (m) of a quantity of the intervals. Where all have the
+    /// same, the mean is that to the bit.
+    pub fn mean(&self, [top, bottom]: [f64; 2], of: impl Fn(HoleInterval) -> f64) -> f64 {
+        let first = of(self.interval(top));
+        let ends = self.pieces.iter().skip(1).map(|next| next.start).chain([self.length]);
+        self.pieces.iter().zip(ends).fold(first, |mean, (piece, end)| {
+            let within = (bottom.min(end) - top.max(piece.start)).max(0.0);
+            mean + within / (bottom - top) * (of(piece.interval) - first)
+        })
+    }
+
     fn piece(&self, depth: f64) -> (&Piece, f64) {
         let index = self.pieces.iter().rposition(|piece| piece.start <= depth).unwrap_or(0);
         let piece = &self.pieces[index];
@@ -77,6 +95,24 @@ impl WellPath {
 }
 
 impl WellDescription {
+    /// Interval of each section.
+    pub fn intervals(&self) -> impl Iterator<Item = HoleInterval> {
+        let mut before_arc = true;
+        self.sections.iter().map(move |section| match section {
+            WellSection::Arc { .. } => {
+                before_arc = false;
+                HoleInterval::Arc
+            }
+            WellSection::Straight { .. } if before_arc => HoleInterval::BeforeArc,
+            WellSection::Straight { .. } => HoleInterval::AfterArc,
+        })
+    }
+
+    /// Whether the hole has such an interval.
+    pub fn has(&self, interval: HoleInterval) -> bool {
+        self.intervals().any(|of_section| of_section == interval)
+    }
+
     /// Sum of the angles by which the hole turns (rad): what friction is multiplied by along it.
     pub fn turn(&self) -> f64 {
         let turn = |section: &WellSection| match *section {
@@ -135,6 +171,61 @@ mod tests {
         // Straight 2 m down, then 3.2 m over and down, then 1 m level; rounding only.
         assert!((end - Vector3::new(4.2, 0.0, 5.2)).norm() < 1e-14);
         assert!((path.inclination(path.length()) - FRAC_PI_2).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_straight_section_belongs_to_the_interval_before_or_after_the_arcs() {
+        use HoleInterval::{AfterArc, Arc, BeforeArc};
+        let (straight, arc) = (WellSection::Straight { length: 2.0 }, |radius| WellSection::Arc {
+            radius,
+            angle: 0.5,
+        });
+        let well = |sections| WellDescription {
+            start_inclination: 0.0,
+            sections,
+        };
+        let whole = well(vec![straight, arc(4.0), straight, arc(8.0), straight]);
+        let intervals: Vec<_> = whole.intervals().collect();
+        assert_eq!(intervals, [BeforeArc, Arc, AfterArc, Arc, AfterArc]);
+        let level = well(vec![straight, straight]);
+        assert!(level.has(BeforeArc) && !level.has(Arc) && !level.has(AfterArc));
+        let path = WellPath::new(&whole);
+        assert_eq!(
+            [0.0, 1.9, 2.0, 3.9, 4.1, 6.1, 12.0].map(|depth| path.interval(depth)),
+            [BeforeArc, BeforeArc, Arc, Arc, AfterArc, Arc, AfterArc]
+        );
+    }
+
+    #[test]
+    fn a_mean_over_a_boundary_is_by_length() {
+        let path = WellPath::new(&WellDescription {
+            start_inclination: 0.0,
+            sections: vec![
+                WellSection::Straight { length: 2.0 },
+                WellSection::Arc {
+                    radius: 2.0,
+                    angle: 0.5,
+                },
+                WellSection::Straight { length: 2.0 },
+            ],
+        });
+        let of = |interval| match interval {
+            HoleInterval::BeforeArc => 0.3,
+            HoleInterval::Arc => 2.0,
+            HoleInterval::AfterArc => 1.0,
+        };
+        for (range, mean) in [
+            ([0.0, 2.0], 0.3),
+            ([1.0, 2.0], 0.3),
+            ([1.75, 2.25], 1.15),
+            ([2.0, 2.5], 2.0),
+            ([1.5, 3.5], (0.5 * 0.3 + 2.0 + 0.5) / 2.0),
+            ([3.0, 5.0], 1.0),
+        ] {
+            // Sums of three terms of size one round to 1e-15.
+            assert!((path.mean(range, of) - mean).abs() < 1e-15, "{range:?}");
+        }
+        assert_eq!(path.mean([1.0 / 3.0, 4.9], |_| 0.7), 0.7);
     }
 
     #[test]

@@ -207,7 +207,7 @@ impl Simulation {
         };
         reaction.map_or(set, |reaction| {
             let [_, friction] = self.stepper.live().outer_friction;
-            let gain = libm::exp(friction * description.well.turn());
+            let gain = libm::exp(friction * description.wall_friction_factors.arc * description.well.turn());
             let [least, most] = Inputs::bounds(InputKind::WeightOnBit);
             let change = dt / (WEIGHT_TIME * gain) * (set - reaction);
             (self.applied.weight_on_bit + change).clamp(least, most)

@@ -174,6 +174,7 @@ fn default_tools() {
 fn friction_laws() {
     for [inner, outer] in FRICTION {
         check(&with_friction(small(6, 3), inner, outer), 5e-4, 7);
+        check(&with_intervals(with_friction(small(6, 3), inner, outer)), 5e-4, 7);
     }
 }
 

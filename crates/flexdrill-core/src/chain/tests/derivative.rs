@@ -92,6 +92,7 @@ fn the_tangent_is_the_derivative_of_the_residual() {
     check_derivative(&with_play(with_pin_friction(small(6, 3))));
     for [inner, outer] in FRICTION {
         check_derivative(&with_friction(small(6, 3), inner, outer));
+        check_derivative(&with_intervals(with_friction(small(6, 3), inner, outer)));
     }
     check_derivative(&with_shortening(small(6, 3)));
     for tool in with_slots(&small(6, 3)) {

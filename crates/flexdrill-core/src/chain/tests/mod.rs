@@ -27,7 +27,7 @@ use crate::tool::description::LiveParameters;
 use crate::tool::{
     AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
     MudDescription, MudFilm, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, Shortening,
-    Support, ToolDescription, WobPath,
+    Support, ToolDescription, WallFrictionFactors, WellSection, WobPath,
 };
 
 fn random(seed: &mut u64) -> f64 {
@@ -112,6 +112,24 @@ fn with_soft_contacts(mut tool: ToolDescription) -> ToolDescription {
 fn with_friction(mut tool: ToolDescription, inner: FrictionLaw, outer: FrictionLaw) -> ToolDescription {
     (tool.inner.friction_law, tool.outer.friction_law) = (inner, outer);
     (tool.inner.friction_axial, tool.outer.friction_axial) = (0.1, 0.5);
+    tool
+}
+
+/// A hole with straight parts before and after its arc, and another friction of the wall in each.
+fn with_intervals(mut tool: ToolDescription) -> ToolDescription {
+    tool.well.sections = vec![
+        WellSection::Straight { length: 1.1 },
+        WellSection::Arc {
+            radius: 3.2,
+            angle: 1.0,
+        },
+        WellSection::Straight { length: 0.8 },
+    ];
+    tool.wall_friction_factors = WallFrictionFactors {
+        before_arc: 0.5,
+        arc: 1.4,
+        after_arc: 2.5,
+    };
     tool
 }
 

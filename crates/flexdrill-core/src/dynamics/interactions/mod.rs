@@ -41,7 +41,13 @@ impl Interactions {
         let has_bristles = !bristles(model).is_empty();
         Self {
             inner: LayerContacts::new(model.stations.len()),
-            outer: LayerContacts::new(model.stations.len()),
+            outer: LayerContacts::with_friction_factors(
+                model
+                    .stations
+                    .iter()
+                    .map(|station| station.wall_friction_factor)
+                    .collect(),
+            ),
             joints: Joints::new(model, instructions),
             bit: BitLoad::new(&model.description.rock),
             mud: vec![[Motion::default(); 2]; model.mud.as_ref().map_or(0, |mud| mud.near_wall.len())],

@@ -182,6 +182,8 @@ fn friction_laws() {
         (tool.inner.friction_law, tool.outer.friction_law) = (inner, outer);
         (tool.inner.friction_axial, tool.outer.friction_axial) = (0.1, 0.5);
         check(&tool);
+        tool.wall_friction_factors.arc = 1.7;
+        check(&tool);
     }
 }
 

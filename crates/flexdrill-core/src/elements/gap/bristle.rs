@@ -159,13 +159,14 @@ impl Bristles {
         self.held.iter_mut().zip(held).for_each(|(to, from)| *to = from);
     }
 
-    /// Sets the friction of `touches`, the contacts at `stations` lane by lane, which have moved by `travel` since the
-    /// start of the step (m; rotations times radius).
+    /// Sets the friction of `touches`, the contacts at `stations` lane by lane with their `factors` on the coefficients.
+    /// They have moved by `travel` since the start of the step (m; rotations times radius).
     #[inline(always)]
     pub(super) fn rub(
         &self,
         law: &GapLaw,
         stations: impl Iterator<Item = usize>,
+        factors: &Lane,
         touches: &mut Touch<Lane>,
         travel: &[Lane; 8],
     ) {
@@ -182,7 +183,7 @@ impl Bristles {
                 held[1] - stiffness * sliding.along,
             ];
             let friction = if self.step > 0.0 {
-                Friction::next_to(trial, law.friction(), touch.normal)
+                Friction::next_to(trial, law.friction(factors[lane]), touch.normal)
             } else {
                 Friction {
                     force: held,

@@ -25,12 +25,15 @@ pub struct LayerContacts {
     slots: Vec<usize>,
     /// Whether only some stations are being evaluated again, so that contacts keep their slots.
     partial: bool,
+    /// Factor on the coefficients of friction at each station.
+    friction_factors: Vec<f64>,
     /// Slots of the contacts that wait to be evaluated.
     waiting: [usize; 8],
     count: usize,
     /// Their lateral displacements, and the velocity of each in its first six lanes; the other two lanes are unused.
     lateral: [Lane; 2],
     clearance: Lane,
+    factor: Lane,
     velocities: [Lane; 8],
     /// The motion of each since the start of the step, in the same lanes; for bristles only.
     travels: [Lane; 8],
@@ -48,9 +51,16 @@ struct Found {
 }
 
 impl LayerContacts {
-    /// A layer of `stations` stations, all gaps open.
+    /// A layer of `stations` stations with the same friction, all gaps open.
     pub(crate) fn new(stations: usize) -> Self {
+        Self::with_friction_factors(vec![1.0; stations])
+    }
+
+    /// A layer with a factor on the coefficients of friction at each of its stations, all gaps open.
+    pub(crate) fn with_friction_factors(friction_factors: Vec<f64>) -> Self {
+        let stations = friction_factors.len();
         Self {
+            friction_factors,
             found: Vec::with_capacity(stations),
             touches: vec![Touch::default(); stations.div_ceil(8)],
             scattered: Touch::default(),
@@ -61,6 +71,7 @@ impl LayerContacts {
             // Unused lanes are evaluated too: any distance other than zero avoids a division by zero.
             lateral: [Aligned([1.0; 8]); 2],
             clearance: Lane::default(),
+            factor: Aligned([1.0; 8]),
             velocities: [Lane::default(); 8],
             travels: [Lane::default(); 8],
             memory: LayerMemory::new(stations),
@@ -141,6 +152,7 @@ impl LayerContacts {
             lanes[lane] = x;
         }
         self.clearance[lane] = clearance;
+        self.factor[lane] = self.friction_factors[station];
         velocity.store(&mut self.velocities[lane]);
         self.waiting[lane] = slot;
         self.count += 1;
@@ -171,6 +183,7 @@ impl LayerContacts {
         let lateral = [Eight::load(&self.lateral[0]), Eight::load(&self.lateral[1])];
         let mut touch = law.press(lateral, Eight::load(&self.clearance), &velocity);
         let sliding = Sliding::of(&touch, &velocity);
+        let factor = Eight::load(&self.factor);
         let waiting = &self.waiting[..self.count];
         let stations = waiting.iter().map(|&slot| self.found[slot].station);
         // All gaps are evaluated in order: the eight slots are one group. Where only some are evaluated again, their
@@ -182,19 +195,19 @@ impl LayerContacts {
         };
         match law.surface.friction_law {
             FrictionLaw::Separate => {
-                separate::rub(law, &mut touch, sliding);
+                separate::rub(law, &mut touch, sliding, factor);
                 touch.store(lanes);
-                self.memory.follow(law, stations, lanes);
+                self.memory.follow(law, stations, &self.factor, lanes);
             }
             FrictionLaw::Vector => {
-                vector::rub(law, &mut touch, sliding);
+                vector::rub(law, &mut touch, sliding, factor);
                 touch.store(lanes);
                 touch.coupling.store(&mut lanes.coupling);
-                self.vector_memory.follow(law, stations, lanes);
+                self.vector_memory.follow(law, stations, &self.factor, lanes);
             }
             FrictionLaw::Bristle => {
                 touch.store(lanes);
-                self.bristles.rub(law, stations, lanes, &self.travels);
+                self.bristles.rub(law, stations, &self.factor, lanes, &self.travels);
             }
         }
         if self.partial {

@@ -39,15 +39,21 @@ impl LayerMemory {
         self.step += 1;
     }
 
-    /// Sets the slopes of the friction of `touches`, the contacts at `stations` lane by lane. A contact that opens and
-    /// closes again within a step keeps its memory.
+    /// Sets the slopes of the friction of `touches`, the contacts at `stations` lane by lane with their `factors` on the
+    /// coefficients. A contact that opens and closes again within a step keeps its memory.
     #[inline(always)]
-    pub(super) fn follow(&mut self, law: &GapLaw, stations: impl Iterator<Item = usize>, touches: &mut Touch<Lane>) {
-        let full = law.friction();
+    pub(super) fn follow(
+        &mut self,
+        law: &GapLaw,
+        stations: impl Iterator<Item = usize>,
+        factors: &Lane,
+        touches: &mut Touch<Lane>,
+    ) {
         for (lane, station) in stations.enumerate() {
             let contact = &mut self.contacts[station];
             let known = contact.step == self.step;
             contact.step = self.step;
+            let full = law.friction(factors[lane]);
             for ((memory, slips), full) in contact.slip.iter_mut().zip(&mut touches.slip).zip(full) {
                 let mut slip = slips.lane(lane);
                 if known {

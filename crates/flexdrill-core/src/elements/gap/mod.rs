@@ -311,10 +311,10 @@ pub fn gap(lateral: Vector2<f64>, clearance: f64) -> f64 {
 }
 
 impl GapLaw {
-    /// Coefficients of friction around and along.
+    /// Coefficients of friction around and along, at stations with this factor on both.
     #[inline(always)]
-    fn friction(&self) -> [f64; 2] {
-        [self.surface.friction_tangential, self.surface.friction_axial]
+    fn friction<N: Number>(&self, factor: N) -> [N; 2] {
+        [self.surface.friction_tangential, self.surface.friction_axial].map(|mu| N::of(mu) * factor)
     }
 
     /// The contact of a closed gap at lateral displacement `lateral` (y, z; offsets included) and local velocity

@@ -7,10 +7,10 @@ use super::{GapLaw, Sliding, Touch};
 use crate::elements::slip::Slip;
 use crate::simd::number::Number;
 
-/// Adds the friction of contacts that slide at the speeds of `sliding` (m/s).
+/// Adds the friction of contacts that slide at the speeds of `sliding` (m/s), with their `factor` on the coefficients.
 #[inline(always)]
-pub(super) fn rub<N: Number>(law: &GapLaw, touch: &mut Touch<N>, sliding: Sliding<N>) {
-    let [full_around, full_along] = law.friction().map(N::of);
+pub(super) fn rub<N: Number>(law: &GapLaw, touch: &mut Touch<N>, sliding: Sliding<N>, factor: N) {
+    let [full_around, full_along] = law.friction(factor);
     let slip = [
         Slip::at(sliding.around, full_around, law.slip_speed),
         Slip::at(sliding.along, full_along, law.slip_speed),

@@ -18,8 +18,8 @@ fn touch(law: &GapLaw, lateral: [f64; 2], clearance: f64, velocity: &[f64; 6]) -
     let mut touch = law.press(lateral, clearance, velocity);
     let sliding = Sliding::of(&touch, velocity);
     match law.surface.friction_law {
-        FrictionLaw::Separate => separate::rub(law, &mut touch, sliding),
-        FrictionLaw::Vector => vector::rub(law, &mut touch, sliding),
+        FrictionLaw::Separate => separate::rub(law, &mut touch, sliding, 1.0),
+        FrictionLaw::Vector => vector::rub(law, &mut touch, sliding, 1.0),
         FrictionLaw::Bristle => unreachable!("bristles are tested over layers"),
     }
     touch
@@ -178,7 +178,7 @@ fn friction_takes_power_and_stays_below_coulombs() {
         let lateral = [9e-3 * angle.cos(), 9e-3 * angle.sin()];
         let velocity = std::array::from_fn(|_| next() * next() * next());
         let touch = touch(&law, lateral, 8.5e-3, &velocity);
-        let [mu_around, mu_along] = law.friction();
+        let [mu_around, mu_along] = law.friction(1.0);
         let part = |force: f64, mu: f64| if mu > 0.0 { force / mu } else { force };
         let size = part(touch.tangential, mu_around).hypot(part(touch.axial, mu_along));
         assert!(
@@ -204,6 +204,62 @@ fn analytic_friction_along_a_turning_pipe() {
         let touch = touch(&law, [9e-3, 0.0], 8.5e-3, &velocity);
         let got = -touch.axial / (0.2 * touch.normal);
         crate::support::scaled_figure(&format!("at {:.2} mm/s (-)", 1e3 * along), share, got, 1.0, 6e-6);
+    }
+}
+
+/// A layer with a factor at a station has the friction of one whose coefficients are larger by it: force, tangent and the
+/// memory of a slide that turns within a step, to the bit. Its other stations keep their friction.
+#[test]
+fn a_factor_acts_as_larger_coefficients() {
+    use crate::simd::vector::{Portable, Vector};
+    let lanes = |x: [f64; 6]| {
+        let mut lanes = [0.0; 8];
+        lanes[..6].copy_from_slice(&x);
+        Portable::load(&lanes)
+    };
+    for friction_law in [FrictionLaw::Separate, FrictionLaw::Vector, FrictionLaw::Bristle] {
+        let mut own = law();
+        own.surface.friction_law = friction_law;
+        let mut larger = own;
+        larger.surface.friction_tangential *= 1.7;
+        larger.surface.friction_axial *= 1.7;
+        // Nine stations fill one group of lanes and begin another; every third has the factor.
+        let factors: Vec<f64> = (0..9).map(|s| if s % 3 == 1 { 1.7 } else { 1.0 }).collect();
+        let mut layers = [
+            LayerContacts::with_friction_factors(factors),
+            LayerContacts::new(9),
+            LayerContacts::new(9),
+        ];
+        let held = || (0..9).map(|s| [20.0 * f64::from(s), -15.0]);
+        layers.iter_mut().for_each(|layer| layer.begin(held(), 5e-4));
+        for around in [0.1, -0.1, 0.003] {
+            for (layer, law) in layers.iter_mut().zip([&own, &own, &larger]) {
+                layer.clear();
+                for s in 0..9 {
+                    let lateral = [-6.1e-3, 6.2e-3 + 1e-5 * s as f64];
+                    let motion = [0.004, 0.05, -0.12, around, -0.02, 0.03];
+                    if law.has_bristles() {
+                        layer.set_travel(lanes(motion.map(|x| 1e-3 * x)));
+                    }
+                    layer.push::<Portable>(law, s, lateral, 8.5e-3, lanes(motion));
+                }
+                layer.finish::<Portable>(law);
+            }
+            for s in 0..9 {
+                let seen = |layer: &LayerContacts| format!("{:?}", layer.get(s).unwrap());
+                let expected = if s % 3 == 1 { &layers[2] } else { &layers[1] };
+                assert_eq!(
+                    seen(&layers[0]),
+                    seen(expected),
+                    "{friction_law:?}, station {s}, {around}"
+                );
+            }
+            assert_ne!(
+                layers[1].get(1).unwrap().force(),
+                layers[2].get(1).unwrap().force(),
+                "{friction_law:?}"
+            );
+        }
     }
 }
 

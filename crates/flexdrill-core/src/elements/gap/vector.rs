@@ -20,21 +20,22 @@ use crate::simd::number::{Lane, Number};
 /// Keeps S above zero without friction (m/s): T and A are then 0 over this.
 const LEAST: f64 = 1e-150;
 
-/// The regularisation mu v_s (m/s).
-fn width(law: &GapLaw) -> f64 {
-    let [around, along] = law.friction();
-    (around.max(along) * law.slip_speed).max(LEAST)
+/// The regularisation mu v_s (m/s) of coefficients `mu` around and along.
+#[inline(always)]
+fn width<N: Number>(law: &GapLaw, [around, along]: [N; 2]) -> N {
+    (around.largest(along) * N::of(law.slip_speed)).largest(N::of(LEAST))
 }
 
-/// Adds the friction of contacts that slide at the speeds of `sliding` (m/s).
+/// Adds the friction of contacts that slide at the speeds of `sliding` (m/s), with their `factor` on the coefficients.
 #[inline(always)]
-pub(super) fn rub<N: Number>(law: &GapLaw, touch: &mut Touch<N>, sliding: Sliding<N>) {
-    let [mu_around, mu_along] = law.friction().map(N::of);
+pub(super) fn rub<N: Number>(law: &GapLaw, touch: &mut Touch<N>, sliding: Sliding<N>, factor: N) {
+    let mu = law.friction(factor);
+    let [mu_around, mu_along] = mu;
     let one = N::of(1.0);
     // The speeds on the unit circle's scale, and their shares of it.
     let scaled = [mu_around * sliding.around, mu_along * sliding.along];
-    let width = width(law);
-    let square = N::of(width * width).plus_product(scaled[0], scaled[0]);
+    let width = width(law, mu);
+    let square = (width * width).plus_product(scaled[0], scaled[0]);
     let over = one.over(square.plus_product(scaled[1], scaled[1]).root());
     let share = scaled.map(|x| x * over);
     let (around, along) = (mu_around * share[0], mu_along * share[1]);
@@ -94,11 +95,19 @@ impl VectorMemory {
         self.step += 1;
     }
 
-    /// Sets the slopes of the friction of `touches`, the contacts at `stations` lane by lane.
+    /// Sets the slopes of the friction of `touches`, the contacts at `stations` lane by lane with their `factors` on the
+    /// coefficients.
     #[inline(always)]
-    pub(super) fn follow(&mut self, law: &GapLaw, stations: impl Iterator<Item = usize>, touches: &mut Touch<Lane>) {
-        let (mu, width) = (law.friction(), width(law));
+    pub(super) fn follow(
+        &mut self,
+        law: &GapLaw,
+        stations: impl Iterator<Item = usize>,
+        factors: &Lane,
+        touches: &mut Touch<Lane>,
+    ) {
         for (lane, station) in stations.enumerate() {
+            let mu = law.friction(factors[lane]);
+            let width = width(law, mu);
             let slips = touches.slip.map(|slip| slip.lane(lane));
             let contact = &mut self.contacts[station];
             let scaled = [0, 1].map(|k| mu[k] * slips[k].speed);

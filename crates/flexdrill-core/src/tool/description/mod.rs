@@ -56,6 +56,8 @@ pub struct ToolDescription {
     pub inner: GapDescription,
     /// Gap layer between guide and wall.
     pub outer: GapDescription,
+    /// Factors on the friction of the layer between guide and wall.
+    pub wall_friction_factors: WallFrictionFactors,
     /// Speed at which the regularised friction reaches 71 % of Coulomb's (m/s).
     pub slip_speed: f64,
     /// The bit and its rock, Eq. 1.
@@ -102,6 +104,59 @@ pub struct WellDescription {
     pub start_inclination: f64,
     /// Sections from the top down. Their lengths add up to the tool's length.
     pub sections: Vec<WellSection>,
+}
+
+/// A part of the hole with friction of its own: the formation, the casing and the cuttings differ from one to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum HoleInterval {
+    /// Straight sections before the first arc; all of a hole without arcs.
+    BeforeArc,
+    /// Arcs.
+    Arc,
+    /// Straight sections after the first arc, those between two arcs too.
+    AfterArc,
+}
+
+impl HoleInterval {
+    /// From the top down.
+    pub const ALL: [Self; 3] = [Self::BeforeArc, Self::Arc, Self::AfterArc];
+}
+
+/// Factors on both friction coefficients of the layer between guide and wall, by the interval of the hole in which a
+/// station lies.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WallFrictionFactors {
+    /// In [`HoleInterval::BeforeArc`].
+    pub before_arc: f64,
+    /// In [`HoleInterval::Arc`].
+    pub arc: f64,
+    /// In [`HoleInterval::AfterArc`].
+    pub after_arc: f64,
+}
+
+impl WallFrictionFactors {
+    /// The same friction all along the hole.
+    pub const ONE: Self = Self {
+        before_arc: 1.0,
+        arc: 1.0,
+        after_arc: 1.0,
+    };
+
+    /// That of an interval.
+    #[must_use]
+    pub const fn of(&self, interval: HoleInterval) -> f64 {
+        match interval {
+            HoleInterval::BeforeArc => self.before_arc,
+            HoleInterval::Arc => self.arc,
+            HoleInterval::AfterArc => self.after_arc,
+        }
+    }
+}
+
+impl Default for WallFrictionFactors {
+    fn default() -> Self {
+        Self::ONE
+    }
 }
 
 /// One section of the well path.
@@ -407,7 +462,7 @@ pub struct PointMass {
 pub struct LiveParameters {
     /// Inner layer, mu_1 and mu_2.
     pub inner_friction: [f64; 2],
-    /// Outer layer, mu_1 and mu_2.
+    /// Outer layer, mu_1 and mu_2, where [`ToolDescription::wall_friction_factors`] are 1.
     pub outer_friction: [f64; 2],
     /// eta of Eq. 1.
     pub bit_friction_factor: f64,
