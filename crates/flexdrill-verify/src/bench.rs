@@ -26,6 +26,10 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/capstan_chain.yaml"),
     ),
     (
+        "capstan_intervals",
+        include_str!("../../../config/verify/capstan_intervals.yaml"),
+    ),
+    (
         "capstan_slid_in",
         include_str!("../../../config/verify/capstan_slid_in.yaml"),
     ),

@@ -454,6 +454,13 @@ pub const CASES: &[Case] = &[
         run: sliding::slid_in,
     },
     Case {
+        name: "capstan_intervals",
+        shows: "another friction of the wall in each interval of the hole",
+        reason: "As capstan_weight; chords over the boundaries carry a part of the arc's load to stations of the other \
+                 interval, 0.1 % of the force.",
+        run: sliding::capstan_intervals,
+    },
+    Case {
         name: "stuck_guide",
         shows: "how far a push reaches along a guide that sticks",
         reason: "The bristles' own slip is 0.9 nm of 47 um; the reach ends where the movement has fallen to \

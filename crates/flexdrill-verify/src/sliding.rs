@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::bench::Bench;
 use super::{Row, VerifyError};
-use flexdrill_core::tool::{Body, Direction, SectionProperties};
+use flexdrill_core::tool::{Body, Direction, SectionProperties, WellSection};
 
 /// Rate of penetration of these cases (m/s).
 pub const ADVANCE: f64 = 0.010;
@@ -119,6 +119,83 @@ fn heavy(case: &'static str, chain: bool) -> Result<Vec<Row>, VerifyError> {
         got,
         1e-3,
     )])
+}
+
+/// A hole of a straight section, an arc that ends level and a level section, with a heavy guide on its low side.
+struct Intervals {
+    /// Weight of the guide (N/m in mud).
+    guide: f64,
+    /// Lengths of both straight sections (m), and the radius of the arc (m).
+    straight: [f64; 2],
+    radius: f64,
+    /// Inclination at which the arc begins (rad).
+    inclination: f64,
+    weight_on_bit: f64,
+}
+
+impl Intervals {
+    fn of(bench: &Bench) -> Option<Self> {
+        let (well, heavy) = (&bench.config.tool().well, Heavy::of(bench));
+        let &[
+            WellSection::Straight { length: before },
+            WellSection::Arc { radius, .. },
+            WellSection::Straight { length: after },
+        ] = well.sections.as_slice()
+        else {
+            return None;
+        };
+        Some(Self {
+            guide: heavy.guide,
+            straight: [before, after],
+            radius,
+            inclination: well.start_inclination,
+            weight_on_bit: heavy.weight_on_bit,
+        })
+    }
+
+    /// Force at the kick-off (N) with friction coefficients before, in and after the arc.
+    fn at_kickoff(&self, [before, mu, after]: [f64; 3]) -> f64 {
+        let (w, [above, below]) = (self.guide, self.straight);
+        let end_of_arc = self.weight_on_bit + after * w * below;
+        // The weight in the arc: integral of e^(mu i) (cos i - mu sin i).
+        let weight = |i: f64| (mu * i).exp() * (2.0 * mu * i.cos() + (1.0 - mu * mu) * i.sin()) / (1.0 + mu * mu);
+        let begin = self.inclination;
+        let carried = end_of_arc * (mu * FRAC_PI_2).exp() - self.radius * w * (weight(FRAC_PI_2) - weight(begin));
+        carried * (-mu * begin).exp() + w * above * (before * begin.sin() - begin.cos())
+    }
+}
+
+pub(super) fn capstan_intervals() -> Result<Vec<Row>, VerifyError> {
+    let case = "capstan_intervals";
+    let mut rows = Vec::new();
+    for factors in [
+        [1.0, 1.0, 1.0],
+        [3.0, 1.0, 1.0],
+        [1.0, 2.0, 1.0],
+        [1.0, 1.0, 3.0],
+        [1.5, 0.5, 2.0],
+    ] {
+        let mut bench = Bench::with(case, |config| {
+            let keys = ["before_arc", "arc", "after_arc"].map(|key| format!("contact.wall_friction_factors.{key}"));
+            config.with_values(case, keys.into_iter().zip(factors))
+        })?;
+        let of = Intervals::of(&bench).ok_or(VerifyError::Missing {
+            case,
+            what: "a hole of straight section, arc and straight section",
+        })?;
+        let friction = Heavy::of(&bench).friction;
+        let got = weight_at_kickoff(case, &mut bench)?;
+        let [before, arc, after] = factors;
+        // As the case `capstan_weight`, with the load of the arc that chords carry over its boundaries.
+        rows.push(Row::relative(
+            case,
+            format!("force at the kick-off (N), factors {before}, {arc}, {after}"),
+            of.at_kickoff(factors.map(|factor| friction * factor)),
+            got,
+            2e-3,
+        ));
+    }
+    Ok(rows)
 }
 
 pub(super) fn stuck_guide() -> Result<Vec<Row>, VerifyError> {

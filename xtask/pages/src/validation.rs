@@ -101,8 +101,8 @@ Han and Xue, Mech. Sci. 10 (2019) 363 | We can read the abstract only, which has
 | Tested cross joints transmit \"only a little below 100 per cent\" | SAE 150013 | A sentence without a figure. The \
 friction of the pins is an input; with 0.1, a joint bent by 2.7 degrees transmits 99.8 % | `pin_friction` |
 | Friction of 0.25 to 0.40 in water-base mud; two wells needed a coefficient per depth interval | Johancsik, Friesen and \
-Dawson, SPE 11380 | Friction is an input, which `flexdrill calibrate` fits and `flexdrill reach` varies over 0.2 to 0.4: \
-there is no figure of ours to compare | |
+Dawson, SPE 11380 | Friction is an input, which `flexdrill calibrate` fits per interval of the hole and `flexdrill reach` \
+varies over 0.2 to 0.4: there is no figure of ours to compare | |
 | The same speed and weight can stick or run, by the start | Liu et al., Nonlinear Dyn. 90 (2017) 2959; a map of \
 stability, arXiv 2206.14609 | A finding without a figure that a tool with joints could be compared with | [the safe \
 window](safe_window.md#two-starts) runs every cell from two starts, and shows where they differ |
