@@ -69,6 +69,8 @@ struct Entry<'a> {
     band: [f64; 2],
     estimate: &'a Estimate,
     name: &'a str,
+    /// Whether the key is a factor on the coefficient that was fitted.
+    is_factor: bool,
 }
 
 /// All keys that may change, also those that the data do not determine.
@@ -79,10 +81,11 @@ fn entries(study: &Study) -> Vec<Entry<'_>> {
         for key in &modelled.keys {
             all.push(Entry {
                 key,
-                value: estimate.value,
-                band: estimate.band,
+                value: modelled.key_value(estimate.value),
+                band: estimate.band.map(|end| modelled.key_value(end)),
                 estimate,
                 name: &modelled.unknown.name,
+                is_factor: modelled.per_value != 1.0,
             });
         }
     }
@@ -101,6 +104,7 @@ fn entries(study: &Study) -> Vec<Entry<'_>> {
             band: estimate.band.map(|end| factor * end),
             estimate,
             name: &unknown.name,
+            is_factor: false,
         });
     }
     all
@@ -167,10 +171,16 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
         } else {
             ""
         };
+        // A factor alone does not tell the coefficient that was fitted.
+        let coefficient = if entry.is_factor {
+            format!("; {} {:.4}", entry.name, entry.estimate.value)
+        } else {
+            String::new()
+        };
         let [low, high] = entry.band;
         let _ = writeln!(
             text,
-            "{}{last}: {}  # {low:.4} to {high:.4}{only}",
+            "{}{last}: {}  # {low:.4} to {high:.4}{coefficient}{only}",
             "  ".repeat(sections.len()),
             rounded(entry.value)
         );
@@ -207,6 +217,7 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
         "unknowns": problem.unknowns.iter().zip(&study.outcome.estimates).enumerate().map(|(index, (unknown, estimate))| json!({
             "name": unknown.name,
             "keys": study.unknowns.modelled.get(index).map(|modelled| modelled.keys.clone()),
+            "key_per_value": study.unknowns.modelled.get(index).map(|modelled| modelled.per_value),
             "unit": unknown.unit,
             "prior": unknown.prior(),
             "value": estimate.value,

@@ -3,6 +3,7 @@
 use flexdrill_calibration::CalibrationError;
 use flexdrill_calibration::unknown::{Shape, Unknown};
 use flexdrill_config::{Config, ConfigError, Law, Model};
+use flexdrill_core::tool::HoleInterval;
 use flexdrill_core::units::kn_to_n;
 
 /// An unknown that the twin's runs depend on.
@@ -12,6 +13,24 @@ pub struct Modelled {
     pub unknown: Unknown,
     /// Keys of the configuration that get its value.
     pub keys: Vec<&'static str>,
+    /// What a key gets per value of the unknown: 1 where the keys are the unknown itself.
+    pub per_value: f64,
+}
+
+impl Modelled {
+    /// A coefficient that its keys are, with 90 % of its prior in `range`.
+    fn of(name: &str, keys: &[&'static str], range: [f64; 2]) -> Result<Self, CalibrationError> {
+        Ok(Self {
+            unknown: Unknown::new(name, "", Shape::LogNormal, range)?,
+            keys: keys.to_vec(),
+            per_value: 1.0,
+        })
+    }
+
+    /// What its keys get for a value of the unknown.
+    pub fn key_value(&self, value: f64) -> f64 {
+        self.per_value * value
+    }
 }
 
 /// All unknowns of a configuration.
@@ -34,40 +53,28 @@ impl Unknowns {
     /// When a prior cannot be.
     pub fn of(config: &Config) -> Result<Self, CalibrationError> {
         let ranges = &config.calibration;
-        let coefficient = |name, range| Unknown::new(name, "", Shape::LogNormal, range);
         let mut modelled = Vec::new();
         let mut left_out = Vec::new();
-        let mut add = |name, keys: &[&'static str], range| -> Result<(), CalibrationError> {
-            modelled.push(Modelled {
-                unknown: coefficient(name, range)?,
-                keys: keys.to_vec(),
-            });
-            Ok(())
-        };
         let leans = config
             .string
             .sections
             .iter()
             .any(|section| section.inclination_deg != 0.0);
         if config.string.model == Model::Line && leans {
-            add(
+            modelled.push(Modelled::of(
                 "friction of the string above",
                 &["string.friction.coefficient"],
                 ranges.friction.ends(),
-            )?;
+            )?);
         } else {
             left_out.push(("friction of the string above", "no part of the string lies on the wall"));
         }
-        add(
+        modelled.push(Modelled::of(
             "friction of pipe in guide",
             &["contact.inner.friction_tangential", "contact.inner.friction_axial"],
             ranges.friction.ends(),
-        )?;
-        add(
-            "friction of guide on wall",
-            &["contact.outer.friction_tangential", "contact.outer.friction_axial"],
-            ranges.friction.ends(),
-        )?;
+        )?);
+        modelled.extend(of_the_wall(config, &mut left_out)?);
         let (key, configured) = match config.rock.law {
             Law::DepthOfCut => (
                 "rock.depth_of_cut.wear_flat_friction",
@@ -76,20 +83,20 @@ impl Unknowns {
             _ => ("tool.bit.friction_factor", config.tool.bit.friction_factor),
         };
         if configured > 0.0 {
-            add(
+            modelled.push(Modelled::of(
                 "friction of the bit on the rock",
                 &[key],
                 ranges.bit.ends().map(|factor| factor * configured),
-            )?;
+            )?);
         } else {
             left_out.push(("friction of the bit on the rock", "the configured coefficient is 0"));
         }
         if config.tool.joint.friction > 0.0 {
-            add(
+            modelled.push(Modelled::of(
                 "friction in the joints",
                 &["tool.joint.friction"],
                 ranges.joint_friction.ends(),
-            )?;
+            )?);
         } else {
             left_out.push(("friction in the joints", "tool.joint.friction is 0: the model has none"));
         }
@@ -121,9 +128,68 @@ impl Unknowns {
     /// When the configuration does not allow one of them.
     pub fn apply(&self, config: &Config, values: &[f64]) -> Result<Config, ConfigError> {
         let pairs = self.modelled.iter().zip(values);
-        let keys = pairs.flat_map(|(modelled, value)| modelled.keys.iter().map(move |key| (*key, *value)));
+        let keys = pairs.flat_map(|(modelled, value)| {
+            let value = modelled.key_value(*value);
+            modelled.keys.iter().map(move |key| (*key, value))
+        });
         config.with_values("calibration", keys)
     }
+}
+
+/// The friction of the guide on the wall, one coefficient per interval of the hole. In a hole of one interval it is the
+/// coefficient of the layer. In others each interval has its factor on that, so that no interval's value depends on
+/// whether the log determines another's.
+fn of_the_wall(
+    config: &Config,
+    left_out: &mut Vec<(&'static str, &'static str)>,
+) -> Result<Vec<Modelled>, CalibrationError> {
+    let tool = config.tool();
+    let range = config.calibration.friction.ends();
+    let intervals: Vec<HoleInterval> = HoleInterval::ALL
+        .into_iter()
+        .filter(|interval| tool.well.has(*interval))
+        .collect();
+    if let [only] = intervals.as_slice() {
+        let name = "friction of guide on wall";
+        let factor = tool.wall_friction_factors.of(*only);
+        if factor == 0.0 {
+            left_out.push((
+                name,
+                "contact.wall_friction_factors has 0 for the hole: the wall has no friction",
+            ));
+            return Ok(Vec::new());
+        }
+        let keys = ["contact.outer.friction_tangential", "contact.outer.friction_axial"];
+        let mut whole = Modelled::of(name, &keys, range)?;
+        whole.per_value = 1.0 / factor;
+        return Ok(vec![whole]);
+    }
+    let mut all = Vec::new();
+    for interval in intervals {
+        let (name, key) = match interval {
+            HoleInterval::BeforeArc => (
+                "friction of guide on wall before the arc",
+                "contact.wall_friction_factors.before_arc",
+            ),
+            HoleInterval::Arc => (
+                "friction of guide on wall in the arc",
+                "contact.wall_friction_factors.arc",
+            ),
+            HoleInterval::AfterArc => (
+                "friction of guide on wall after the arc",
+                "contact.wall_friction_factors.after_arc",
+            ),
+        };
+        let whole = config.contact.outer.friction_axial;
+        if whole == 0.0 {
+            left_out.push((name, "contact.outer.friction_axial is 0, and so is every factor of it"));
+            continue;
+        }
+        let mut of_interval = Modelled::of(name, &[key], range)?;
+        of_interval.per_value = 1.0 / whole;
+        all.push(of_interval);
+    }
+    Ok(all)
 }
 
 #[cfg(test)]
@@ -164,5 +230,52 @@ mod tests {
             Unknowns::of(&inclined).unwrap().modelled[0].keys,
             ["string.friction.coefficient"]
         );
+    }
+    #[test]
+    fn a_hole_with_a_straight_part_has_a_coefficient_per_interval() {
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        let longer = config.with_links(45).unwrap();
+        let unknowns = Unknowns::of(&longer).unwrap();
+        let names: Vec<&str> = unknowns
+            .modelled
+            .iter()
+            .map(|modelled| modelled.unknown.name.as_str())
+            .collect();
+        assert_eq!(
+            names,
+            [
+                "friction of pipe in guide",
+                "friction of guide on wall in the arc",
+                "friction of guide on wall after the arc",
+                "friction of the bit on the rock",
+                "friction in the joints"
+            ]
+        );
+        for wall in &unknowns.modelled[1..3] {
+            let [low, high] = wall.unknown.prior();
+            assert!(
+                (low - 0.25).abs() < 1e-12 && (high - 0.40).abs() < 1e-12,
+                "{low} {high}"
+            );
+        }
+        let changed = unknowns.apply(&longer, &[0.31, 0.24, 0.39, 0.12, 0.2]).unwrap();
+        let tool = changed.tool();
+        assert_eq!(changed.contact.outer, longer.contact.outer);
+        let of = |interval| tool.outer.friction_axial * tool.wall_friction_factors.of(interval);
+        // A quotient and a product round to 1e-16 each.
+        assert!((of(HoleInterval::Arc) - 0.24).abs() < 1e-15 && (of(HoleInterval::AfterArc) - 0.39).abs() < 1e-15);
+        let frictionless = longer.with_value("contact.outer.friction_axial", 0.0).unwrap();
+        let none = Unknowns::of(&frictionless).unwrap();
+        assert_eq!(none.modelled.len(), 3);
+        assert!(none.left_out.iter().any(|(name, _)| name.ends_with("after the arc")));
+    }
+
+    #[test]
+    fn the_coefficient_of_a_hole_of_one_interval_has_its_factor() {
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        let harder = config.with_value("contact.wall_friction_factors.arc", 1.6).unwrap();
+        let unknowns = Unknowns::of(&harder).unwrap();
+        let tool = unknowns.apply(&harder, &[0.31, 0.32, 0.12, 0.2]).unwrap().tool();
+        assert!((tool.outer.friction_axial * tool.wall_friction_factors.arc - 0.32).abs() < 1e-15);
     }
 }
