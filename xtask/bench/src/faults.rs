@@ -78,7 +78,8 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
     };
     let healthy = shown(config, WEIGHT)?;
     let less_weight = figures(config, TRUE_WEIGHT)?;
-    let friction = shown(&doubled(config)?, WEIGHT)?;
+    let arc = shown(&in_the_arc(config)?, WEIGHT)?;
+    let layers = shown(&in_both_layers(config)?, WEIGHT)?;
     let mut dull = healthy;
     dull.drilling[2] *= 0.5;
     dull.drilling[0] -= dull.drilling[2];
@@ -87,7 +88,8 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
         ..healthy
     };
     let faults = [
-        ("friction doubled in both layers of the tool", friction),
+        ("friction of the wall doubled in the arc", arc),
+        ("friction doubled in both layers of the tool", layers),
         ("weight sensor off by 20 %", sensor),
         ("torque of the bit halved", dull),
     ];
@@ -145,8 +147,14 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
     Ok(text)
 }
 
-/// Twice the friction in both layers, in the arc as in the straight part: the configuration has one coefficient per layer.
-fn doubled(config: &Config) -> anyhow::Result<Config> {
+/// Twice the friction of the guide on the wall in the arc.
+fn in_the_arc(config: &Config) -> anyhow::Result<Config> {
+    let factor = config.contact.wall_friction_factors.arc;
+    Ok(config.with_value("contact.wall_friction_factors.arc", 2.0 * factor)?)
+}
+
+/// Twice the friction in both layers along the whole tool.
+fn in_both_layers(config: &Config) -> anyhow::Result<Config> {
     let contact = &config.contact;
     let values = [
         ("contact.inner.friction_tangential", contact.inner.friction_tangential),
