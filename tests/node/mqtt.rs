@@ -342,7 +342,8 @@ fn interop_forecast_residuals_and_map_reach_the_broker() {
         let all = document["residuals"].as_array().unwrap();
         all.iter().find(|of| of["name"] == "surface_torque").cloned().unwrap()
     };
-    let at_60 = |forecast: &Value| (forecast["rotary_speed"]["value"].as_f64().unwrap() - 6.283).abs() < 0.001;
+    let at_60 =
+        |forecast: &Value| (forecast["rotary_speed"]["value"].as_f64().unwrap() - std::f64::consts::TAU).abs() < 0.001;
     let [mut forecast, mut residuals, mut map] = [Value::Null, Value::Null, Value::Null];
     // A forecast is made every half minute, as idle work, and residuals begin 35 s after the speed has come.
     let deadline = Instant::now() + 4 * PATIENCE;
