@@ -181,7 +181,8 @@ impl Boundary {
         );
     }
 
-    /// Table 1 as supports. Below a hoist the guide's top is free along the hole.
+    /// Table 1 as supports. Below a hoist the tops of both pipes are free along the hole: the pipe hangs on the guide, and
+    /// the guide on the string.
     pub(super) fn describe(&self, mesh: &Mesh, with_hoist: bool) -> Vec<Support> {
         use Direction::{U, V, W};
         let mut supports = Vec::new();
@@ -192,7 +193,7 @@ impl Boundary {
             };
             for (location, directions) in [(Location::Top, vec![U, V, W]), (Location::Bottom, bottom)] {
                 for body in [Body::Pipe, Body::Guide] {
-                    let hangs = with_hoist && location == Location::Top && body == Body::Guide;
+                    let hangs = with_hoist && location == Location::Top;
                     let mut directions = directions.clone();
                     directions.retain(|&direction| !(hangs && direction == U));
                     supports.push(Support {
@@ -211,12 +212,12 @@ impl Boundary {
         supports
     }
 
-    /// Whether a support other than the preset's holds the guide's top along the hole.
-    pub(super) fn holds_guide_top(&self, mesh: &Mesh) -> bool {
+    /// Whether a support other than the preset's holds the top of a pipe along the hole.
+    pub(super) fn holds_a_top(&self, mesh: &Mesh) -> bool {
         self.supports.iter().any(|held| {
             let at = held.at.location(mesh);
             let at_top = matches!(at, Location::Top | Location::All | Location::Station(0));
-            at_top && held.body == Body::Guide && held.fix.contains(&Direction::U)
+            at_top && held.fix.contains(&Direction::U)
         })
     }
 

@@ -97,15 +97,15 @@ impl Schema {
             "none",
             "",
             "paper with rock.law: depth_of_cut",
-            "the hoist carries the guide's top, which no support may hold",
+            "the hoist carries the tops of both pipes, which no support may hold",
         );
         c.require(
-            !self.has_hoist() || !self.boundary.holds_guide_top(&self.mesh()),
+            !self.has_hoist() || !self.boundary.holds_a_top(&self.mesh()),
             "boundary.supports",
-            "u of the guide at the top",
+            "u of a pipe at the top",
             "",
             "without it with rock.law: depth_of_cut",
-            "the hoist carries the guide's top along the hole",
+            "the hoist carries both pipes along the hole",
         );
         c.require(
             !self.has_hoist() || !self.tool.guide.fixed,

@@ -13,8 +13,8 @@ mod support;
 use flexdrill_core::dynamics::{EnergyAudit, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
-    AddedMass, Body, DepthOfCut, Direction, Feed, FrictionLaw, Hoist, Location, MudDamping, MudDescription, MudFilm,
-    Piece, PressureDescription, PressureEnd, PressureSource, RockLaw, SectionProperties, Shortening, SpeedController,
+    AddedMass, DepthOfCut, Direction, Feed, FrictionLaw, Hoist, Location, MudDamping, MudDescription, MudFilm, Piece,
+    PressureDescription, PressureEnd, PressureSource, RockLaw, SectionProperties, Shortening, SpeedController,
     StringDescription, ToolDescription, TopDrive, Tube, Weakening, WellSection,
 };
 use flexdrill_core::twin::{Simulation, SimulationSettings};
@@ -138,7 +138,7 @@ fn rig(feed: Option<Feed>, end: PressureEnd) -> ToolDescription {
         weakening,
     });
     for support in &mut tool.supports {
-        if support.location == Location::Top && support.body == Body::Guide {
+        if support.location == Location::Top {
             support.directions.retain(|&direction| direction != Direction::U);
         }
     }

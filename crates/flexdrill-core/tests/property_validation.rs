@@ -114,7 +114,7 @@ fn below_a_string() -> ToolDescription {
         weakening: Weakening { ratio: 1.3, rate: 3.0 },
     });
     for support in &mut tool.supports {
-        if support.location == Location::Top && support.body == Body::Guide {
+        if support.location == Location::Top {
             support.directions.retain(|&direction| direction != Direction::U);
         }
     }
@@ -304,7 +304,7 @@ fn strings_hoists_and_rocks_that_do_not_go_together_are_refused() {
                     directions: vec![Direction::U],
                 });
             },
-            "string.hoist: the hoist carries the guide's top along the hole",
+            "string.hoist: the hoist carries the tops of both pipes along the hole",
         ),
         (
             |tool| {

@@ -90,7 +90,7 @@ fn below_a_string(mut tool: ToolDescription, feed: Feed) -> ToolDescription {
     tool.string = Some(string(feed));
     tool.rock = RockLaw::DepthOfCut(ROCK);
     for support in &mut tool.supports {
-        if support.location == Location::Top && support.body == Body::Guide {
+        if support.location == Location::Top {
             support.directions.retain(|&direction| direction != Direction::U);
         }
     }

@@ -44,7 +44,7 @@ impl Chain {
         if !self.closed_slots.is_empty() {
             stored += self.slots_energy();
         }
-        stored += point.kinetic;
+        stored += point.kinetic + self.model.numbered(model).hanger_energy(state);
         point.friction.fill(0.0);
         point.contact_dissipation = 0.0;
         stored += instructions.run(Friction {

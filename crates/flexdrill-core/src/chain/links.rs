@@ -145,14 +145,15 @@ pub(super) fn constant_forces(
 }
 
 /// Forces of the pressure in the pipe per pressure at the tool's top (N/Pa), in the chain's numbering, where the pipe's end
-/// moves along `pipe_end`; empty without it.
+/// moves along `pipe_end` and the guide's along
+/// `guide_end`; empty without it.
 pub(super) fn pressure_forces(
     model: &Model,
     nodes: &Nodes,
     kinds: &[LinkMatrices],
     links: &mut [Link],
     unknowns: usize,
-    pipe_end: usize,
+    [pipe_end, guide_end]: [usize; 2],
 ) -> Vec<f64> {
     let Some(pressure) = &model.pressure else {
         return Vec::new();
@@ -178,5 +179,6 @@ pub(super) fn pressure_forces(
         }
     }
     out[pipe_end] += pressure.on_end;
+    out[guide_end] -= pressure.on_end;
     out
 }

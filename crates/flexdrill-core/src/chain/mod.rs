@@ -235,7 +235,10 @@ impl Chain {
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
-        let pressure = links::pressure_forces(model, &points, &kinds, &mut links, unknowns, places.pipe_end);
+        let pressure = {
+            let ends = [places.pipe_end, places.guide_end];
+            links::pressure_forces(model, &points, &kinds, &mut links, unknowns, ends)
+        };
         let ConstantForces { weight, preload } = links::constant_forces(model, &points, &kinds, &mut links, unknowns);
         let mut constant = weight.clone();
         constant

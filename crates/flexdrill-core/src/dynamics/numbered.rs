@@ -1,5 +1,5 @@
-//! What is attached to the tool, in either numbering of its unknowns: point masses, the axial tie, the string above,
-//! pressure in the pipe, the rock's torque and weight, point loads.
+//! What is attached to the tool, in either numbering of its unknowns: point masses, the axial tie, the string above and
+//! the connector by which the pipe hangs on the guide below it, pressure in the pipe, the rock's torque and weight, point loads.
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
@@ -53,6 +53,12 @@ impl<'a> Numbered<'a> {
                 residual[unknown] -= force;
             }
         }
+        if let Some(stiffness) = model.hanger.filter(|_| wanted(places.pipe_top)) {
+            // The first node has both.
+            let force = stiffness * self.hanger_stretch(state);
+            residual[places.pipe_top] += force;
+            residual[places.guide_top] -= force;
+        }
         if !self.pressure.is_empty() {
             let at_top = model.pressure_at_top(conditions);
             for (unknown, force) in self.pressure.iter().enumerate() {
@@ -83,6 +89,19 @@ impl<'a> Numbered<'a> {
         }
     }
 
+    /// How far the pipe's top has moved down past the guide's (m).
+    fn hanger_stretch(&self, state: &State) -> f64 {
+        state.q[self.places.pipe_top] - state.q[self.places.guide_top]
+    }
+
+    /// Energy in the connector by which the pipe hangs on the guide (J).
+    pub(crate) fn hanger_energy(&self, state: &State) -> f64 {
+        let stretch = self.hanger_stretch(state);
+        self.model
+            .hanger
+            .map_or(0.0, |stiffness| 0.5 * stiffness * stretch * stretch)
+    }
+
     /// What the string's end does at the first nodes: unknown, impedance, arriving wave and stiffness, see
     /// [`TopEnd`](crate::dynamics::conditions::TopEnd).
     fn top_ends(&self, conditions: &Conditions) -> impl Iterator<Item = (usize, [f64; 3])> + use<> {
@@ -107,6 +126,17 @@ impl<'a> Numbered<'a> {
             add(spin, depth, stiffness * bit.torque_by[0]);
             add(depth, depth, stiffness * bit.weight_by[0]);
             add(depth, spin, stiffness * bit.weight_by[1]);
+        }
+        if let Some(hanger) = self.model.hanger {
+            let (pipe, guide) = (self.places.pipe_top, self.places.guide_top);
+            for (force, motion, sign) in [
+                (pipe, pipe, 1.0),
+                (pipe, guide, -1.0),
+                (guide, pipe, -1.0),
+                (guide, guide, 1.0),
+            ] {
+                add(force, motion, sign * factors.stiffness * hanger);
+            }
         }
         for (unknown, [impedance, _, stiffness]) in self.top_ends(conditions) {
             add(

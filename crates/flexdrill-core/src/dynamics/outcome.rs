@@ -135,13 +135,14 @@ impl std::error::Error for StepFailure {}
 pub struct EnergyAudit {
     /// Work of the top drive.
     pub drive: f64,
-    /// Work of the weight on bit.
+    /// Work of the weight on bit; below a hoist over the whole way of the bit, the advance of the frame included.
     pub weight_on_bit: f64,
     /// Work of gravity.
     pub gravity: f64,
     /// Work of the configured point loads.
     pub loads: f64,
-    /// Work of the advance against the axial friction of the wall, on the guide and on the string above.
+    /// Work of the advance against the axial friction of the wall; below a hoist with that of the weight on bit and less that
+    /// of the string's force over the advance. The tool moves in a frame that advances, string and rock in that of the hole.
     pub feed: f64,
     /// Energy taken by the rock.
     pub bit: f64,

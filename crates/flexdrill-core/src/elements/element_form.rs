@@ -13,6 +13,8 @@
 //!   phi_z  .   p   .   .    .    d
 //! ```
 //!
+//! In a curved hole the geometric stiffness, of the tilt against the hole, also couples u with w ([`Beam::geometric_along`]).
+//!
 //! A product with a node is then the diagonal times the lanes, plus the paired entries times the lanes in paired order
 //! ([`Vector::paired`]): two fused operations instead of six.
 
@@ -26,6 +28,9 @@ pub type Lanes = [f64; 8];
 
 /// The other unknown of the same bending plane.
 const PAIR: [usize; 6] = [0, 5, 4, 3, 2, 1];
+
+/// The unknowns u and w.
+const CROSSED: [usize; 2] = [0, 2];
 
 /// Loads the node that begins at `first`. The two unused lanes hold the values that follow in the array, which spares a
 /// mask; the matrices have zeros there.
@@ -67,6 +72,8 @@ pub struct ElementForm {
     diagonal: [[Lanes; 2]; 2],
     /// Couplings of a deflection with a slope, by row node and column node.
     paired: [[Lanes; 2]; 2],
+    /// Couplings of u with w, by row node and column node; none where there are none.
+    crossed: Option<Box<[[Lanes; 2]; 2]>>,
 }
 
 impl ElementForm {
@@ -88,6 +95,18 @@ impl ElementForm {
                     matrix[(row + k, column + PAIR[k])]
                 }
             }),
+            crossed: {
+                let of = |row, column, k: usize| {
+                    if CROSSED.contains(&k) {
+                        matrix[(row + k, column + 2 - k)]
+                    } else {
+                        0.0
+                    }
+                };
+                let crossed = filled(&of);
+                let is_there = crossed.as_flattened().as_flattened().iter().any(|&x| x != 0.0);
+                is_there.then(|| Box::new(crossed))
+            },
         }
     }
 
@@ -102,6 +121,14 @@ impl ElementForm {
                 .plus_product(V::load(&p[0]), swapped[0])
                 .plus_product(V::load(&d[1]), x[1])
                 .plus_product(V::load(&p[1]), swapped[1]);
+        }
+        if let Some(crossed) = &self.crossed {
+            let across = [x[0].across(), x[1].across()];
+            for (out, c) in out.iter_mut().zip(&**crossed) {
+                *out = out
+                    .plus_product(V::load(&c[0]), across[0])
+                    .plus_product(V::load(&c[1]), across[1]);
+            }
         }
     }
 
@@ -119,7 +146,13 @@ impl ElementForm {
             let scale = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             a.iter().zip(b).all(|(x, y)| (x - y).abs() <= SAME * scale)
         };
-        close(&self.diagonal, &other.diagonal) && close(&self.paired, &other.paired)
+        close(&self.diagonal, &other.diagonal)
+            && close(&self.paired, &other.paired)
+            && match (&self.crossed, &other.crossed) {
+                (Some(a), Some(b)) => close(a, b),
+                (None, None) => true,
+                _ => false,
+            }
     }
 }
 
@@ -190,12 +223,13 @@ pub struct ElementForms {
 }
 
 impl ElementForms {
-    /// Packs the matrices of `beam`; `turn` holds the rotations of its node frames into its own.
-    pub fn of(beam: &Beam, turn: Option<&[Matrix3<f64>; 2]>) -> Self {
+    /// Packs the matrices of `beam` along a path of the `curvature` (1/m) that its tension knows of; `turn` holds the
+    /// rotations of its node frames into its own.
+    pub fn of(beam: &Beam, curvature: f64, turn: Option<&[Matrix3<f64>; 2]>) -> Self {
         Self {
             stiffness: ElementForm::of(&beam.stiffness()),
             mass: ElementForm::of(&beam.mass()),
-            geometric: ElementForm::of(&beam.geometric()),
+            geometric: ElementForm::of(&beam.geometric_along(curvature)),
             turn: turn.map(LaneTurn::of),
         }
     }
@@ -312,12 +346,13 @@ mod tests {
     #[test]
     fn products_are_those_of_the_plain_matrices() {
         let beam = beam();
-        let forms = ElementForms::of(&beam, None);
+        let curvature = 0.3;
+        let forms = ElementForms::of(&beam, curvature, None);
         let x = values(0.3);
         for (form, matrix) in [
             (&forms.stiffness, beam.stiffness()),
             (&forms.mass, beam.mass()),
-            (&forms.geometric, beam.geometric()),
+            (&forms.geometric, beam.geometric_along(curvature)),
         ] {
             let expected = matrix * vector(&x);
             let out = product::<Portable>(form, &x);

@@ -17,7 +17,8 @@
 //! ```
 //!
 //! The lower end decides: where it is closed and free, N_eff = 0 there; where it slides in a seal of area A_s, the pressure
-//! pushes it up, N_eff = - p A_s; where it is held, the strain decides. The pins of a joint that is sealed at a diameter of
+//! pushes it up, N_eff = - p A_s, and the guide, whose connector holds the seal, is pulled down by the same force: a cut
+//! through both pipes does not know the pump. Where it is held, the strain decides. The pins of a joint that is sealed at a diameter of
 //! area A_j carry N_eff + p A_j. The momentum of the flow, rho A U^2, is left out (88 N at 8 l/s).
 //!
 //! Tension is positive; p in Pa. Hydrostatic pressure, the same inside and outside, is in the buoyancy.
@@ -33,7 +34,7 @@ pub struct PipePressure {
     described: PressureDescription,
     /// Effective tension of each pipe element that is not strained, per pressure at the top (N/Pa).
     pub unstrained: Vec<f64>,
-    /// Force on the pipe's lower end along its axis, per pressure at the top (N/Pa).
+    /// Force on the pipe's lower end along its axis, per pressure at the top (N/Pa); its reaction is on the guide's.
     pub on_end: f64,
     /// What the pins of each joint carry beyond the effective tension, per pressure at the top (N/Pa).
     pub on_pins: Vec<f64>,

@@ -13,7 +13,9 @@ use crate::tool::{FreeCurvature, SectionProperties, ToolDescription, frame_along
 pub struct PipeElement {
     /// Section and length; a link's frame is the beam's own.
     pub beam: Beam,
-    /// G, geometric stiffness per unit of tension (Eq. 41).
+    /// Curvature of the hole that the link turns with as it slides (1/m).
+    pub curvature: f64,
+    /// G, geometric stiffness per unit of tension (Eq. 41), of the tilt against the hole.
     pub geometric: ElementMatrix,
     /// Consistent forces of gravity (N).
     pub weight: ElementVector,
@@ -24,6 +26,8 @@ pub struct PipeElement {
 pub struct GuideElement {
     /// Beam in its chord's frame.
     pub beam: Beam,
+    /// Curvature of the hole that the element turns with as it slides (1/m).
+    pub curvature: f64,
     /// Node frames to the chord frame, Eq. 8.
     pub rotation: [Matrix3<f64>; 2],
     /// Consistent forces of gravity on the nodes, in their frames (N).
@@ -32,7 +36,7 @@ pub struct GuideElement {
     pub stiffness: ElementMatrix,
     /// Gamma^T M Gamma.
     pub mass: ElementMatrix,
-    /// Gamma^T G Gamma.
+    /// Gamma^T G Gamma, of the tilt against the hole.
     pub geometric: ElementMatrix,
     /// Of a guide that is not without stress in the path.
     pub preload: Option<Preload>,
@@ -47,9 +51,11 @@ impl PipeElement {
             section: SectionProperties::of(d.pipe_sections[e % d.elements_per_link], d.material, 1.0),
             length: bore.chord(link) / d.elements_per_link as f64,
         };
+        let curvature = chord_curvature(bore.chord(link), bore.turn(link));
         Self {
             beam,
-            geometric: beam.geometric(),
+            curvature,
+            geometric: beam.geometric_along(curvature),
             weight: beam.weight((bore.link_frames[link].transpose() * gravity(d)).into()),
         }
     }
@@ -72,13 +78,15 @@ impl GuideElement {
             gamma.fixed_view_mut::<3, 3>(6 * n + 3, 6 * n + 3).copy_from(r);
         }
         let turn = below.inclination - above.inclination;
+        let curvature = chord_curvature(beam.length, turn);
         let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
         Self {
             rotation,
             weight: gamma.transpose() * beam.weight((frame.transpose() * gravity(d)).into()),
             stiffness: turned(beam.stiffness()),
             mass: turned(beam.mass()),
-            geometric: turned(beam.geometric()),
+            geometric: turned(beam.geometric_along(curvature)),
+            curvature,
             preload: d
                 .guide_free_curvature
                 .map(|free| Preload::of(free, beam.section.bending, beam.length, turn)),
@@ -100,6 +108,12 @@ impl GuideElement {
             beam,
         }
     }
+}
+
+/// Slope per displacement along a chord of this `length` (m) that turns with an arc about its centre (1/m), for the `turn`
+/// of the arc (rad): the inverse of the chord's distance from the centre.
+fn chord_curvature(length: f64, turn: f64) -> f64 {
+    2.0 * libm::tan(0.5 * turn) / length
 }
 
 /// Gravity in the world (m/s2).

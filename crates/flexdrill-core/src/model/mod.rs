@@ -9,7 +9,7 @@ mod element;
 mod places;
 mod station;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::dynamics::conditions::Conditions;
 use crate::elements::beam::{Beam, ElementVector};
@@ -77,6 +77,9 @@ pub struct Model {
     pub tied: bool,
     /// Multiplier of the tie, in the last station's block.
     pub tie: Option<usize>,
+    /// Stiffness of the connector by which the pipe's top hangs on the guide's, below a hoist (N/m): that of one element of
+    /// the pipe, which adds micrometres to what the tool itself yields.
+    pub hanger: Option<f64>,
     /// The unknowns that loads, joints, drive and bit act on.
     pub places: Places,
     /// Numbering of the linear system.
@@ -166,6 +169,7 @@ impl Model {
             ],
             tied,
             tie,
+            hanger: d.string.as_ref().and_then(|string| string.hoist).map(|_| stiffest),
             places: Places::default(),
             layout,
             force_scale: stiffest,
@@ -181,19 +185,21 @@ impl Model {
     }
 
     fn collect_elements(&mut self) {
-        let mut add = |beam: &Beam, turn: Option<&[Matrix3<f64>; 2]>, weight: &ElementVector, nodes: [usize; 2]| {
-            self.elements.push(ElementForms::of(beam, turn), nodes);
+        let mut add = |forms: ElementForms, weight: &ElementVector, nodes: [usize; 2]| {
+            self.elements.push(forms, nodes);
             for (k, w) in weight.iter().enumerate() {
                 self.weight[nodes[k / 6] + k % 6] += w;
             }
         };
         for (ends, element) in self.stations.windows(2).zip(&self.pipe) {
             let nodes = [ends[0].pipe_below, ends[1].pipe_above];
-            add(&element.beam, None, &element.weight, nodes);
+            let forms = ElementForms::of(&element.beam, element.curvature, None);
+            add(forms, &element.weight, nodes);
         }
         for (ends, element) in self.stations.windows(2).zip(&self.guide) {
             let nodes = [ends[0].guide, ends[1].guide];
-            add(&element.beam, Some(&element.rotation), &element.weight, nodes);
+            let forms = ElementForms::of(&element.beam, element.curvature, Some(&element.rotation));
+            add(forms, &element.weight, nodes);
         }
         let mut preload = Vec::new();
         for (of_element, nodes) in self.preloads() {
@@ -209,7 +215,10 @@ impl Model {
                 forces[ends[0].pipe_below] += tension;
                 forces[ends[1].pipe_above] -= tension;
             }
-            forces[self.stations[self.stations.len() - 1].pipe_above] += pressure.on_end;
+            let bottom = &self.stations[self.stations.len() - 1];
+            forces[bottom.pipe_above] += pressure.on_end;
+            // The seal is in the guide's connector.
+            forces[bottom.guide] -= pressure.on_end;
             self.pressure_forces = forces;
         }
     }

@@ -21,6 +21,8 @@ pub struct Places {
     pub top_spin: usize,
     /// u of the guide's first node.
     pub guide_top: usize,
+    /// u of the pipe's first node.
+    pub pipe_top: usize,
     /// Spin of the bit.
     pub bit_spin: usize,
     /// u of the pipe's last node.
@@ -48,6 +50,7 @@ impl Places {
             driven: model.driven,
             top_spin: model.stations[0].pipe_above + Direction::Psi as usize,
             guide_top: model.stations[0].guide,
+            pipe_top: model.stations[0].pipe_above,
             bit_spin: bottom.pipe_above + Direction::Psi as usize,
             pipe_end: bottom.pipe_above,
             guide_end: bottom.guide,
@@ -77,6 +80,7 @@ impl Places {
             driven: self.driven.map(&place),
             top_spin: place(self.top_spin),
             guide_top: place(self.guide_top),
+            pipe_top: place(self.pipe_top),
             bit_spin: place(self.bit_spin),
             pipe_end: place(self.pipe_end),
             guide_end: place(self.guide_end),

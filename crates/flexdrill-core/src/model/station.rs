@@ -74,6 +74,12 @@ impl Bore {
         (self.link_ends[link + 1] - self.link_ends[link]).norm()
     }
 
+    /// Angle by which the bore turns along a link (rad).
+    pub(super) fn turn(&self, link: usize) -> f64 {
+        let at = |end: usize| self.path.inclination(self.spacing * (end * self.per_link) as f64);
+        at(link + 1) - at(link)
+    }
+
     /// Station `s`, whose block of unknowns begins at `first`.
     pub(super) fn station(&self, d: &ToolDescription, s: usize, is_joint: bool, first: usize) -> Station {
         let link = if s == 0 { 0 } else { (s - 1) / self.per_link };

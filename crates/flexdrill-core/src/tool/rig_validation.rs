@@ -1,6 +1,6 @@
 //! What the string above the tool, its drive and hoist, and the rock must satisfy.
 
-use super::description::{Body, Direction, Location, ToolDescription, WeightPlace};
+use super::description::{Direction, Location, ToolDescription, WeightPlace};
 use super::{DepthOfCut, Hoist, Piece, RockLaw, SpeedController, StringDescription, TopDrive, WallFriction, Weakening};
 use crate::validation::{Bound, ValidationError, count, require};
 
@@ -47,13 +47,12 @@ impl ToolDescription {
         )?;
         let holds_top = self.supports.iter().any(|support| {
             let at_top = matches!(support.location, Location::Top | Location::All | Location::Station(0));
-            at_top && support.body == Body::Guide && support.directions.contains(&Direction::U)
+            at_top && support.directions.contains(&Direction::U)
         });
         require(
             hoist.is_none() || (!holds_top && !self.guide_fixed),
             "string.hoist",
-            "the hoist carries the guide's top along the hole; let no support hold u of the guide there, and set guide_fixed \
-             to false",
+            "the hoist carries the tops of both pipes along the hole; let no support hold u there, and set guide_fixed to false",
         )?;
         require(
             hoist.is_none() || self.weight_place == WeightPlace::Bit,

@@ -91,8 +91,11 @@ pub struct EnergyPoint {
     pub(crate) string_lost: f64,
     /// Work of the hoist so far (J).
     pub(crate) hoist_work: f64,
-    /// Power of the advance against the friction of the wall on the string (W).
-    pub(crate) string_feed: f64,
+    /// Rate at which the frame advances with the tool below a hoist (m/s).
+    pub(crate) advance: f64,
+    /// Power of that advance in the weight on bit less that in the string's force (W): the string and the rock move in the
+    /// frame of the hole, the tool in its own.
+    pub(crate) advance_power: f64,
     /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
     bristles: f64,
     /// Power of the advance against the friction of the wall (W).
@@ -138,7 +141,8 @@ impl EnergyPoint {
             weight_on_bit: 0.0,
             string_lost: 0.0,
             hoist_work: 0.0,
-            string_feed: 0.0,
+            advance: 0.0,
+            advance_power: 0.0,
             bristles: 0.0,
             feed: 0.0,
             pressure: 0.0,
@@ -190,14 +194,16 @@ impl EnergyPoint {
             weight_on_bit,
             string_lost,
             hoist_work,
-            string_feed,
+            advance,
+            advance_power,
             bristles,
             feed,
             pressure,
             lifted_by_pressure,
             ..
         } = *other;
-        (self.string_lost, self.hoist_work, self.string_feed) = (string_lost, hoist_work, string_feed);
+        (self.string_lost, self.hoist_work) = (string_lost, hoist_work);
+        (self.advance, self.advance_power) = (advance, advance_power);
         (self.bristles, self.feed) = (bristles, feed);
         (self.kinetic, self.foresight) = (kinetic, foresight);
         (self.stored, self.geometric_energy, self.contact_dissipation) =
@@ -233,7 +239,7 @@ impl EnergyPoint {
         }
         self.add_mud(model, state, conditions);
         self.add_masses(&numbered, state, conditions);
-        stored += self.kinetic;
+        stored += self.kinetic + numbered.hanger_energy(state);
         self.friction.fill(0.0);
         self.contact_dissipation = 0.0;
         for (s, touch) in interactions.inner.iter() {
@@ -262,7 +268,10 @@ impl EnergyPoint {
         self.stored += string.stored();
         self.string_lost = friction + mud;
         self.hoist_work = string.hoist_work();
-        self.string_feed = string.feed_power();
+        if let Some(hoist) = string.hoist() {
+            self.advance = hoist.advance;
+            self.advance_power = (self.weight_on_bit - string.force_on_tool()) * hoist.advance;
+        }
     }
 
     /// Adds kinetic energy, inertia and damping of the mud at all stations, in the numbering of the model.

@@ -121,7 +121,10 @@ impl EnergyAudit {
             self.drive += mean(e0.drive_torque, e1.drive_torque) * (s1.drive_angle - s0.drive_angle);
             self.hoist += e1.hoist_work - e0.hoist_work;
             self.string += e1.string_lost - e0.string_lost;
-            self.feed += h * mean(e0.string_feed, e1.string_feed);
+            // The bit goes down with the frame.
+            let advanced = h * mean(e0.advance, e1.advance);
+            self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * advanced;
+            self.feed += h * mean(e0.advance_power, e1.advance_power);
         }
         self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[places.guide_end];
         self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[places.bit_spin];

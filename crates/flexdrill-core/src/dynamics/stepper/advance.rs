@@ -201,10 +201,9 @@ impl Stepper {
         };
         interactions.bit.accept();
         if let Some(string) = string {
-            string.accept(
-                track.trial.v[numbered.places.top_spin],
-                track.trial.v[numbered.places.guide_top],
-            );
+            let (trial, places) = (&track.trial, numbered.places);
+            let top = places.guide_top;
+            string.accept(trial.v[places.top_spin], [trial.q[top], trial.v[top]]);
             track.trial_energy.add_string(string);
         }
         let ends = StepEnds {

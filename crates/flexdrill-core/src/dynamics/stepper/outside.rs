@@ -20,7 +20,7 @@ pub struct OutsideForces {
     pub wall: Vector3<f64>,
     /// Of the rock on the bit.
     pub bit: Vector3<f64>,
-    /// Of the point loads, and of the pressure on the pipe's lower end.
+    /// Of the point loads.
     pub loads: Vector3<f64>,
     /// Minus mass times acceleration.
     pub inertia: Vector3<f64>,
@@ -102,13 +102,6 @@ impl Stepper {
         self.track.energy.pressure
     }
 
-    /// Force of the pressure on the pipe's lower end (N), along the axes of the world.
-    fn pressure_on_end(&self) -> Vector3<f64> {
-        let (_, _, frame) = self.model.node_of(self.model.places.pipe_end);
-        let on_end = self.model.pressure.as_ref().map_or(0.0, |pressure| pressure.on_end);
-        frame.column(0) * (on_end * self.track.energy.pressure)
-    }
-
     /// The sums of all forces on the tool from outside.
     pub fn outside_forces(&self) -> OutsideForces {
         let (model, energy) = (&self.model, &self.track.energy);
@@ -143,7 +136,7 @@ impl Stepper {
             weight: model.total_weight,
             wall: wall.sum(),
             bit: bottom.frame.column(0) * -energy.weight_on_bit,
-            loads: loads.sum::<Vector3<f64>>() + self.pressure_on_end(),
+            loads: loads.sum(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),
             damping: -sum(&energy.damping, |span| &span.damping) - mud,
         }

@@ -139,6 +139,10 @@ struct Ends {
     powers: [f64; 2],
     /// Torque (N m) and force (N) of all frictions at this instant.
     drag: [f64; 2],
+    /// The tool's top in the frame of its displacements: how far down it is (m), and its speed (m/s).
+    top: [f64; 2],
+    /// Axial force on the tool's top (N), compressing.
+    force_on_tool: f64,
 }
 
 /// A step of the string, before the tool's part of it is known.
@@ -172,6 +176,12 @@ pub struct StringLine {
     marks: Vec<Mark>,
     marked: Ends,
     marked_stuck: Vec<bool>,
+}
+
+/// Impedance and arriving wave of an axial end whose speed is counted in a frame that advances: z (2 f - (v + V)) = z (2 (f -
+/// V / 2) - v). The string itself moves in the frame of the hole, so that its inertia takes part in every acceleration.
+fn in_frame(impedance: f64, arriving: f64, advance: f64) -> [f64; 2] {
+    [impedance, arriving - 0.5 * advance]
 }
 
 /// Places in a row.
@@ -233,6 +243,7 @@ impl StringLine {
         self.state.ends = Ends {
             drive: self.description.drive.steady(speed, torque),
             hoist: (self.description.hoist).map_or(HoistState::default(), |hoist| hoist.at_rest(force, impedance)),
+            force_on_tool: force,
             ..Ends::default()
         };
         self.state.stuck.fill(speed == 0.0);
@@ -276,7 +287,7 @@ impl StringLine {
         row[down(0, 0)] = ends.drive.speed - rising;
         if let Some(hoist) = description.hoist {
             let (stiffness, impedance) = (description.axial_stiffness(), pieces[0].axial.impedance);
-            let mut next = hoist.step(&state.ends.hoist, h, stiffness, [weight, rate]);
+            let mut next = hoist.step(&state.ends.hoist, h, stiffness, [weight, rate], state.ends.top);
             row[down(0, 1)] = hoist.push(&state.ends.hoist, &mut next, h, row[down(0, 1)], impedance);
             ends.hoist = next;
             ends.hoist_work += hoist.work(&state.ends.hoist, &ends.hoist, h);
@@ -292,11 +303,7 @@ impl StringLine {
                 held(0, [above.torsion.impedance, below.torsion.impedance]),
                 held(1, [above.axial.impedance, below.axial.impedance]),
             ];
-            // The wall moves up past a string that advances.
-            let sliding = ends.hoist.advance;
-            if kinds == 2 {
-                held[1] += (above.axial.impedance + below.axial.impedance) * sliding;
-            } else {
+            if kinds == 1 {
                 held[1] = 0.0;
             }
             let motion = match above.friction {
@@ -316,8 +323,7 @@ impl StringLine {
                 ends.powers[1] += drag * motion.speeds[kind] * motion.speeds[kind];
                 ends.drag[kind] += motion.friction[kind];
             }
-            let speeds = [motion.speeds[0], motion.speeds[1] - sliding];
-            for (kind, speed) in speeds.into_iter().enumerate().take(kinds) {
+            for (kind, speed) in motion.speeds.into_iter().enumerate().take(kinds) {
                 // What leaves here downwards is the speed less what comes up, and the other way round.
                 let (f, g) = (row[up(k, kind)], row[down(k + 1, kind)]);
                 row[up(k, kind)] = speed - f;
@@ -331,7 +337,7 @@ impl StringLine {
             torsion: [pieces[last].torsion.impedance, row[up(last, 0)]],
             axial: description
                 .hoist
-                .map(|_| [pieces[last].axial.impedance, row[up(last, 1)]]),
+                .map(|_| in_frame(pieces[last].axial.impedance, row[up(last, 1)], ends.hoist.advance)),
             drive_turns: 0.5 * h * (state.ends.drive.speed + ends.drive.speed),
             drive_torque: ends.drive.torque,
             advance: ends.hoist.advance,
@@ -339,9 +345,17 @@ impl StringLine {
         }
     }
 
-    /// Takes the step: the tool's top has turned at `speed` (rad/s) and moved at `velocity` (m/s) at its end.
-    pub fn accept(&mut self, speed: f64, velocity: f64) {
+    /// Takes the step: at its end the tool's top turns at `speed` (rad/s), and its displacement (m) and speed (m/s) along the
+    /// hole are `top` in the frame that advances.
+    pub fn accept(&mut self, speed: f64, top: [f64; 2]) {
         let last = self.description.pieces.len() - 1;
+        let velocity = top[1] + self.ends.hoist.advance;
+        let axial = self
+            .description
+            .hoist
+            .map(|_| self.description.pieces[last].axial.impedance);
+        self.ends.top = top;
+        self.ends.force_on_tool = axial.map_or(0.0, |impedance| impedance * (2.0 * self.row[up(last, 1)] - velocity));
         for (kind, motion) in [speed, velocity].into_iter().enumerate() {
             let place = up(last, kind);
             self.row[place] = motion - self.row[place];
@@ -353,7 +367,7 @@ impl StringLine {
         self.state.stuck.copy_from_slice(&self.stuck);
     }
 
-    /// The string's end as it is now, while the tool's top moves with these speeds (rad/s, m/s).
+    /// The string's end as it is now, while the tool's top moves with these speeds (rad/s; m/s in the frame that advances).
     pub fn present(&self, speed: f64, velocity: f64) -> StringStep {
         let pieces = &self.description.pieces;
         let last = pieces.len() - 1;
@@ -361,7 +375,10 @@ impl StringLine {
         let ends = &self.state.ends;
         StringStep {
             torsion: [pieces[last].torsion.impedance, speed - row[up(0, 0)]],
-            axial: (self.description.hoist).map(|_| [pieces[last].axial.impedance, velocity - row[up(0, 1)]]),
+            axial: (self.description.hoist).map(|_| {
+                let arriving = velocity + ends.hoist.advance - row[up(0, 1)];
+                in_frame(pieces[last].axial.impedance, arriving, ends.hoist.advance)
+            }),
             drive_turns: 0.0,
             drive_torque: ends.drive.torque,
             advance: ends.hoist.advance,
@@ -429,10 +446,9 @@ impl StringLine {
         self.state.ends.drag
     }
 
-    /// Power of the advance against the wall's friction (W): in the frame that advances, the wall moves up past the string
-    /// and pulls it along. Where the string sticks, this is all the power that friction has.
-    pub fn feed_power(&self) -> f64 {
-        self.state.ends.drag[1] * self.state.ends.hoist.advance
+    /// Axial force on the tool's top now (N), compressing; 0 without a hoist.
+    pub fn force_on_tool(&self) -> f64 {
+        self.state.ends.force_on_tool
     }
 
     /// Load on the hook (N): the string's weight less what is slacked off.

@@ -82,7 +82,7 @@ impl Rotor {
         self.angle += 0.5 * STEP * (speed + self.speed);
         self.load_work += 0.5 * STEP * load * (speed + self.speed);
         self.drive_work += step.drive_turns * 0.5 * (before.torque + step.drive_torque);
-        self.line.accept(self.speed, 0.0);
+        self.line.accept(self.speed, [0.0; 2]);
     }
 
     fn stored(&self) -> f64 {
