@@ -86,13 +86,13 @@ impl fmt::Display for Summary<'_> {
             row(
                 "guide preload",
                 format!(
-                    "{:.2} kN m where the hole bends the guide most, {:.2} % of strain {}",
+                    "{:.2} kN m where the hole bends the guide most; {:.2} % of strain at its outermost fibre {}",
                     preload * 1e-3,
                     100.0 * config.guide_bending_strain(),
                     if tool.guide.closes_slots() {
                         "beyond the slots"
                     } else {
-                        "in a tube without slots"
+                        "on its way through the hole"
                     },
                 ),
             )?;

@@ -89,11 +89,20 @@ impl Config {
             .fold(0.0, f64::max)
     }
 
-    /// Strain at the outer fibre of the guide that lies in the path, where it is bent most. What slots take until they
-    /// close strains nothing; without a curvature at which they close, the tube counts as a plain one.
+    /// Strain of the guide's outermost bent fibre where it is bent most on its way through the hole, which is straight above
+    /// the tool: the guide as made against each section of the well and against a straight hole. A guide without stress in
+    /// the path was made with the curvature of its tightest section. What slots take until they close strains nothing.
     pub fn guide_bending_strain(&self) -> f64 {
-        let taken_by_slots = self.tool.guide.slots_close_at().unwrap_or(0.0);
-        0.5 * self.tool.guide.outer_diameter * (self.guide_bend() - taken_by_slots).max(0.0)
+        let guide = &self.tool.guide;
+        let sections = || self.well.sections.iter().map(|section| section.curvature());
+        let (curvature, phase) = match guide.free_curvature() {
+            Some(free) => (free.curvature, free.phase),
+            None => (sections().fold(0.0, f64::max), 0.0),
+        };
+        let bent = |path: f64| (path - curvature * phase.cos()).hypot(curvature * phase.sin());
+        let most = sections().map(bent).fold(bent(0.0), f64::max);
+        let taken_by_slots = guide.slots_close_at().unwrap_or(0.0);
+        guide.outer_fibre() * (most - taken_by_slots).max(0.0)
     }
 
     /// Bending moment of the guide that lies in the path (N m), where it is bent most; 0 where it is without stress.

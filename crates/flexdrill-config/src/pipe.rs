@@ -16,6 +16,8 @@ const FREE_CURVATURE: Bound = Bound::within(0.0, 2.0);
 /// A curvature of 10 1/m is that of an arc narrower than a hand.
 const SLOTS_CLOSE_AT: Bound = Bound::above(0.0, 10.0);
 const PHASE: Bound = Bound::within(-360.0, 360.0);
+/// A fibre further out than a metre belongs to no guide, even over a small share of its length.
+const OUTER_FIBRE: Bound = Bound::above(0.0, 1.0);
 const DIAMETER_REASON: &str = "given in metres";
 
 /// The links of the flexible pipe, all identical: either uniform (`outer_diameter`, `inner_diameter`) or stepped
@@ -88,6 +90,13 @@ pub struct Guide {
     /// Allowed: above 0, at most 10 1/m
     #[serde(default)]
     pub slots_close_at: SlotsClose,
+    /// Distance (m) from the neutral line of the fibre that bending strains most, over the share of the length that bends:
+    /// strain is this times the change of curvature. Only `flexdrill check` reads it. A plain tube has half of its outer
+    /// diameter, which is the default. Slots that leave two ribs of height h at the neutral line, over the share s of the
+    /// length, have h / (2 s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = OUTER_FIBRE.in_schema())]
+    pub outer_fibre: Option<f64>,
     /// `true` holds every node in all directions, like the outer beam of the paper's Fig. 8. Default false.
     #[serde(default)]
     pub fixed: bool,
@@ -290,6 +299,9 @@ impl Guide {
             "",
             "1 is a plain tube; without any bending stiffness the guide would fold",
         );
+        if let Some(fibre) = self.outer_fibre {
+            c.number("outer_fibre", fibre, OUTER_FIBRE, "m", "given in metres");
+        }
         let phase = self.free_curvature_phase_deg;
         c.number("free_curvature_phase_deg", phase, PHASE, "deg", "one turn");
         match self.free_curvature {
@@ -348,6 +360,11 @@ impl Guide {
             SlotsClose::Never(_) => None,
             SlotsClose::At(curvature) => Some(curvature),
         }
+    }
+
+    /// Distance of the outermost bent fibre from the neutral line over the share of the length that bends (m).
+    pub(super) fn outer_fibre(&self) -> f64 {
+        self.outer_fibre.unwrap_or(0.5 * self.outer_diameter)
     }
 
     /// Whether the slots close at some curvature.

@@ -160,7 +160,7 @@ impl Config {
 
     fn warn_of_yield(&self, warnings: &mut Vec<String>) {
         let strain = self.guide_bending_strain();
-        if strain <= YIELD_STRAIN {
+        if strain <= YIELD_STRAIN || self.tool.guide.fixed {
             return;
         }
         if let Some(close_at) = self.tool.guide.slots_close_at() {
@@ -170,12 +170,22 @@ impl Config {
                 100.0 * YIELD_STRAIN,
             ));
         } else {
+            let guide = &self.tool.guide;
+            let (made, cure) = match guide.free_curvature() {
+                Some(free) => (
+                    format!("made with {:.4} 1/m", free.curvature),
+                    "a curvature between that of the arc and a straight hole (tool.guide.free_curvature)",
+                ),
+                None => (
+                    "that was made with the curvature of the arc".to_owned(),
+                    "tool.guide.free_curvature as it was really made",
+                ),
+            };
             warnings.push(format!(
-                "tool.guide.free_curvature: bent into the hole, a plain tube of {} m is strained by {:.2} %, beyond the {:.2} % at which S-135 drill pipe yields: it would keep the bend or break; only slots that take the bend prevent this (tool.guide.bending_factor {})",
-                self.tool.guide.outer_diameter,
+                "tool.guide: on its way through the straight hole and the arc, a guide {made} is strained by {:.2} % at its outermost bent fibre, {} m from the neutral line, beyond the {:.2} % at which S-135 drill pipe yields: it would keep the bend or break; give {cure}, and for a slotted guide the ribs between its slots (tool.guide.outer_fibre)",
                 100.0 * strain,
+                guide.outer_fibre(),
                 100.0 * YIELD_STRAIN,
-                self.tool.guide.bending_factor
             ));
         }
     }

@@ -44,13 +44,13 @@ fn motion(tool: &ToolDescription, steps: u64) -> u64 {
 fn regress_the_papers_tool_keeps_its_bits() {
     assert_eq!(
         format!("{:016x}", motion(&ToolDescription::paper(), 1000)),
-        "93be25430c60d4e8"
+        "8a5ac2ed71044d96"
     );
 }
 
 #[test]
 fn regress_a_hinged_tool_keeps_its_bits() {
-    assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "7d608f2ebea31345");
+    assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "24b7598a48af9b6b");
 }
 
 #[test]
@@ -58,5 +58,5 @@ fn regress_a_tied_tool_keeps_its_bits() {
     let tied = ToolDescription::paper().with_mesh(33, 2).with(|tool| {
         tool.wob_path = WobPath::Shared;
     });
-    assert_eq!(format!("{:016x}", motion(&tied, 500)), "e04d1b3c47acfdde");
+    assert_eq!(format!("{:016x}", motion(&tied, 500)), "3cf3f3bad336b7cb");
 }

@@ -1,5 +1,7 @@
 //! The energy audit's point over the chain: elements and friction; the rest is shared with the whole tool.
 
+use nalgebra::Vector3;
+
 use super::Chain;
 use super::columns::{EndColumn, TENSION, around, at_ends, ends, load, product, store};
 use super::contacts::{OnSpan, at_radius, plus_rows};
@@ -286,6 +288,23 @@ impl Kernel for SpanEnergies<'_> {
 }
 
 impl Chain {
+    /// Sum of the forces by which the spans' tensions act on their tilt against the hole, in the world (N).
+    pub(crate) fn turned_with_the_tool(&self, model: &Model, energy: &EnergyPoint) -> Vector3<f64> {
+        let forces = energy
+            .spans
+            .iter()
+            .enumerate()
+            .map(|(l, span)| match self.stretches.get(l) {
+                None => span.geometric,
+                // The energy of a span that shortens has its tension, the list of geometric forces none.
+                Some(stretch) => {
+                    let slopes = &self.geometric_forces[l][0];
+                    [slopes.map(|slope| stretch.across() * slope), span.geometric[1]]
+                }
+            });
+        self.sum_of_spans(model, forces)
+    }
+
     /// Work of the spans over a step of displacements `moved`, from `before` to `after`.
     pub(crate) fn span_works(&self, moved: &[f64], before: &[SpanForces], after: &[SpanForces]) -> SpanWorks {
         self.model.instructions.run(MeanSpanWorks { moved, before, after })

@@ -179,6 +179,8 @@ pub(super) fn pressure_forces(
         }
     }
     out[pipe_end] += pressure.on_end;
-    out[guide_end] -= pressure.on_end;
+    for (k, force) in model.pressure_on_guide().into_iter().enumerate() {
+        out[guide_end + k] += force;
+    }
     out
 }

@@ -149,21 +149,33 @@ impl Chain {
         values: &[f64],
         spans: impl Iterator<Item = &'a EndForces>,
     ) -> Vector3<f64> {
-        let of = |values: &[f64], first: usize| Vector3::new(values[first], values[first + 1], values[first + 2]);
-        let on_node = |k: usize, pipe: Vector3<f64>, guide: Vector3<f64>| {
-            let station = &model.stations[self.model.nodes.first(k)];
-            station.frame * (station.pipe_to_station * pipe + guide)
-        };
         let mut sum = Vector3::zeros();
         for k in 0..self.model.nodes.list.len() {
-            sum += on_node(k, of(values, NODE * k + U), of(values, NODE * k + GUIDE));
+            sum += self.on_node(
+                model,
+                k,
+                first_three(values, NODE * k + U),
+                first_three(values, NODE * k + GUIDE),
+            );
         }
+        sum + self.sum_of_spans(model, spans.copied())
+    }
+
+    /// Sum in the world of the forces on the ends of all `spans`.
+    pub(super) fn sum_of_spans(&self, model: &Model, spans: impl Iterator<Item = EndForces>) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
         for (l, [pipe, guide]) in spans.enumerate() {
-            sum += on_node(l, of(pipe, 0), of(guide, 0));
+            sum += self.on_node(model, l, first_three(&pipe, 0), first_three(&guide, 0));
             // The pipe's rotations come before its displacements at the bottom end.
-            sum += on_node(l + 1, of(pipe, 8 + U), of(guide, 8));
+            sum += self.on_node(model, l + 1, first_three(&pipe, 8 + U), first_three(&guide, 8));
         }
         sum
+    }
+
+    /// Force on node `k` of `pipe` and `guide`, in the world.
+    fn on_node(&self, model: &Model, k: usize, pipe: Vector3<f64>, guide: Vector3<f64>) -> Vector3<f64> {
+        let station = &model.stations[self.model.nodes.first(k)];
+        station.frame * (station.pipe_to_station * pipe + guide)
     }
 
     /// Shows the chain's state in the model's numbering: inner stations as they are slaved, and the force
@@ -225,6 +237,11 @@ impl Chain {
         }
         out
     }
+}
+
+/// Three numbers from place `first` on.
+fn first_three(values: &[f64], first: usize) -> Vector3<f64> {
+    Vector3::new(values[first], values[first + 1], values[first + 2])
 }
 
 struct Show<'a> {

@@ -217,10 +217,20 @@ impl Model {
             }
             let bottom = &self.stations[self.stations.len() - 1];
             forces[bottom.pipe_above] += pressure.on_end;
-            // The seal is in the guide's connector.
-            forces[bottom.guide] -= pressure.on_end;
+            // The seal is in the guide's connector, and pulls it along the pipe's axis.
+            for (k, force) in self.pressure_on_guide().into_iter().enumerate() {
+                forces[bottom.guide + k] += force;
+            }
             self.pressure_forces = forces;
         }
+    }
+
+    /// Force of the pressure on the guide's lower end, along its own axes, per pressure at the tool's top (N/Pa): the reaction
+    /// of that on the pipe's end.
+    pub(crate) fn pressure_on_guide(&self) -> [f64; 3] {
+        let on_pipe = self.pressure.as_ref().map_or(0.0, |pressure| pressure.on_end);
+        let axis = self.stations[self.last()].pipe_to_station.column(0) * -on_pipe;
+        [axis.x, axis.y, axis.z]
     }
 
     /// The guide's elements with a preload, and the first unknowns of their nodes.

@@ -16,6 +16,7 @@ pub(crate) use contacts::{add_mud_forces, inner_forces, mud_motions, outer_force
 pub(crate) use equations::{StationEquations, StationRoom};
 #[cfg(test)]
 pub(crate) use shortening::add_shortening_tangent;
+pub(crate) use shortening::turned_by_shortening;
 #[cfg(test)]
 pub(crate) use slots::add_slots_tangent;
 pub(crate) use slots::slots_energy;

@@ -1,5 +1,7 @@
 //! Shortening of the pipe's elements over all stations.
 
+use nalgebra::Vector3;
+
 use super::assembler::Assembler;
 use super::tangent::add_pipe_element;
 use crate::dynamics::conditions::Conditions;
@@ -24,9 +26,14 @@ struct Stretched {
 
 impl Stretched {
     fn of(model: &Model, e: usize, state: &State, conditions: &Conditions) -> Self {
+        let at_top = model.pressure_at_top(conditions);
+        Self::under(model, e, state, conditions.rayleigh.beta, at_top)
+    }
+
+    /// Damped by `beta` (s), under the pressure `at_top` (Pa).
+    fn under(model: &Model, e: usize, state: &State, beta: f64, at_top: f64) -> Self {
         let pressure = model.pressure.as_ref();
-        let by_pressure = pressure.map_or(0.0, |pressure| pressure.at_top(conditions) * pressure.unstrained[e]);
-        let beta = conditions.rayleigh.beta;
+        let by_pressure = pressure.map_or(0.0, |pressure| at_top * pressure.unstrained[e]);
         let [top, bottom] = nodes(model, e);
         let at = |values: &[f64]| {
             ElementVector::from_fn(|k, _| if k < 6 { values[top + k] } else { values[bottom + k - 6] })
@@ -45,6 +52,23 @@ impl Stretched {
             slopes,
         }
     }
+}
+
+/// Sum of the forces N G q of the pipe's elements in the world (N), under the pressure `at_top` (Pa); zero where they do not
+/// shorten. A tension that acts on the tilt against an arc has a sum.
+pub(crate) fn turned_by_shortening(model: &Model, state: &State, at_top: f64) -> Vector3<f64> {
+    let mut sum = Vector3::zeros();
+    if !model.shortens() {
+        return sum;
+    }
+    for e in 0..model.pipe.len() {
+        let at = Stretched::under(model, e, state, model.description.rayleigh.beta, at_top);
+        let slopes = &at.slopes[0];
+        let (_, _, frame) = model.node_of(model.stations[e + 1].pipe_above);
+        let both = Vector3::from_fn(|k, _| slopes[k] + slopes[6 + k]);
+        sum += frame * both * at.stretch.across();
+    }
+    sum
 }
 
 /// First unknowns of both nodes of the pipe's element `e`.

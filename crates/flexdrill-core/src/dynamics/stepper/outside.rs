@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
+use crate::dynamics::stations::turned_by_shortening;
 use crate::elements::string::StringLine;
 use crate::model::HeldNode;
 
@@ -16,7 +17,8 @@ pub struct OutsideForces {
     pub supports: Vector3<f64>,
     /// Gravity.
     pub weight: Vector3<f64>,
-    /// Of the wall on the guide: normal forces and friction.
+    /// Of the wall on the guide: normal forces and friction, and what they and the supports have along the hole because the
+    /// tool has moved along the arc, see [`Beam::geometric_along`](crate::elements::beam::Beam::geometric_along).
     pub wall: Vector3<f64>,
     /// Of the rock on the bit.
     pub bit: Vector3<f64>,
@@ -102,6 +104,18 @@ impl Stepper {
         self.track.energy.pressure
     }
 
+    /// Sum of the forces by which a tension acts on the tilt against the hole (N, along the axes of the world). A tension
+    /// that acts on the tilt itself has none: this is how far what pushes across the hole turns as the tool moves along it.
+    fn turned_with_the_tool(&self) -> Vector3<f64> {
+        let (model, energy) = (&self.model, &self.track.energy);
+        match &self.chain {
+            Some(chain) => chain.turned_with_the_tool(model, energy),
+            None => {
+                model.sum_in_world(&energy.geometric) + turned_by_shortening(model, &self.track.state, energy.pressure)
+            }
+        }
+    }
+
     /// The sums of all forces on the tool from outside.
     pub fn outside_forces(&self) -> OutsideForces {
         let (model, energy) = (&self.model, &self.track.energy);
@@ -134,7 +148,7 @@ impl Stepper {
                 .sum::<Vector3<f64>>()
                 + top.frame.column(0) * self.string_force().unwrap_or(0.0),
             weight: model.total_weight,
-            wall: wall.sum(),
+            wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
             bit: bottom.frame.column(0) * -energy.weight_on_bit,
             loads: loads.sum(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),
