@@ -777,9 +777,10 @@ def rock(tool, transfer, samples, found_factor, out):
     density = 2500.0
     per = math.pi * radius**2 * density
     scale = max(abs(advance), abs(removed)) * per
-    swing = float(np.std(speed)) / max(abs(float(speed.mean())), 1e-9)
-    limit = per * (0.01 * abs(removed) + swing**2 * abs(removed) + 1e-6)
-    reason = "1 %, the square of the speed's swing, by which depth and speed go together, 1 um/s for waves; 2500 kg/m3"
+    # The mean of a product is that of the means and, at most, the product of both swings; the depth's is the weight's.
+    together = float(np.std(weight)) / (zeta * e * radius) * float(np.std(speed)) / (2 * math.pi)
+    limit = per * (0.01 * abs(removed) + together + 1e-6)
+    reason = "1 %, the swings of depth and speed together, 1 um/s for waves; 2500 kg/m3"
     if advance < 0.0 or t.bit_weight < 1.0:
         # Off bottom the bit may rise or sink without removing rock; rock may not be removed there.
         if t.bit_weight < 1.0:
