@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod balances;
 mod calibration;
 mod earlier;
 mod field_log;
