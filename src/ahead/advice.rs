@@ -1,7 +1,8 @@
 //! The smallest change of speed or weight that ends the alarms that stand, found by looking ahead.
 //!
-//! A change is chosen by members of one set of seeds and confirmed by members of another, which took no part in choosing it:
-//! the count of those that chose it is the best of many. Only the confirming count is given to the driller.
+//! A change is chosen by members of one set of seeds and confirmed by members of another, which took no part in
+//! choosing it: the count of those that chose it is the best of many. Only the confirming count is given to the
+//! driller.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
@@ -16,26 +17,27 @@ use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// Members that choose a change, at most.
 const MEMBERS: u32 = 14;
-/// Most of them, and of those that confirm it, in which an alarm may go on or another may come. With two of the ten that
-/// confirm it, a change that ends the alarms in eight of ten would pass in two searches of three; with one it passes in
-/// three of eight.
+/// Most of them, and of those that confirm it, in which an alarm may go on or another may come. With two of the ten
+/// that confirm it, a change that ends the alarms in eight of ten would pass in two searches of three; with one it
+/// passes in three of eight.
 const MOST_AGAINST: u32 = 1;
-/// Members that choose a change where none of them is against: one that ends the alarms in half of all runs passes in one
-/// search of 256.
+/// Members that choose a change where none of them is against: one that ends the alarms in half of all runs passes in
+/// one search of 256.
 const ALL_FOR: u32 = 8;
-/// Members that confirm a change: a change that works in nineteen runs of twenty is confirmed in nine cases of ten, one that
-/// works in half of them in one case of a hundred.
+/// Members that confirm a change: a change that works in nineteen runs of twenty is confirmed in nine cases of ten, one
+/// that works in half of them in one case of a hundred.
 const CONFIRMING: u32 = 10;
-/// Makes the seeds of the members that confirm a change others than those that chose it. Any number with bits all over does.
+/// Makes the seeds of the members that confirm a change others than those that chose it. Any number with bits all over
+/// does.
 const FRESH: u64 = 0x9e37_79b9_7f4a_7c15;
 /// Changes that are tried, as parts of the present value, the smallest first. A larger raise than the last would be another
 /// drilling programme.
 const LOWER: [f64; 7] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7];
 const RAISE: [f64; 3] = [0.15, 0.3, 0.5];
 
-/// Model time over which a change is judged (s). An alarm must have ended within the first half and must not return in the
-/// second: chaotic whirl that had ended came back within 15 to 21 s in four runs of five (`docs/measurements.md`), and
-/// stick-slip and transfer are judged over windows of 10 s.
+/// Model time over which a change is judged (s). An alarm must have ended within the first half and must not return in
+/// the second: chaotic whirl that had ended came back within 15 to 21 s in four runs of five (`docs/measurements.md`),
+/// and stick-slip and transfer are judged over windows of 10 s.
 const HORIZON: f64 = 40.0;
 
 /// A change to be tried.
@@ -107,7 +109,8 @@ fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
     found
 }
 
-/// The changes that are tried against an alarm from a speed (r/min) and weight (kN): those to points at which it is judged.
+/// The changes that are tried against an alarm from a speed (r/min) and weight (kN): those to points at which it is
+/// judged.
 fn judged_trials(config: &Config, settings: &SimulationSettings, alarm: AlarmId, from: [f64; 2]) -> Vec<Trial> {
     let mut trials = trials(config, &rule(alarm, &config.alarms.advice), from[0], from[1]);
     trials.retain(|trial| is_judged_at(alarm, point(from, trial.change), settings));
@@ -117,8 +120,8 @@ fn judged_trials(config: &Config, settings: &SimulationSettings, alarm: AlarmId,
 /// What one member says of a change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Outcome {
-    /// The alarms that stood at the beginning and that cannot be said to have ended: they stand, the motion still calls for
-    /// them, or they are not judged.
+    /// The alarms that stood at the beginning and that cannot be said to have ended: they stand, the motion still calls
+    /// for them, or they are not judged.
     open: AlarmSet,
     /// Whether another alarm came.
     came: bool,
@@ -211,9 +214,9 @@ impl Runs<'_> {
         }
     }
 
-    /// A member's outcome; `None` where it was stopped. It parts from the others before the change: where a motion can go on
-    /// or end, the way decides which, and one way for all would decide for all. A member that fails is against: what would
-    /// have come is unknown.
+    /// A member's outcome; `None` where it was stopped. It parts from the others before the change: where a motion can
+    /// go on or end, the way decides which, and one way for all would decide for all. A member that fails is against:
+    /// what would have come is unknown.
     fn member(&self, trial: &Trial, seed: u64, number: usize, member: u32) -> Option<Outcome> {
         let config = self.start.config();
         let Leading { alarm, standing, .. } = self.leading;
@@ -228,7 +231,8 @@ impl Runs<'_> {
         let judged = Watched::new(run, config, self.stop)
             .run_up(&target, MOST_RUN_UP)
             .and_then(|(there, _)| {
-                // Without the end of the leading alarm no goal is reached, and the rest of the member says nothing more.
+                // Without the end of the leading alarm no goal is reached, and the rest of the member says nothing
+                // more.
                 let is_out = |alarms: &[Called]| {
                     let outcome = self.outcome(alarms);
                     outcome.came || outcome.open.contains(alarm)
@@ -267,8 +271,8 @@ struct Search<M> {
 }
 
 impl<M: Fn(&Trial, u64, usize, u32) -> Option<Outcome> + Sync> Search<M> {
-    /// Runs members of `numbers` that are missing, until so many are against that the change is out for `goal`; the others
-    /// need not run then, whichever they are.
+    /// Runs members of `numbers` that are missing, until so many are against that the change is out for `goal`; the
+    /// others need not run then, whichever they are.
     fn run_members(
         &self,
         tried: &Tried,
@@ -313,8 +317,8 @@ impl<M: Fn(&Trial, u64, usize, u32) -> Option<Outcome> + Sync> Search<M> {
         Ok(false)
     }
 
-    /// Confirms a change by members that took no part in choosing it. What it was not chosen for and ends in all of them but
-    /// one is among what it ends.
+    /// Confirms a change by members that took no part in choosing it. What it was not chosen for and ends in all of
+    /// them but one is among what it ends.
     fn confirmed(&self, tried: &Tried, goal: AlarmSet) -> Result<Option<Tested>, Stopped> {
         let numbers: Vec<u32> = (0..CONFIRMING).collect();
         let members = self.run_members(tried, self.seed ^ FRESH, goal, &numbers, 0)?;
@@ -342,8 +346,8 @@ impl<M: Fn(&Trial, u64, usize, u32) -> Option<Outcome> + Sync> Search<M> {
         }))
     }
 
-    /// What a change is to end, in the order in which that is searched for: all alarms that stand; those of them that some
-    /// change may end; the leading one alone.
+    /// What a change is to end, in the order in which that is searched for: all alarms that stand; those of them that
+    /// some change may end; the leading one alone.
     fn goals(&self, tried: &[Tried]) -> Vec<AlarmSet> {
         let Leading { alarm, standing, .. } = self.leading;
         // Only members that were judged to their end have the other alarms.
@@ -360,8 +364,8 @@ impl<M: Fn(&Trial, u64, usize, u32) -> Option<Outcome> + Sync> Search<M> {
         goals
     }
 
-    /// First every trial has one member, in order, and one that this member does not speak against is chosen and confirmed
-    /// at once. The others come after all of these, and then those that leave some of the alarms.
+    /// First every trial has one member, in order, and one that this member does not speak against is chosen and
+    /// confirmed at once. The others come after all of these, and then those that leave some of the alarms.
     fn run(&self, trials: &[Trial]) -> Result<Option<Tested>, Stopped> {
         let standing = self.leading.standing;
         let mut tried: Vec<Tried> = (0..)
@@ -410,10 +414,10 @@ impl<M: Fn(&Trial, u64, usize, u32) -> Option<Outcome> + Sync> Search<M> {
     }
 }
 
-/// The smallest change that ends the alarms that stand, from `start`; where none of those tried does, one that ends the leading
-/// alarm, with those that stay; `None` where none of those tried does that either, or `stop` was set. A change to a point at
-/// which the leading alarm is not judged is not tried: it would silence the alarm. The same start and seed give the same
-/// answer, with any number of threads.
+/// The smallest change that ends the alarms that stand, from `start`; where none of those tried does, one that ends the
+/// leading alarm, with those that stay; `None` where none of those tried does that either, or `stop` was set. A change
+/// to a point at which the leading alarm is not judged is not tried: it would silence the alarm. The same start and
+/// seed give the same answer, with any number of threads.
 pub fn search(start: &Start, leading: &Leading, seed: u64, threads: usize, stop: &AtomicBool) -> Option<Tested> {
     let inputs = start.applied().inputs;
     let from = [rad_per_s_to_rpm(inputs.rotary_speed), n_to_kn(inputs.weight_on_bit)];
@@ -540,8 +544,8 @@ mod tests {
         Outcome { open: set(ids), ..DONE }
     }
 
-    /// What a search finds where members say what `member` does, by trial, number, and whether they confirm; with one thread
-    /// and with five.
+    /// What a search finds where members say what `member` does, by trial, number, and whether they confirm; with one
+    /// thread and with five.
     fn found(standing: &[AlarmId], member: impl Fn(&Trial, u32, bool) -> Outcome + Sync) -> Option<Tested> {
         let from = [120.0, 10.0];
         let trials = trials(&config(), &Advice::default(), from[0], from[1]);

@@ -1,9 +1,9 @@
 //! The motion of a member by itself: at which points an alarm is judged at all, and what the motion is there.
 //!
-//! Near standstill and at little weight the analysis judges nothing: its ratios mean nothing there (`stick_slip.gate_speed_rpm`,
-//! `whirl.gate_speed_rpm`, `transfer.least_weight`). An alarm that does not stand at such a point has not ended. So that a
-//! change is not called a cure because it silences the alarm, the figures that the alarms are judged by are formed here again
-//! without gates, delays and hold-offs.
+//! Near standstill and at little weight the analysis judges nothing: its ratios mean nothing there
+//! (`stick_slip.gate_speed_rpm`, `whirl.gate_speed_rpm`, `transfer.least_weight`). An alarm that does not stand at such
+//! a point has not ended. So that a change is not called a cure because it silences the alarm, the figures that the
+//! alarms are judged by are formed here again without gates, delays and hold-offs.
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -17,11 +17,11 @@ use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{SimulationSettings, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
-/// Part by which speed and weight must be above a gate: those of a rig fluctuate by some percent, and an alarm that is judged
-/// now and then ends between.
+/// Part by which speed and weight must be above a gate: those of a rig fluctuate by some percent, and an alarm that is
+/// judged now and then ends between.
 const MARGIN: f64 = 0.05;
-/// Least part of the drive's speed that the swing of the bit's speed is divided by, as in the analysis: a bit that stands
-/// would yield zero over zero.
+/// Least part of the drive's speed that the swing of the bit's speed is divided by, as in the analysis: a bit that
+/// stands would yield zero over zero.
 const STUCK: f64 = 0.1;
 /// Speed (rad/s) that a whirl rate is divided by at least, so that a whirl of a tool that stands counts as many cycles.
 const SLOWEST: f64 = 1e-3;
@@ -73,7 +73,8 @@ impl Mean {
     }
 }
 
-/// Speeds of the bit between two looks (rad/s): joints and torsional waves ripple faster than ten looks a second can show.
+/// Speeds of the bit between two looks (rad/s): joints and torsional waves ripple faster than ten looks a second can
+/// show.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Speeds {
     least: f64,
@@ -126,8 +127,8 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Nothing yet, at a speed (r/min) and weight (kN) that are held, with looks `interval` (s) apart. A string of more than
-    /// 4000 m has a longer window of stick-slip than its settings; its slower swing is seen in a part of it.
+    /// Nothing yet, at a speed (r/min) and weight (kN) that are held, with looks `interval` (s) apart. A string of more
+    /// than 4000 m has a longer window of stick-slip than its settings; its slower swing is seen in a part of it.
     pub(super) fn new(settings: SimulationSettings, at: [f64; 2], interval: f64) -> Self {
         Self {
             settings,
@@ -233,7 +234,8 @@ impl Measured {
             }
     }
 
-    /// Whether the motion itself calls for an alarm, by the levels from which that alarm stands at this speed and weight.
+    /// Whether the motion itself calls for an alarm, by the levels from which that alarm stands at this speed and
+    /// weight.
     pub(super) fn calls(&self, id: AlarmId, config: &Config) -> bool {
         let Some(kind) = hazard(id) else { return false };
         let lost = |means: &[Mean; 2], thresholds: &AlarmThresholds| {
@@ -310,8 +312,8 @@ impl Measured {
         reached
     }
 
-    /// The level of the impulses of collisions, by their number in a span. Of those between two looks the largest counts, so
-    /// that there may be more.
+    /// The level of the impulses of collisions, by their number in a span. Of those between two looks the largest
+    /// counts, so that there may be more.
     fn shock(&mut self, snapshot: &Snapshot) -> Severity {
         let ShockSettings {
             thresholds,
@@ -500,7 +502,8 @@ mod tests {
         assert_eq!(calls(&swings), [AlarmId::StickSlip]);
         let stuck = measured([60.0, 10.0], |_, snapshot| snapshot.bit.rotary_speed = 0.0);
         assert_eq!(calls(&stuck), [AlarmId::StickSlip]);
-        // Against the sense of the rotation, at four times its rate: below the gate the report has no ratio and no cycles.
+        // Against the sense of the rotation, at four times its rate: below the gate the report has no ratio and no
+        // cycles.
         let whirls = |kind, rate: f64, power: f64| {
             move |_: f64, snapshot: &mut Snapshot| {
                 let report = &mut snapshot.whirl;
@@ -573,8 +576,8 @@ mod tests {
         assert_eq!((judged(&none), calls(&none)), ([false; 2], vec![]));
     }
 
-    /// The real tool sticks and slips at 20 r/min and 40 kN. At 10 r/min its alarm ends, since it is not judged below 11 r/min,
-    /// and the bit goes on swinging.
+    /// The real tool sticks and slips at 20 r/min and 40 kN. At 10 r/min its alarm ends, since it is not judged below
+    /// 11 r/min, and the bit goes on swinging.
     #[test]
     fn less_speed_than_the_gate_ends_the_alarm_and_not_the_motion() {
         let config = Config::from_text("coarse.yaml", include_str!("../../config/coarse.yaml"))

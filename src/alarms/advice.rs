@@ -105,7 +105,8 @@ pub struct Tested {
     pub change: Change,
     /// Runs in which all of `ends` ended and no other alarm came, of those that took no part in choosing the change.
     pub ended: u32,
-    /// Runs that took no part in choosing the change: the count of those that chose it is the best of many, and too good.
+    /// Runs that took no part in choosing the change: the count of those that chose it is the best of many, and too
+    /// good.
     pub of: u32,
 }
 

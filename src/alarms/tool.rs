@@ -101,8 +101,8 @@ fn called(kind: HazardKind, severity: Severity, now: &Operating, config: &Config
         .filter(|priority| *priority >= AlarmId::of_hazard(kind).lowest() && (*priority > Priority::Low || of_rule()))
 }
 
-/// The priority with which a level would raise its alarm at a speed (r/min) and weight (kN); none where it is a displayed
-/// state there.
+/// The priority with which a level would raise its alarm at a speed (r/min) and weight (kN); none where it is a
+/// displayed state there.
 pub(crate) fn called_at(
     kind: HazardKind,
     severity: Severity,

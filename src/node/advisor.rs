@@ -15,11 +15,11 @@ use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 const SETTLED: Duration = Duration::from_secs(2);
 /// Part of a speed or weight by which it may change while it counts as the same.
 const SAME: f64 = 0.02;
-/// Part of a coefficient of friction by which it may change: a torque follows it by as much, and a torque gauge shows no
-/// less.
+/// Part of a coefficient of friction by which it may change: a torque follows it by as much, and a torque gauge shows
+/// no less.
 const SAME_FRICTION: f64 = 0.05;
-/// Part of a rate of penetration and of a pressure by which they may change, and changes (m/s, Pa) that are none: a block
-/// moves in jerks, and a pump's strokes ripple the pressure.
+/// Part of a rate of penetration and of a pressure by which they may change, and changes (m/s, Pa) that are none: a
+/// block moves in jerks, and a pump's strokes ripple the pressure.
 const SAME_FEED: f64 = 0.1;
 const LEAST_FEED: f64 = 1.0 / 3600.0;
 const LEAST_PRESSURE: f64 = 0.2e6;
@@ -70,7 +70,8 @@ impl InForce {
     }
 }
 
-/// What acts on the tool while an alarm stands, and what its motion is judged by. Advice holds for as long as that stays.
+/// What acts on the tool while an alarm stands, and what its motion is judged by. Advice holds for as long as that
+/// stays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Acting {
     /// Speed (r/min) and weight (kN) that are asked for, after their slew limits.
@@ -123,8 +124,8 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Whether it is for these alarms or for more: one that ends meanwhile does not end the search, and one that returns
-    /// was searched for.
+    /// Whether it is for these alarms or for more: one that ends meanwhile does not end the search, and one that
+    /// returns was searched for.
     fn covers(&self, leading: &Leading) -> bool {
         let Leading { standing, shelved, .. } = self.leading;
         self.leading.alarm == leading.alarm
@@ -157,8 +158,8 @@ impl Advisor {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes the alarm that leads, with those that stand, and what acts. Returns what was found for it. A search for anything
-    /// else stops.
+    /// Takes the alarm that leads, with those that stand, and what acts. Returns what was found for it. A search for
+    /// anything else stops.
     pub fn follow(&self, leading: Option<Leading>, acting: &Acting) -> Option<Tested> {
         let mut exchange = self.lock();
         let Some(leading) = leading else {

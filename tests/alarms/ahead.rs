@@ -258,8 +258,8 @@ fn goals_out_of_bounds_are_refused_with_the_bound() {
 const FOLLOWED: f64 = 40.0;
 const ENDED: f64 = 20.0;
 
-/// Whether the motion that an alarm is about is there in the looks of a run, ten a second, by figures of this file: what the
-/// alarms and the search say of it does not count.
+/// Whether the motion that an alarm is about is there in the looks of a run, ten a second, by figures of this file:
+/// what the alarms and the search say of it does not count.
 fn goes_on(alarm: AlarmId, looks: &[(Snapshot, Vec<f64>)]) -> bool {
     let share = |is_there: &dyn Fn(&Snapshot) -> bool| {
         looks.iter().filter(|(look, _)| is_there(look)).count() as f64 / looks.len() as f64
@@ -299,9 +299,9 @@ fn goes_on(alarm: AlarmId, looks: &[(Snapshot, Vec<f64>)]) -> bool {
     }
 }
 
-/// Follows what look-aheads advise from the state of a run, in runs that differ from those of the search; how often all the
-/// alarms that it is to end had ended and stayed away over 40 s, by the alarms and by the motion, and no other came. `None`
-/// where they find no change.
+/// Follows what look-aheads advise from the state of a run, in runs that differ from those of the search; how often all
+/// the alarms that it is to end had ended and stayed away over 40 s, by the alarms and by the motion, and no other
+/// came. `None` where they find no change.
 fn followed(
     friction: f64,
     [rpm, kn]: [f64; 2],

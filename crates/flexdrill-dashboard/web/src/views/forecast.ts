@@ -14,8 +14,8 @@ import { percent } from "./transfer";
 /** Length of a forecast without bands (s): that of one whose runs all failed. */
 const LENGTH = 60;
 /**
- * Parts of an input's range and of its value by which it may change while a forecast at it holds: those within which the
- * twin compares its forecasts with what comes (SAME_OF_RANGE and SAME in src/ahead/held.rs).
+ * Parts of an input's range and of its value by which it may change while a forecast at it holds: those within which
+ * the twin compares its forecasts with what comes (SAME_OF_RANGE and SAME in src/ahead/held.rs).
  */
 const SAME_OF_RANGE = 0.025;
 const SAME = 0.05;
@@ -93,8 +93,8 @@ export interface Expected extends AlarmChance {
 
 /**
  * Each alarm once, at the highest priority that a run saw: a driller acts by the priority, so that a lower one must not
- * stand in its place. A chance is that of its priority or a higher one, and the lowest has the most runs. The highest come
- * first, then the likeliest.
+ * stand in its place. A chance is that of its priority or a higher one, and the lowest has the most runs. The highest
+ * come first, then the likeliest.
  */
 export function alarms(all: readonly AlarmChance[]): Expected[] {
   const highest = new Map<string, AlarmChance>();
@@ -148,8 +148,8 @@ function point(of: { rotary_speed: number; weight_on_bit: number }, units: Syste
 }
 
 /**
- * Why a forecast is not one of the next minute at the present speed and weight, with what it was made for; null where it
- * is.
+ * Why a forecast is not one of the next minute at the present speed and weight, with what it was made for; null where
+ * it is.
  */
 export function withdrawn(forecast: Forecast, present: Present, units: System): string | null {
   const { applied } = present;
