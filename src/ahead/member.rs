@@ -3,12 +3,14 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::measured::Measured;
 use super::trace::Trace;
 use crate::alarms::{AlarmBook, AlarmId};
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
+use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{QualityLevel, Run, RunInputs, Snapshot};
 use flexdrill_core::units::rad_per_s_to_rpm;
 
@@ -18,7 +20,7 @@ use flexdrill_core::units::rad_per_s_to_rpm;
 pub const DISTURBANCE: f64 = 1e-5;
 
 /// Time between two looks at a run (s): as often as alarms are observed in the node.
-const LOOK: f64 = 0.1;
+pub(super) const LOOK: f64 = 0.1;
 
 /// A figure of a member over its horizon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,6 +92,8 @@ pub(super) struct Member {
     pub quality: QualityLevel,
     /// Its seconds; none unless it was traced.
     pub trace: Trace,
+    /// Its motion in the second half of the horizon, unless it ended early; none unless it was measured.
+    pub measured: Option<Measured>,
 }
 
 /// Why a member ended early.
@@ -114,6 +118,7 @@ pub(super) struct Watched<'a> {
     /// Periods per look.
     periods: u64,
     trace: Option<Trace>,
+    measured: Option<Measured>,
 }
 
 impl<'a> Watched<'a> {
@@ -131,12 +136,19 @@ impl<'a> Watched<'a> {
             period,
             periods,
             trace: None,
+            measured: None,
         }
     }
 
     /// Keeps the figures of every second.
     pub(super) fn traced(mut self) -> Self {
         self.trace = Some(Trace::default());
+        self
+    }
+
+    /// Measures the motion in the second half of the horizon.
+    pub(super) fn measured(mut self, measured: Measured) -> Self {
+        self.measured = Some(measured);
         self
     }
 
@@ -151,6 +163,11 @@ impl<'a> Watched<'a> {
             for _ in 0..self.period {
                 if let StepOutcome::Failed(failure) = self.run.advance() {
                     return Err(Ended::Failed(failure));
+                }
+                if let Some(measured) = &mut self.measured {
+                    let simulation = self.run.simulation();
+                    let speed = simulation.velocity(simulation.last_station(), Body::Pipe, Direction::Psi);
+                    measured.step(speed.unwrap_or(f64::NAN));
                 }
             }
         }
@@ -213,6 +230,11 @@ impl<'a> Watched<'a> {
                     *stood = false;
                 }
             }
+            match &mut self.measured {
+                Some(measured) if lasts => measured.look(snapshot),
+                Some(measured) => measured.skip(),
+                None => {}
+            }
             tally.add(snapshot);
             if let Some(trace) = &mut self.trace {
                 let time = self.run.ticks() as f64 * self.config.solver.time_step;
@@ -231,6 +253,7 @@ impl<'a> Watched<'a> {
             figures,
             quality,
             trace: self.trace.unwrap_or_default(),
+            measured: self.measured,
         })
     }
 }

@@ -4,9 +4,10 @@
 //! - [`Goal`]: candidates, horizon, members; checked against the configuration before anything runs.
 //! - [`Start`]: the state from which all members begin.
 //! - `member`: one run of one candidate, judged by the alarms that the node itself uses.
+//! - `measured`: the motion of a member without the gates of the alarms.
 //! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
 //! - [`look_ahead`]: runs the members on some threads and gathers an [`Answer`].
-//! - [`search`]: the smallest change of speed or weight that ends an alarm.
+//! - [`search`]: the smallest change of speed or weight that ends the alarms that stand.
 //! - [`forecast`]: the next minute at the present speed and weight, second by second. [`Held`] compares it with what came.
 //!
 //! # Choices
@@ -24,6 +25,7 @@ mod engine;
 mod forecast;
 mod goal;
 mod held;
+mod measured;
 mod member;
 mod trace;
 

@@ -9,6 +9,7 @@ use std::fmt;
 
 use super::catalogue::AlarmId;
 use super::sentence::{capitalized, number};
+use super::set::AlarmSet;
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Advice, InputsConfig};
 use flexdrill_core::twin::Applied;
@@ -78,18 +79,34 @@ pub struct Change {
     pub to: f64,
 }
 
+/// The alarm of the tool's motion that leads, with those that stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Leading {
+    /// The alarm that leads.
+    pub alarm: AlarmId,
+    /// All that stand and are not shelved, `alarm` among them.
+    pub standing: AlarmSet,
+    /// Those that stand and that an operator has put aside.
+    pub shelved: AlarmSet,
+}
+
 /// A change that look-aheads have tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tested {
-    /// The alarm that it ends.
+    /// The alarm that led.
     pub alarm: AlarmId,
+    /// The standing alarms that it ends, `alarm` among them.
+    pub ends: AlarmSet,
+    /// The standing alarms that it does not end.
+    pub stays: AlarmSet,
     /// Speed (r/min) and weight (kN) from which it was tried.
     pub from: [f64; 2],
     /// What to set.
     pub change: Change,
-    /// Look-aheads in which it ended the alarm, and raised none.
+    /// Runs in which all of `ends` ended and no other alarm came, of those that took no part in choosing the change.
     pub ended: u32,
-    /// Look-aheads.
+    /// Runs that took no part in choosing the change: the count of those that chose it is the best of many, and too
+    /// good.
     pub of: u32,
 }
 
@@ -110,15 +127,25 @@ impl fmt::Display for Tested {
             Quantity::Weight => (self.from[1], "kN"),
         };
         let verb = if to > from { "Raise" } else { "Lower" };
+        let what = match (self.ends.len(), self.stays.is_empty()) {
+            (..=1, true) => "the alarm".to_owned(),
+            (_, true) => format!("all {} alarms", self.ends.len()),
+            (_, false) => self.ends.to_string(),
+        };
         write!(
             f,
-            "{verb} the {} to {to} {unit} ({from:.0} {unit} now) and keep the {}: this ended the alarm in {} of {} \
-             look-aheads.",
+            "{verb} the {} to {to} {unit} ({from:.0} {unit} now) and keep the {}: this ended {what} in {} of {} runs that \
+             took no part in choosing it.",
             quantity.name(),
             quantity.other().name(),
             self.ended,
             self.of
-        )
+        )?;
+        match self.stays.len() {
+            0 => Ok(()),
+            1 => write!(f, " It does not end {}, which stays.", self.stays),
+            _ => write!(f, " It does not end {}, which stay.", self.stays),
+        }
     }
 }
 
@@ -342,11 +369,21 @@ fn sentence(
         Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
             (Lead::Stop, _) => capitalized(STOP) + ".",
             (Lead::Own(action), _) => action.to_owned(),
-            (Lead::Tested(tested), Priority::High) => format!("{} If it persists, {STOP}.", tested),
+            (Lead::Tested(tested), Priority::High) => {
+                let what = if tested.stays.is_empty() { "it" } else { leading.id.name() };
+                format!("{tested} If {what} persists, {STOP}.")
+            }
             (Lead::Tested(tested), _) => tested.to_string(),
             (Lead::Step(step), Priority::High) => format!("{} If it persists, {STOP}.{rule}", step.sentence(now)),
             (Lead::Step(step), _) => step.sentence(now) + rule,
         },
+        Some((leading, Lead::Tested(tested))) if tested.ends.contains(demand.id) => {
+            format!("The change advised for {} covers this alarm too.", leading.id.name())
+        }
+        Some((leading, Lead::Tested(tested))) if tested.stays.contains(demand.id) => format!(
+            "The change advised for {} does not end this alarm: make that change first, then check this alarm again.",
+            leading.id.name()
+        ),
         Some((leading, Lead::Step(step)))
             if Step::of(&demand.rule).any(|own| own.applies(now, inputs, true) && step.serves(&own)) =>
         {
@@ -488,5 +525,59 @@ mod tests {
                 "Follow the advice for lateral shock first, then check this alarm again."
             ]
         );
+    }
+
+    #[test]
+    fn a_tested_change_says_which_alarms_it_ends_and_which_stay() {
+        let set = |ids: &[AlarmId]| ids.iter().copied().collect::<AlarmSet>();
+        let tested = Tested {
+            alarm: AlarmId::BackwardWhirl,
+            ends: set(&[AlarmId::BackwardWhirl, AlarmId::StickSlip]),
+            stays: set(&[AlarmId::ChaoticWhirl]),
+            from: [120.0, 10.0],
+            change: Change {
+                quantity: Quantity::Speed,
+                to: 84.0,
+            },
+            ended: 9,
+            of: 10,
+        };
+        let demands = [
+            demand(AlarmId::BackwardWhirl, HIGH, Advice::default()),
+            demand(AlarmId::StickSlip, MEDIUM, LESS),
+            demand(AlarmId::ChaoticWhirl, MEDIUM, Advice::default()),
+            demand(AlarmId::Shock, MEDIUM, Advice::default()),
+        ];
+        let now = Operating { rpm: 120.0, kn: 10.0 };
+        let texts = |tested| {
+            let ahead = Ahead {
+                is_on: true,
+                tested: Some(tested),
+            };
+            what_to_do(&demands, &now, &InputsConfig::default(), &ahead)
+        };
+        assert_eq!(
+            texts(tested),
+            [
+                "Lower the speed to 84 r/min (120 r/min now) and keep the weight on bit: this ended backward whirl and \
+                 stick-slip in 9 of 10 runs that took no part in choosing it. It does not end chaotic whirl, which stays. If \
+                 backward whirl persists, pick up off bottom and stop the drive.",
+                "The change advised for backward whirl covers this alarm too.",
+                "The change advised for backward whirl does not end this alarm: make that change first, then check this \
+                 alarm again.",
+                "Follow the advice for backward whirl first, then check this alarm again."
+            ]
+        );
+        let alone = Tested {
+            ends: set(&[AlarmId::BackwardWhirl]),
+            stays: AlarmSet::EMPTY,
+            ..tested
+        };
+        assert!(texts(alone)[0].contains("this ended the alarm in 9 of 10 runs that took no part in choosing it. If"));
+        let two = Tested {
+            stays: set(&[AlarmId::Shock, AlarmId::ChaoticWhirl]),
+            ..tested
+        };
+        assert!(texts(two)[0].contains("It does not end lateral shock and chaotic whirl, which stay."));
     }
 }

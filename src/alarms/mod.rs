@@ -9,7 +9,7 @@
 //!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes;
 //!   `adjusted`: what followed from it.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
-//!   of sentences.
+//!   of sentences. `set`: sets of alarms.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
 //!
 //! `docs/alarms.md` is for operators.
@@ -23,18 +23,21 @@ mod node;
 mod request;
 mod rig;
 mod sentence;
+mod set;
 pub mod state_file;
 mod tool;
 mod window;
 mod worst_moment;
 
-pub use advice::{Change, Quantity, Tested};
+pub use advice::{Change, Leading, Quantity, Tested};
 pub use catalogue::AlarmId;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};
 pub use request::Request;
 pub use rig::in_words;
+pub use set::AlarmSet;
+pub(crate) use tool::called_at;
 
 use std::sync::Arc;
 
@@ -212,12 +215,19 @@ impl AlarmBook {
     }
 
     /// The alarm of the tool's motion that leads, and all that stand; `None` while none does.
-    pub fn leading(&self) -> Option<(AlarmId, Vec<AlarmId>)> {
+    pub fn leading(&self) -> Option<Leading> {
         let demands = self.demands();
         let order = advice::by_rank(&demands);
-        let standing: Vec<AlarmId> = order.iter().map(|demand| demand.id).collect();
         let lead = order.first()?;
-        (!lead.shelved && self.active(lead.id).is_some()).then_some((lead.id, standing))
+        let those = |shelved: bool| {
+            let some = order.iter().filter(|demand| demand.shelved == shelved);
+            some.map(|demand| demand.id).collect()
+        };
+        (!lead.shelved && self.active(lead.id).is_some()).then(|| Leading {
+            alarm: lead.id,
+            standing: those(false),
+            shelved: those(true),
+        })
     }
 
     /// Writes the advice to the driller on all alarms of the tool's motion.

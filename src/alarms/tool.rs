@@ -32,17 +32,7 @@ pub(super) fn findings(
         .iter()
         .map(|hazard| {
             let id = AlarmId::of_hazard(hazard.kind);
-            let calls = |priority: &Priority| {
-                *priority >= id.lowest()
-                    && (*priority > Priority::Low
-                        || advice::applies(
-                            &rule(hazard.kind, &config.alarms.advice),
-                            &now,
-                            &config.inputs,
-                            stands(id),
-                        ))
-            };
-            let finding = match priority(hazard.severity).filter(calls) {
+            let finding = match called(hazard.kind, hazard.severity, &now, config, stands(id)) {
                 Some(priority) if !suppressed => Finding {
                     seen: Some(instant(hazard.seen)),
                     ended: hazard.ended.map(instant),
@@ -101,6 +91,25 @@ pub(super) fn priority(severity: Severity) -> Option<Priority> {
         Severity::Warning => Some(Priority::Medium),
         Severity::Critical => Some(Priority::High),
     }
+}
+
+/// The priority with which a level calls at an operating point; none where it is a displayed state there. `stands` says
+/// whether its alarm stands already.
+fn called(kind: HazardKind, severity: Severity, now: &Operating, config: &Config, stands: bool) -> Option<Priority> {
+    let of_rule = || advice::applies(&rule(kind, &config.alarms.advice), now, &config.inputs, stands);
+    priority(severity)
+        .filter(|priority| *priority >= AlarmId::of_hazard(kind).lowest() && (*priority > Priority::Low || of_rule()))
+}
+
+/// The priority with which a level would raise its alarm at a speed (r/min) and weight (kN); none where it is a
+/// displayed state there.
+pub(crate) fn called_at(
+    kind: HazardKind,
+    severity: Severity,
+    [rpm, kn]: [f64; 2],
+    config: &Config,
+) -> Option<Priority> {
+    called(kind, severity, &Operating { rpm, kn }, config, false)
 }
 
 fn describe(hazard: &Hazard, priority: Priority) -> Finding {

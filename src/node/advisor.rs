@@ -4,29 +4,137 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::alarms::{AlarmId, Tested};
+use crate::alarms::{Leading, Tested};
+use flexdrill_config::Config;
+use flexdrill_core::motion::WhirlSettings;
+use flexdrill_core::tool::LiveParameters;
+use flexdrill_core::twin::Applied;
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// Time for which the same alarm leads at the same speed and weight before a search begins.
 const SETTLED: Duration = Duration::from_secs(2);
-/// Part of a value by which it may change while it counts as the same.
+/// Part of a speed or weight by which it may change while it counts as the same.
 const SAME: f64 = 0.02;
+/// Part of a coefficient of friction by which it may change: a torque follows it by as much, and a torque gauge shows
+/// no less.
+const SAME_FRICTION: f64 = 0.05;
+/// Part of a rate of penetration and of a pressure by which they may change, and changes (m/s, Pa) that are none: a
+/// block moves in jerks, and a pump's strokes ripple the pressure.
+const SAME_FEED: f64 = 0.1;
+const LEAST_FEED: f64 = 1.0 / 3600.0;
+const LEAST_PRESSURE: f64 = 0.2e6;
+
+/// The parameters in force that an answer depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InForce {
+    /// Friction and bit coefficients.
+    live: LiveParameters,
+    /// Thresholds of the whirl analysis.
+    whirl: WhirlSettings,
+    /// Slew limits of the inputs.
+    slew: [f64; 4],
+    /// Limits of speed (r/min) and weight (kN).
+    limits: [[f64; 2]; 2],
+}
+
+impl InForce {
+    /// Of a configuration.
+    pub fn of(config: &Config) -> Self {
+        let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+        Self {
+            live: config.live(),
+            whirl: config.whirl_settings(),
+            slew: config.simulation().slew(),
+            limits: [[speed.min_rpm, speed.max_rpm], [weight.min_kn, weight.max_kn]],
+        }
+    }
+
+    /// The coefficients, which may follow the rig by small moves; all others change by hand.
+    fn coefficients(&self) -> [f64; 5] {
+        let LiveParameters {
+            inner_friction: [a, b],
+            outer_friction: [c, d],
+            bit_friction_factor,
+        } = self.live;
+        [a, b, c, d, bit_friction_factor]
+    }
+
+    fn has_stayed(&self, now: &Self) -> bool {
+        let mut coefficients = self.coefficients().into_iter().zip(now.coefficients());
+        coefficients.all(|(then, now)| near(then, now, SAME_FRICTION, 0.0))
+            && *self
+                == Self {
+                    live: self.live,
+                    ..*now
+                }
+    }
+}
+
+/// What acts on the tool while an alarm stands, and what its motion is judged by. Advice holds for as long as that
+/// stays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Acting {
+    /// Speed (r/min) and weight (kN) that are asked for, after their slew limits.
+    at: [f64; 2],
+    /// Rate of penetration (m/s).
+    rate_of_penetration: f64,
+    /// Standpipe pressure, inside minus outside (Pa).
+    pressure: f64,
+    parameters: InForce,
+}
+
+impl Acting {
+    /// What a snapshot says, with the parameters in force.
+    pub fn new(applied: &Applied, parameters: &InForce) -> Self {
+        Self {
+            at: [rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_set)],
+            rate_of_penetration: applied.rate_of_penetration,
+            pressure: applied.standpipe_pressure,
+            parameters: *parameters,
+        }
+    }
+
+    /// Whether all but speed and weight has stayed.
+    fn has_stayed(&self, now: &Self) -> bool {
+        near(self.rate_of_penetration, now.rate_of_penetration, SAME_FEED, LEAST_FEED)
+            && near(self.pressure, now.pressure, SAME_FEED, LEAST_PRESSURE)
+            && self.parameters.has_stayed(&now.parameters)
+    }
+
+    /// Whether all of it is the same.
+    fn is(&self, now: &Self) -> bool {
+        let mut inputs = self.at.into_iter().zip(now.at);
+        inputs.all(|(then, now)| near(then, now, SAME, 0.0)) && self.has_stayed(now)
+    }
+}
+
+/// Whether two values differ by a part of the larger, or by `least`, at most.
+fn near(a: f64, b: f64, part: f64, least: f64) -> bool {
+    (a - b).abs() <= (part * a.abs().max(b.abs())).max(least)
+}
 
 /// What a search is for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
-    /// The alarm that leads.
-    pub alarm: AlarmId,
-    /// All alarms of the tool's motion that stand.
-    pub standing: Vec<AlarmId>,
-    /// Speed (r/min) and weight (kN) that act.
-    at: [f64; 2],
+    /// The alarm that leads, and those that stand.
+    pub leading: Leading,
+    /// What acts.
+    acting: Acting,
     since: Instant,
 }
 
 impl Asked {
-    fn is_for(&self, alarm: AlarmId, at: [f64; 2]) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
-        self.alarm == alarm && near(self.at[0], at[0]) && near(self.at[1], at[1])
+    /// Whether it is for these alarms or for more: one that ends meanwhile does not end the search, and one that
+    /// returns was searched for.
+    fn covers(&self, leading: &Leading) -> bool {
+        let Leading { standing, shelved, .. } = self.leading;
+        self.leading.alarm == leading.alarm
+            && leading.standing.is_within(standing)
+            && leading.shelved.is_within(standing.union(shelved))
+    }
+
+    fn is_for(&self, leading: &Leading, acting: &Acting) -> bool {
+        self.covers(leading) && self.acting.is(acting)
     }
 }
 
@@ -50,21 +158,31 @@ impl Advisor {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes the alarm that leads, with those that stand, at the speed (r/min) and weight (kN) that act. Returns what was
-    /// found for it. A search for anything else stops.
-    pub fn follow(&self, leading: Option<(AlarmId, Vec<AlarmId>)>, at: [f64; 2]) -> Option<Tested> {
+    /// Takes the alarm that leads, with those that stand, and what acts. Returns what was found for it. A search for
+    /// anything else stops.
+    pub fn follow(&self, leading: Option<Leading>, acting: &Acting) -> Option<Tested> {
         let mut exchange = self.lock();
-        let Some((alarm, standing)) = leading else {
+        let Some(leading) = leading else {
             exchange.interrupt();
             (exchange.asked, exchange.answered) = (None, None);
             return None;
         };
-        if !exchange.asked.as_ref().is_some_and(|asked| asked.is_for(alarm, at)) {
+        if !exchange
+            .asked
+            .as_ref()
+            .is_some_and(|asked| asked.is_for(&leading, acting))
+        {
             exchange.interrupt();
+            // Alarms that come and go do not begin the search anew each time.
+            let before = exchange
+                .asked
+                .take()
+                .filter(|asked| asked.leading.alarm == leading.alarm);
+            let before = before.filter(|asked| asked.acting.is(acting));
+            let standing = before.map_or(leading.standing, |asked| asked.leading.standing.union(leading.standing));
             exchange.asked = Some(Asked {
-                alarm,
-                standing,
-                at,
+                leading: Leading { standing, ..leading },
+                acting: *acting,
                 since: Instant::now(),
             });
         }
@@ -72,7 +190,8 @@ impl Advisor {
             stop(&mut exchange.forecast);
         }
         let (asked, tested) = exchange.answered.as_ref()?;
-        tested.filter(|tested| asked.alarm == alarm && tested.holds_at(at))
+        let holds = asked.covers(&leading) && asked.acting.has_stayed(acting);
+        tested.filter(|tested| holds && tested.holds_at(acting.at))
     }
 
     /// What is to be searched now, with the flag that stops the search.
@@ -98,6 +217,14 @@ impl Advisor {
         stop(&mut exchange.forecast);
     }
 
+    /// Lets what is asked count as settled.
+    #[cfg(test)]
+    pub fn settle(&self) {
+        if let Some(asked) = &mut self.lock().asked {
+            asked.since -= SETTLED;
+        }
+    }
+
     /// The flag that stops a forecast that begins now.
     pub fn forecasts(&self) -> Arc<AtomicBool> {
         let stop = Arc::new(AtomicBool::new(false));
@@ -110,7 +237,7 @@ impl Exchange {
     /// What is to be searched now.
     fn search(&self) -> Option<&Asked> {
         let asked = self.asked.as_ref()?;
-        let known = |(answered, _): &(Asked, _)| answered.is_for(asked.alarm, asked.at);
+        let known = |(answered, _): &(Asked, _)| answered.is_for(&asked.leading, &asked.acting);
         let is_known = self.answered.as_ref().is_some_and(known);
         (!is_known && asked.since.elapsed() >= SETTLED).then_some(asked)
     }
@@ -129,68 +256,231 @@ fn stop(flag: &mut Option<Arc<AtomicBool>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::alarms::{Change, Quantity};
+    use crate::alarms::{AlarmId, AlarmSet, Change, Quantity};
 
     const AT: [f64; 2] = [120.0, 10.0];
+
+    fn acting(at: [f64; 2]) -> Acting {
+        Acting {
+            at,
+            rate_of_penetration: 10.0 / 3600.0,
+            pressure: 8e6,
+            parameters: InForce {
+                live: LiveParameters {
+                    inner_friction: [0.7, 0.7],
+                    outer_friction: [0.2, 0.2],
+                    bit_friction_factor: 0.5,
+                },
+                whirl: WhirlSettings::default(),
+                slew: [1.0; 4],
+                limits: [[0.0, 150.0], [0.0, 60.0]],
+            },
+        }
+    }
+
+    fn set(ids: &[AlarmId]) -> AlarmSet {
+        ids.iter().copied().collect()
+    }
+
+    fn leads_with(alarm: AlarmId, standing: &[AlarmId]) -> Option<Leading> {
+        Some(Leading {
+            alarm,
+            standing: set(standing),
+            shelved: AlarmSet::EMPTY,
+        })
+    }
+
+    fn leads() -> Option<Leading> {
+        leads_with(AlarmId::BackwardWhirl, &[AlarmId::BackwardWhirl])
+    }
+
+    fn shock() -> Option<Leading> {
+        leads_with(AlarmId::Shock, &[AlarmId::Shock])
+    }
 
     fn tested() -> Tested {
         Tested {
             alarm: AlarmId::BackwardWhirl,
+            ends: set(&[AlarmId::BackwardWhirl]),
+            stays: AlarmSet::EMPTY,
             from: AT,
             change: Change {
                 quantity: Quantity::Speed,
                 to: 72.0,
             },
-            ended: 19,
-            of: 20,
+            ended: 9,
+            of: 10,
         }
     }
 
     /// An advisor that was asked `ago`.
     fn asked(ago: Duration) -> Advisor {
         let advisor = Advisor::default();
-        assert_eq!(advisor.follow(leads(), AT), None);
-        if let Some(asked) = &mut advisor.lock().asked {
-            asked.since -= ago;
-        }
+        assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+        wait(&advisor, ago);
         advisor
     }
 
-    fn leads() -> Option<(AlarmId, Vec<AlarmId>)> {
-        Some((AlarmId::BackwardWhirl, vec![AlarmId::BackwardWhirl]))
+    fn wait(advisor: &Advisor, ago: Duration) {
+        if let Some(asked) = &mut advisor.lock().asked {
+            asked.since -= ago;
+        }
+    }
+
+    /// One that has its answer.
+    fn answered() -> Advisor {
+        let advisor = asked(SETTLED);
+        let (what, _) = advisor.due().unwrap();
+        advisor.answer(what, Some(tested()));
+        advisor
     }
 
     #[test]
     fn a_search_waits_for_a_settled_alarm_and_holds_where_it_was_made() {
         assert!(asked(Duration::ZERO).due().is_none());
-        let advisor = asked(SETTLED);
-        let (what, _) = advisor.due().unwrap();
-        advisor.answer(what, Some(tested()));
+        let advisor = answered();
         assert!(advisor.due().is_none(), "one search is enough");
-        assert_eq!(advisor.follow(leads(), AT), Some(tested()));
-        assert_eq!(advisor.follow(leads(), [119.0, 10.1]), Some(tested()));
+        assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
+        assert_eq!(advisor.follow(leads(), &acting([119.0, 10.1])), Some(tested()));
         // Somewhere else, or for another alarm, it says nothing.
-        assert_eq!(advisor.follow(leads(), [100.0, 10.0]), None);
-        assert_eq!(advisor.follow(Some((AlarmId::Shock, Vec::new())), AT), None);
+        assert_eq!(advisor.follow(leads(), &acting([100.0, 10.0])), None);
+        assert_eq!(advisor.follow(shock(), &acting(AT)), None);
         // Once nothing stands it is forgotten.
-        assert_eq!(advisor.follow(None, AT), None);
-        assert_eq!(advisor.follow(leads(), AT), None);
+        assert_eq!(advisor.follow(None, &acting(AT)), None);
+        assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+    }
+
+    /// What a change of each value within its tolerance does, and of one beyond.
+    #[test]
+    fn advice_ends_with_the_tool_that_it_was_tested_on_and_is_asked_for_anew() {
+        type Changes = fn(&mut Acting, f64);
+        let changes: [(&str, Changes, f64, f64); 11] = [
+            (
+                "inner friction, around",
+                |now, by| now.parameters.live.inner_friction[0] *= by,
+                1.04,
+                1.0 / 0.7,
+            ),
+            (
+                "inner friction, along",
+                |now, by| now.parameters.live.inner_friction[1] *= by,
+                0.96,
+                0.9,
+            ),
+            (
+                "outer friction, around",
+                |now, by| now.parameters.live.outer_friction[0] *= by,
+                1.04,
+                1.1,
+            ),
+            (
+                "outer friction, along",
+                |now, by| now.parameters.live.outer_friction[1] *= by,
+                0.96,
+                0.9,
+            ),
+            (
+                "bit",
+                |now, by| now.parameters.live.bit_friction_factor *= by,
+                1.04,
+                1.1,
+            ),
+            (
+                "rate of penetration",
+                |now, by| now.rate_of_penetration *= by,
+                1.09,
+                1.3,
+            ),
+            ("pulling back", |now, by| now.rate_of_penetration *= by, 1.0, -1.0),
+            ("pressure", |now, by| now.pressure *= by, 0.92, 0.0),
+            ("slew limit", |now, by| now.parameters.slew[0] *= by, 1.0, 2.0),
+            (
+                "limit of the speed",
+                |now, by| now.parameters.limits[0][1] *= by,
+                1.0,
+                0.5,
+            ),
+            (
+                "threshold of whirl",
+                |now, by| now.parameters.whirl.backward_cycles[1] *= by,
+                1.0,
+                1.5,
+            ),
+        ];
+        for (what, change, small, large) in changes {
+            let advisor = answered();
+            let mut now = acting(AT);
+            change(&mut now, small);
+            assert_eq!(advisor.follow(leads(), &now), Some(tested()), "{what}");
+            let mut now = acting(AT);
+            change(&mut now, large);
+            assert_eq!(advisor.follow(leads(), &now), None, "{what}");
+            assert!(advisor.due().is_none(), "{what} has not settled");
+            wait(&advisor, SETTLED);
+            assert!(advisor.due().is_some(), "{what} is not asked anew");
+            assert_eq!(advisor.follow(leads(), &now), None, "{what}");
+        }
+        // Small changes that add up.
+        let advisor = answered();
+        let mut now = acting(AT);
+        let followed = (0..10).map(|_| {
+            now.parameters.live.inner_friction[0] *= 1.02;
+            advisor.follow(leads(), &now).is_some()
+        });
+        assert_eq!(
+            followed.take_while(|holds| *holds).count(),
+            2,
+            "5 % are two steps of 2 %"
+        );
+        // A rig that does not advance and does not pump.
+        let (zero, mut jitter) = (acting(AT), acting(AT));
+        let zero = Acting {
+            rate_of_penetration: 0.0,
+            pressure: 0.0,
+            ..zero
+        };
+        (jitter.rate_of_penetration, jitter.pressure) = (0.5 / 3600.0, -0.1e6);
+        assert!(zero.is(&jitter));
+    }
+
+    #[test]
+    fn an_alarm_that_comes_is_asked_for_too_and_one_that_goes_is_not_asked_for_anew() {
+        let advisor = answered();
+        let both = leads_with(AlarmId::BackwardWhirl, &[AlarmId::BackwardWhirl, AlarmId::Shock]);
+        assert_eq!(
+            advisor.follow(both, &acting(AT)),
+            None,
+            "nothing has tested that shock ends"
+        );
+        wait(&advisor, SETTLED);
+        let (what, stop) = advisor.due().unwrap();
+        assert_eq!(Some(what.leading), both);
+        // It goes, and returns: the search goes on. What was found before it came holds without it.
+        for (leading, expected) in [(leads(), Some(tested())), (both, None)] {
+            assert_eq!(advisor.follow(leading, &acting(AT)), expected);
+            assert!(!stop.load(Ordering::Relaxed));
+        }
+        advisor.answer(what, Some(tested()));
+        for leading in [both, leads()] {
+            assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
+        }
+        assert!(advisor.due().is_none());
     }
 
     #[test]
     fn a_forecast_gives_way_to_goals_and_searches() {
         let advisor = asked(Duration::ZERO);
         let forecast = advisor.forecasts();
-        let _ = advisor.follow(leads(), AT);
+        let _ = advisor.follow(leads(), &acting(AT));
         assert!(!forecast.load(Ordering::Relaxed), "the alarm has not settled");
         let advisor = asked(SETTLED);
         let forecast = advisor.forecasts();
-        let _ = advisor.follow(leads(), AT);
+        let _ = advisor.follow(leads(), &acting(AT));
         assert!(forecast.load(Ordering::Relaxed));
         let (asked, _) = advisor.due().unwrap();
         advisor.answer(asked, Some(tested()));
         let forecast = advisor.forecasts();
-        let _ = advisor.follow(leads(), AT);
+        let _ = advisor.follow(leads(), &acting(AT));
         assert!(!forecast.load(Ordering::Relaxed), "the search has its answer");
         advisor.interrupt();
         assert!(forecast.load(Ordering::Relaxed));
@@ -198,20 +488,25 @@ mod tests {
 
     #[test]
     fn what_changes_stops_the_search() {
-        for change in [0, 1, 2, 3] {
+        for change in [0, 1, 2, 3, 4] {
             let advisor = asked(SETTLED);
             let (_, stop) = advisor.due().unwrap();
             match change {
-                0 => drop(advisor.follow(None, AT)),
-                1 => drop(advisor.follow(leads(), [90.0, 10.0])),
-                2 => drop(advisor.follow(Some((AlarmId::Shock, Vec::new())), AT)),
+                0 => drop(advisor.follow(None, &acting(AT))),
+                1 => drop(advisor.follow(leads(), &acting([90.0, 10.0]))),
+                2 => drop(advisor.follow(shock(), &acting(AT))),
+                3 => {
+                    let mut now = acting(AT);
+                    now.parameters.live.inner_friction = [1.0; 2];
+                    let _ = advisor.follow(leads(), &now);
+                }
                 _ => advisor.interrupt(),
             }
             assert!(stop.load(Ordering::Relaxed), "{change}");
         }
         let advisor = asked(SETTLED);
         let (_, stop) = advisor.due().unwrap();
-        let _ = advisor.follow(leads(), AT);
+        let _ = advisor.follow(leads(), &acting(AT));
         assert!(!stop.load(Ordering::Relaxed));
     }
 }

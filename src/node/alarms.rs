@@ -8,7 +8,7 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 
 use super::NodeError;
-use super::advisor::Advisor;
+use super::advisor::{Acting, Advisor, InForce};
 use super::publish::PublisherParts;
 use super::sinks::Sinks;
 use crate::alarms::state_file::{self, StateError, StateWriter};
@@ -20,7 +20,6 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::outputs::Encoded;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
@@ -62,6 +61,9 @@ pub struct AlarmDesk {
     requests: Receiver<AlarmRequest>,
     /// Who looks ahead for advice; none where that is off.
     advisor: Option<Arc<Advisor>>,
+    /// The configuration in force, with its parameters that advice depends on.
+    config: Arc<Config>,
+    parameters: InForce,
     /// Writes the state to its file, with the number of the newest event that it was given.
     writer: Option<(StateWriter, u64)>,
 }
@@ -72,12 +74,14 @@ impl AlarmDesk {
         let (saved, writer) = state_file.map(open).unwrap_or_default();
         let book = AlarmBook::new(Arc::clone(&config), saved.as_ref(), time).unwrap_or_else(|error| {
             tracing::warn!("{error}; all alarms begin as normal");
-            AlarmBook::fresh(config, time)
+            AlarmBook::fresh(Arc::clone(&config), time)
         });
         Self {
             book,
             requests,
             advisor: None,
+            parameters: InForce::of(&config),
+            config,
             writer: writer.map(|writer| (writer, 0)),
         }
     }
@@ -95,15 +99,19 @@ impl AlarmDesk {
     /// Adopts changed limits and rules.
     pub fn reconfigure(&mut self, config: &Arc<Config>) {
         self.book.reconfigure(config);
+        // Inputs that change call this with the same configuration, again and again.
+        if !Arc::ptr_eq(config, &self.config) {
+            self.parameters = InForce::of(config);
+            self.config = Arc::clone(config);
+        }
     }
 
     /// Judges the hazards of a snapshot, at its stamp.
     pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
         self.book.observe_tool(snapshot, stamp);
         if let Some(advisor) = &self.advisor {
-            let applied = &snapshot.applied;
-            let at = [rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_set)];
-            self.book.set_tested(advisor.follow(self.book.leading(), at));
+            let acting = Acting::new(&snapshot.applied, &self.parameters);
+            self.book.set_tested(advisor.follow(self.book.leading(), &acting));
         }
     }
 
@@ -348,6 +356,8 @@ impl Accepted {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::alarms::{AlarmSet, Change, Quantity, Tested};
+    use flexdrill_core::motion::{DriveState, HazardKind, Severity};
 
     #[test]
     fn a_request_without_a_reason_has_no_empty_brackets() {
@@ -400,5 +410,58 @@ mod tests {
         let mut desk = AlarmDesk::new(config, None, requests, 0);
         let (success, message) = shelved(&mut desk, &sender).await;
         assert!(success && message.contains("for this run only"), "{message}");
+    }
+
+    /// Advice that was tested with a friction of 0.2 is not given with another.
+    #[test]
+    fn advice_that_was_tested_on_another_tool_is_withdrawn() {
+        let config = Arc::new(Config::from_text("default.yaml", include_str!("../../config/default.yaml")).unwrap());
+        let config = Arc::new(config.with_value("look_ahead.advice", true).unwrap());
+        let (_, requests) = std::sync::mpsc::channel();
+        let mut desk = AlarmDesk::new(Arc::clone(&config), None, requests, 0);
+        let advisor = Arc::new(Advisor::default());
+        desk.advised_by(Arc::clone(&advisor));
+        let mut snapshot = Snapshot::default();
+        snapshot.hazards.drive = DriveState::Turning;
+        snapshot.hazards.list[HazardKind::BackwardWhirl as usize].severity = Severity::Critical;
+        (snapshot.applied.rotary_speed, snapshot.applied.weight_set) = (4.0 * std::f64::consts::PI, 10e3);
+        let mut second = 0;
+        let mut advice = |desk: &mut AlarmDesk| {
+            second += 1;
+            desk.observe_tool(&snapshot, 1_000_000_000 * second);
+            // The texts are written after what was found was taken.
+            desk.observe_tool(&snapshot, 1_000_000_000 * second + 1);
+            let list = desk.list(Header::default());
+            let alarm = list.alarms.into_iter().find(|alarm| alarm.id == "backward_whirl");
+            alarm.unwrap().what_to_do
+        };
+        assert!(advice(&mut desk).contains("A rule;"));
+        advisor.settle();
+        let (asked, _) = advisor.due().unwrap();
+        let tested = Tested {
+            alarm: asked.leading.alarm,
+            ends: asked.leading.standing,
+            stays: AlarmSet::EMPTY,
+            from: [120.0, 10.0],
+            change: Change {
+                quantity: Quantity::Speed,
+                to: 84.0,
+            },
+            ended: 10,
+            of: 10,
+        };
+        advisor.answer(asked, Some(tested));
+        assert!(advice(&mut desk).contains("84 r/min"));
+        // The same configuration, and a parameter that has nothing to do with the motion.
+        desk.reconfigure(&config);
+        desk.reconfigure(&Arc::new(config.with_value("outputs.rates.whirl", 5.0).unwrap()));
+        assert!(advice(&mut desk).contains("84 r/min"));
+        desk.reconfigure(&Arc::new(
+            config.with_value("contact.inner.friction_tangential", 1.0).unwrap(),
+        ));
+        let words = advice(&mut desk);
+        assert!(words.contains("A rule;") && !words.contains("84 r/min"), "{words}");
+        advisor.settle();
+        assert!(advisor.due().is_some(), "it is asked for anew");
     }
 }

@@ -329,7 +329,7 @@ impl Answering {
         Ok((start, applied, ticks))
     }
 
-    /// Looks for the smallest change that ends the alarm that leads, if that is asked for.
+    /// Looks for the smallest change that ends the alarms that stand, if that is asked for.
     fn advise(&self, tool: &mut Option<Simulation>) {
         let Some((asked, stop)) = self.advisor.due() else {
             return;
@@ -338,21 +338,21 @@ impl Answering {
         let start = match self.start(&config, tool) {
             Ok((start, ..)) => start,
             Err(message) => {
-                tracing::warn!("advice on {}: {message}", asked.alarm.name());
+                tracing::warn!("advice on {}: {message}", asked.leading.alarm.name());
                 return self.advisor.answer(asked, None);
             }
         };
         let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
-        let tested = search(&start, asked.alarm, &asked.standing, ADVICE_SEED, threads, &stop);
+        let tested = search(&start, &asked.leading, ADVICE_SEED, threads, &stop);
         if stop.load(Ordering::Relaxed) {
             return;
         }
         tracing::info!(
             "advice on {} after {:.1} s: {}",
-            asked.alarm.name(),
+            asked.leading.alarm.name(),
             began.elapsed().as_secs_f64(),
             tested.map_or_else(
-                || "no change of speed or weight within the limits ends it in 9 of 10 look-aheads".to_owned(),
+                || "no change of speed or weight within the limits ends it in 9 of 10 runs".to_owned(),
                 |tested| tested.to_string()
             )
         );

@@ -13,6 +13,8 @@ use flexdrill::messages::outputs::schedule;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::WhirlKind;
+use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{Run, RunInputs, Simulation, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
@@ -252,8 +254,54 @@ fn goals_out_of_bounds_are_refused_with_the_bound() {
     assert!(matches!(long.check(&config), Err(GoalError::ModelTime(_))));
 }
 
-/// Follows what look-aheads advise from the state of a run, in runs that differ from those of the search; how often the alarm
-/// had ended 20 s later and no other stood. `None` where they find no change that ends it.
+/// How long a change is followed (s), and the part of it, at its end, in which the alarms must have ended.
+const FOLLOWED: f64 = 40.0;
+const ENDED: f64 = 20.0;
+
+/// Whether the motion that an alarm is about is there in the looks of a run, ten a second, by figures of this file:
+/// what the alarms and the search say of it does not count.
+fn goes_on(alarm: AlarmId, looks: &[(Snapshot, Vec<f64>)]) -> bool {
+    let share = |is_there: &dyn Fn(&Snapshot) -> bool| {
+        looks.iter().filter(|(look, _)| is_there(look)).count() as f64 / looks.len() as f64
+    };
+    match alarm {
+        AlarmId::StickSlip => looks.windows(100).any(|window| {
+            let speeds = || window.iter().flat_map(|(_, speeds)| speeds.iter().copied());
+            let [least, most] = [f64::min, f64::max].map(|of| speeds().reduce(of).unwrap());
+            let mean = speeds().sum::<f64>() / speeds().count() as f64;
+            // A bit that turns back, or nearly stands in the mean, sticks.
+            mean < 0.1 * window[99].0.applied.rotary_speed || (most - least) / (2.0 * mean) >= 0.8
+        }),
+        AlarmId::BackwardWhirl => {
+            // Two bending cycles per turn of the tool, at some joint for a tenth of the time.
+            let speed = |look: &Snapshot| look.applied.rotary_speed;
+            share(&|look| {
+                let report = &look.whirl;
+                let mut pipes = (report.kind.iter().zip(&report.body).zip(&report.whirl_rate))
+                    .filter(|((kind, body), _)| **kind == WhirlKind::Backward && **body == Body::Pipe);
+                pipes.any(|(_, rate)| (1.0 - rate / speed(look)).abs() >= 2.0)
+            }) >= 0.1
+        }
+        AlarmId::ChaoticWhirl => {
+            share(&|look| {
+                let chaotic = look
+                    .whirl
+                    .kind
+                    .iter()
+                    .filter(|kind| **kind == WhirlKind::Chaotic)
+                    .count();
+                2 * chaotic > look.whirl.kind.len() / 2
+            }) >= 0.1
+        }
+        // The rating of the coarse tool's joints.
+        AlarmId::JointLoad => share(&|look| look.joints.stop_moment.iter().any(|moment| *moment >= 100.0)) >= 0.1,
+        _ => false,
+    }
+}
+
+/// Follows what look-aheads advise from the state of a run, in runs that differ from those of the search; how often all
+/// the alarms that it is to end had ended and stayed away over 40 s, by the alarms and by the motion, and no other
+/// came. `None` where they find no change.
 fn followed(
     friction: f64,
     [rpm, kn]: [f64; 2],
@@ -279,31 +327,47 @@ fn followed(
     });
     let mut book = AlarmBook::fresh(Arc::clone(&config), 0);
     let mut snapshot = run.simulation().new_snapshot();
-    let look = |run: &mut Run, book: &mut AlarmBook, snapshot: &mut Snapshot, seconds: f64| {
-        for _ in 0..(10.0 * seconds) as u32 {
-            advance(run, 0.1);
-            run.look(snapshot);
-            book.observe_tool(snapshot, (snapshot.time * 1e9) as i64);
-        }
+    // A tenth of a second. Returns the bit's speed every 2 ms: joints and torsional waves ripple fast.
+    let look = |run: &mut Run, book: &mut AlarmBook, snapshot: &mut Snapshot| {
+        let speeds = (0..50).map(|_| {
+            advance(run, 2e-3);
+            let simulation = run.simulation();
+            simulation
+                .velocity(simulation.last_station(), Body::Pipe, Direction::Psi)
+                .unwrap()
+        });
+        let speeds: Vec<f64> = speeds.collect();
+        run.look(snapshot);
+        book.observe_tool(snapshot, (snapshot.time * 1e9) as i64);
+        speeds
     };
-    let leads = |book: &AlarmBook| book.leading().is_some_and(|(leads, _)| leads == alarm);
+    let leads = |book: &AlarmBook| book.leading().is_some_and(|leading| leading.alarm == alarm);
     while !leads(&book) {
-        look(&mut run, &mut book, &mut snapshot, 0.5);
+        for _ in 0..5 {
+            look(&mut run, &mut book, &mut snapshot);
+        }
         assert!(
             snapshot.time < within,
             "{} does not lead within {within} s",
             alarm.name()
         );
     }
-    let (_, standing) = book.leading().unwrap();
+    let leading = book.leading().unwrap();
     let begin = start(&config, &run);
     let began = Instant::now();
-    let tested = search(&begin, alarm, &standing, 1, 2, &AtomicBool::new(false));
+    let tested = search(&begin, &leading, 1, 2, &AtomicBool::new(false));
     let searched = began.elapsed().as_secs_f64();
     let Some(tested) = tested else {
-        return (format!("no change ends it; searched for {searched:.0} s."), None);
+        return (
+            format!("no change ends {}; searched for {searched:.0} s.", leading.standing),
+            None,
+        );
     };
-    assert!((14..=20).contains(&tested.of) && 10 * tested.ended >= 9 * tested.of && tested.holds_at([rpm, kn]));
+    assert!(
+        tested.of == 10 && tested.ended >= 9 && tested.holds_at([rpm, kn]),
+        "{tested}"
+    );
+    assert!(tested.ends.contains(alarm) && tested.ends.union(tested.stays) == leading.standing);
     book.set_tested(Some(tested));
     let [mut speed, mut weight] = [rpm, kn];
     match tested.change.quantity {
@@ -324,17 +388,26 @@ fn followed(
                 ..live.applied()
             });
             let mut book = AlarmBook::fresh(Arc::clone(&config), (snapshot.time * 1e9) as i64);
-            look(&mut live, &mut book, &mut snapshot.clone(), 20.0);
-            let others = AlarmId::ALL.into_iter().filter(|id| !standing.contains(id));
-            book.active(alarm).is_none() && others.into_iter().all(|id| book.active(id).is_none())
+            let mut now = snapshot.clone();
+            let mut last = Vec::new();
+            for number in 1..=(10.0 * FOLLOWED) as u32 {
+                let speeds = look(&mut live, &mut book, &mut now);
+                if f64::from(number) > 10.0 * (FOLLOWED - ENDED) {
+                    let stands = AlarmId::ALL.into_iter().filter(|id| book.active(*id).is_some());
+                    if stands.into_iter().any(|id| !tested.stays.contains(id)) {
+                        return false;
+                    }
+                    last.push((now.clone(), speeds));
+                }
+            }
+            !tested.ends.iter().any(|id| goes_on(id, &last))
         })
         .count();
     (format!("{tested} Found after {searched:.0} s."), Some(ended))
 }
 
 /// The destructive cases with ten seeds each, as `docs/measurements.md` lists them: some minutes on two cores. Advice that is
-/// found is to end the alarm in at least nine of ten live runs. Where none is found, the rule stands: so it is for chaotic
-/// whirl at this friction.
+/// found is to end its alarms in at least nine of ten live runs. Where none is found, the rule stands.
 ///
 ///     cargo test --release --test alarms ahead::advice -- --ignored --nocapture --test-threads 1
 ///
@@ -360,6 +433,5 @@ fn advice_from_runs_ends_every_destructive_case() {
         let seconds = began.elapsed().as_secs_f64();
         println!("{}: {advice} Followed: {words}. {seconds:.0} s", alarm.name());
         assert!(ended.is_none_or(|ended| ended >= 9), "{advice}");
-        assert!(ended.is_some() || alarm == AlarmId::ChaoticWhirl, "{advice}");
     }
 }

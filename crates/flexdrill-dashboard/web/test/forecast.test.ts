@@ -3,9 +3,27 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { WhatIfAnswer } from "../src/api";
-import { type AlarmChance, type Forecast, type ForecastBand, SafeWindow } from "../src/messages";
+import {
+  type AlarmChance,
+  type AppliedInputs,
+  type Forecast,
+  type ForecastBand,
+  SafeWindow,
+  TwinStatus,
+} from "../src/messages";
 import { Ring } from "../src/store/ring";
-import { alarms, bandOf, chance, rows, summary } from "../src/views/forecast";
+import { Store } from "../src/store/store";
+import {
+  alarms,
+  alarmWords,
+  bandOf,
+  chance,
+  type Present,
+  presentOf,
+  rows,
+  summary,
+  withdrawn,
+} from "../src/views/forecast";
 import { verdict } from "../src/views/what_if";
 import { cellAt, edges, sentence } from "../src/views/window";
 
@@ -87,16 +105,97 @@ test("a forecast says what its runs saw, and what is unknown is said to be so", 
   assert.equal(summary(none), "The next minute is unknown: a step failed.");
 });
 
-test("an alarm is listed once, the likeliest first", () => {
-  const all = [alarm("shock", 1, 2), alarm("shock", 2, 1), alarm("backward_whirl", 3, 4)];
+test("an alarm is listed once, at the highest priority that a run saw, with the count of that priority", () => {
+  const all = [
+    alarm("shock", 1, 3),
+    alarm("shock", 2, 1),
+    alarm("forward_whirl", 2, 4),
+    alarm("stick_slip", 1, 2),
+    alarm("stick_slip", 2, 2),
+    alarm("stick_slip", 3, 2),
+  ];
   assert.deepEqual(
-    alarms(all).map(({ id, seen }) => [id, seen]),
+    alarms(all).map(({ id, priority, seen, any }) => [id, priority, seen, any?.seen ?? null]),
     [
-      ["backward_whirl", 4],
-      ["shock", 2],
+      ["stick_slip", 3, 2, null],
+      ["forward_whirl", 2, 4, null],
+      ["shock", 2, 1, 3],
     ],
   );
-  assert.equal(chance(all[0]), "2 of 4 runs (10.0 % to 90.0 %)");
+  const [stickSlip, , shock] = alarms(all).map(alarmWords);
+  assert.equal(stickSlip, "stick_slip, high: 2 of 4 runs (10.0 % to 90.0 %), first after 7 s");
+  // That it comes in three runs of four at a lower priority is not hidden by the one run of the higher.
+  assert.equal(shock, "shock, medium: 1 of 4 runs (10.0 % to 90.0 %), first after 7 s; low or higher: 3 of 4");
+  // The order of the message does not count, and a priority that no run saw is none.
+  assert.deepEqual(
+    alarms([...all].reverse()).map(({ priority }) => priority),
+    [3, 2, 2],
+  );
+  assert.deepEqual(
+    alarms([alarm("shock", 1, 2), alarm("shock", 3, 0)]).map(({ priority }) => priority),
+    [1],
+  );
+  assert.equal(chance(all[0]), "3 of 4 runs (10.0 % to 90.0 %)");
+});
+
+/** What is asked for at a time (s): r/min and kN. */
+function applied(time: number, rpm: number, kilonewton: number, more: Partial<AppliedInputs> = {}): AppliedInputs {
+  return {
+    header: { stamp: { sec: time, nanosec: 0 }, frame_id: "tool" },
+    step: 2000 * time,
+    rotary_speed: (rpm * Math.PI) / 30,
+    weight_on_bit: 1e3 * kilonewton,
+    ...more,
+  } as AppliedInputs;
+}
+
+test("a forecast is shown only while it is one of the next minute at the present speed and weight", () => {
+  const { header, step, rotary_speed, weight_on_bit } = applied(100, 120, 10);
+  const made = forecast(101, new Array<number>(60).fill(1), { header, from_step: step, rotary_speed, weight_on_bit });
+  const present: Present = {
+    now: 110,
+    silent: false,
+    state: TwinStatus.RUNNING,
+    applied: applied(110, 120, 10),
+    start: 0,
+    most: [(150 * Math.PI) / 30, 60e3],
+  };
+  const why = (more: Partial<Present>, of = made) => withdrawn(of, { ...present, ...more }, "si");
+  assert.equal(why({}), null);
+  // A drive wavers by some turns per minute, a weight by a kilonewton.
+  assert.equal(why({ applied: applied(110, 116, 11) }), null);
+  const was = "It was made for 120.0 r/min and 10.0 kN.";
+  for (const [rpm, kilonewton] of [
+    [80, 10],
+    [120, 13],
+  ]) {
+    assert.equal(
+      why({ applied: applied(110, rpm, kilonewton) }),
+      `Withdrawn: it was made for 120.0 r/min and 10.0 kN, and ${rpm}.0 r/min and ${kilonewton}.0 kN are asked for ` +
+        "now. The next one follows.",
+    );
+  }
+  assert.equal(why({ silent: true }), `Withdrawn: the twin is silent. ${was}`);
+  for (const state of [TwinStatus.PAUSED, TwinStatus.FAILED]) {
+    assert.equal(why({ state }), `Withdrawn: the model stands still. ${was}`);
+  }
+  assert.equal(why({ start: 105 }), `Withdrawn: it is of an earlier run of the twin. ${was}`);
+  assert.equal(why({ applied: applied(110, 120, 10, { step: 20 }) }), `Withdrawn: the model was reset since. ${was}`);
+  assert.match(why({ applied: null }) ?? "", /not known/);
+  assert.equal(why({ now: 160.9 }), null);
+  assert.match(why({ now: 161 }) ?? "", /its minute is over/);
+  assert.match(why({ now: 90 }) ?? "", /later time/);
+  // One without any run has no speed and weight, and stands as long.
+  const failed = { ...made, bands: [], members: 0, rotary_speed: NaN, weight_on_bit: NaN, failure: "a step failed" };
+  assert.equal(why({}, failed), null);
+  assert.equal(why({ now: 160 }, failed), "Withdrawn: its minute is over, and no newer one has come.");
+});
+
+test("the store knows what a forecast must be of", () => {
+  const store = new Store();
+  assert.deepEqual([presentOf(store).silent, presentOf(store).applied], [true, null]);
+  store.accept("twin/applied_inputs", applied(110, 120, 10));
+  assert.equal(presentOf(store).applied?.weight_on_bit, 10e3);
 });
 
 test("a candidate without a run that ended is unknown, not safe", () => {

@@ -7,6 +7,7 @@ import {
   DECODERS,
   type AlarmEvent,
   type AlarmList,
+  type AppliedInputs,
   type BitState,
   type ContactForces,
   type Forecast,
@@ -63,6 +64,8 @@ export class Store {
   status: TwinStatus | null = null;
   sessionInfo: SessionInfo | null = null;
   transfer: Transfer | null = null;
+  /** What drives the model. */
+  applied: AppliedInputs | null = null;
   /** The map of speed and weight that the twin has loaded. */
   safeWindow: SafeWindow | null = null;
   /** The newest forecasts, the oldest first. */
@@ -181,6 +184,9 @@ export class Store {
         return trace.takeWhirl(message as WhirlState);
       case "twin/transfer":
         this.transfer = message as Transfer;
+        return;
+      case "twin/applied_inputs":
+        this.applied = message as AppliedInputs;
         return;
       case "twin/safe_window":
         this.safeWindow = message as SafeWindow;

@@ -14,6 +14,7 @@ export const TOPICS = [
   "twin/whirl",
   "twin/tool_shape",
   "twin/transfer",
+  "twin/applied_inputs",
   "twin/forecast",
   "twin/safe_window",
   "twin/residuals",

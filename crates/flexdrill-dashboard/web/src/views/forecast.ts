@@ -1,17 +1,24 @@
 // The standing forecast: the band of the next minute and what came, in one strip; the chance of each alarm.
 
 import { h, setText, show } from "../dom";
-import type { AlarmChance, Forecast } from "../messages";
+import { type AlarmChance, type AppliedInputs, type Forecast, TwinStatus } from "../messages";
 import type { Ring } from "../store/ring";
 import type { Layout, Scalar } from "../store/layout";
-import { convert, type Kind, lapse, number, quantity } from "../units";
+import type { Store } from "../store/store";
+import { convert, type Kind, lapse, number, quantity, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, word } from "../words";
 import { Strip, withGaps } from "./strip";
 import { percent } from "./transfer";
 
-/** Older than this (ms) a forecast is of the past. */
-const OLD = 120_000;
+/** Length of a forecast without bands (s): that of one whose runs all failed. */
+const LENGTH = 60;
+/**
+ * Parts of an input's range and of its value by which it may change while a forecast at it holds: those within which
+ * the twin compares its forecasts with what comes (SAME_OF_RANGE and SAME in src/ahead/held.rs).
+ */
+const SAME_OF_RANGE = 0.025;
+const SAME = 0.05;
 /** What is shown before the present (s). */
 const BEFORE = 120;
 /** What a forecast has, by its name in the message. */
@@ -78,14 +85,104 @@ export function chance(of: AlarmChance): string {
   return `${of.seen} of ${of.members} runs (${percent(of.lower)} to ${percent(of.upper)})`;
 }
 
-/** Alarms at their lowest priority each: those of a higher one are among them. The likeliest first. */
-export function alarms(all: readonly AlarmChance[]): AlarmChance[] {
+/** An alarm at the highest priority that a run saw, with the chance of that priority. */
+export interface Expected extends AlarmChance {
+  /** The chance of any priority of the alarm, where more runs saw it than that of the highest; null where they are one. */
+  any: AlarmChance | null;
+}
+
+/**
+ * Each alarm once, at the highest priority that a run saw: a driller acts by the priority, so that a lower one must not
+ * stand in its place. A chance is that of its priority or a higher one, and the lowest has the most runs. The highest
+ * come first, then the likeliest.
+ */
+export function alarms(all: readonly AlarmChance[]): Expected[] {
+  const highest = new Map<string, AlarmChance>();
   const lowest = new Map<string, AlarmChance>();
   for (const of of all) {
-    const known = lowest.get(of.id);
-    if (!known || of.priority < known.priority) lowest.set(of.id, of);
+    if (of.seen === 0) continue;
+    if (!(of.priority <= (highest.get(of.id)?.priority ?? -Infinity))) highest.set(of.id, of);
+    if (!(of.priority >= (lowest.get(of.id)?.priority ?? Infinity))) lowest.set(of.id, of);
   }
-  return [...lowest.values()].sort((a, b) => b.seen - a.seen);
+  return [...highest.values()]
+    .map((of) => {
+      const any = lowest.get(of.id);
+      return { ...of, any: any && any.seen > of.seen ? any : null };
+    })
+    .sort((a, b) => b.priority - a.priority || b.seen - a.seen);
+}
+
+/** What is known of the twin now, which a forecast must be of. */
+export interface Present {
+  /** Newest time on the rig's clock (s). */
+  now: number;
+  /** The twin cannot be heard. */
+  silent: boolean;
+  /** State of the run, one of the codes of TwinStatus; null before the first status. */
+  state: number | null;
+  /** What is asked for; null before it was heard. */
+  applied: AppliedInputs | null;
+  /** When the run began (s on the rig's clock); NaN while that is not known. */
+  start: number;
+  /** Largest speed (rad/s) and weight (N) of the rig; 0 while they are not known. */
+  most: [number, number];
+}
+
+/** The present of the store's twin. */
+export function presentOf(store: Store): Present {
+  const { session, sessionInfo } = store;
+  const { limits } = session ?? {};
+  return {
+    now: store.now,
+    silent: store.silent,
+    state: store.status?.state ?? null,
+    applied: store.applied,
+    start: sessionInfo ? seconds(sessionInfo.start) : NaN,
+    most: limits ? [(limits.rotary_speed_rpm.max * Math.PI) / 30, 1e3 * limits.weight_on_bit_kn.max] : [0, 0],
+  };
+}
+
+/** Speed (rad/s) and weight (N) in words. */
+function point(of: { rotary_speed: number; weight_on_bit: number }, units: System): string {
+  return `${withUnit(of.rotary_speed, "speed", units)} and ${withUnit(of.weight_on_bit, "weight", units)}`;
+}
+
+/**
+ * Why a forecast is not one of the next minute at the present speed and weight, with what it was made for; null where
+ * it is.
+ */
+export function withdrawn(forecast: Forecast, present: Present, units: System): string | null {
+  const { applied } = present;
+  const made = seconds(forecast.header.stamp);
+  const of = Number.isFinite(forecast.rotary_speed) ? ` It was made for ${point(forecast, units)}.` : "";
+  if (present.silent) return `Withdrawn: the twin is silent.${of}`;
+  if (made < present.start) return `Withdrawn: it is of an earlier run of the twin.${of}`;
+  if (present.state !== null && present.state !== TwinStatus.RUNNING) {
+    return `Withdrawn: the model stands still.${of}`;
+  }
+  if (!applied) return `Withdrawn: the speed and weight that are asked for now are not known.${of}`;
+  if (seconds(applied.header.stamp) >= made && applied.step < forecast.from_step) {
+    return `Withdrawn: the model was reset since.${of}`;
+  }
+  const pairs: [number, number, number][] = [
+    [forecast.rotary_speed, applied.rotary_speed, present.most[0]],
+    [forecast.weight_on_bit, applied.weight_on_bit, present.most[1]],
+  ];
+  const differs = pairs.some(
+    ([then, now, most]) => Math.abs(now - then) > Math.max(SAME_OF_RANGE * most, SAME * Math.abs(then)),
+  );
+  if (differs) {
+    return (
+      `Withdrawn: it was made for ${point(forecast, units)}, and ${point(applied, units)} are asked for now. ` +
+      "The next one follows."
+    );
+  }
+  const bands = forecast.bands[0]?.p5.length ?? 0;
+  const end = bands > 0 ? seconds(forecast.bands_from) + forecast.interval * bands : made + LENGTH;
+  if (present.now >= end) return `Withdrawn: its minute is over, and no newer one has come.${of}`;
+  // A player that was brought back shows what was known then.
+  if (present.now < made - 1) return `Withdrawn: it is of a later time.${of}`;
+  return null;
 }
 
 /** What the members say, in a sentence. */
@@ -104,6 +201,13 @@ export function summary(forecast: Forecast): string {
   return `${what} in ${seen === 0 ? "" : `${seen} of `}${forecast.members} ${runs} (chance ${interval}).${failed}`;
 }
 
+/** An alarm of a look-ahead in words. */
+export function alarmWords(of: Expected): string {
+  const first = Number.isFinite(of.time_to_first) ? `, first after ${number(of.time_to_first, 0)} s` : "";
+  const lower = of.any ? `; ${word(PRIORITY, of.any.priority)} or higher: ${of.any.seen} of ${of.any.members}` : "";
+  return `${of.name}, ${word(PRIORITY, of.priority)}: ${chance(of)}${first}${lower}`;
+}
+
 /** A row per alarm of a look-ahead. */
 export function alarmRows(all: readonly AlarmChance[]): HTMLElement[] {
   return alarms(all).map((of) =>
@@ -111,14 +215,18 @@ export function alarmRows(all: readonly AlarmChance[]): HTMLElement[] {
       "li",
       { "data-level": String(of.priority) },
       h("span", { class: "shape", "aria-hidden": "true" }, PRIORITY_SHAPE[of.priority] ?? ""),
-      ` ${of.name}, ${word(PRIORITY, of.priority)}: ${chance(of)}` +
-        (Number.isFinite(of.time_to_first) ? `, first after ${number(of.time_to_first, 0)} s` : ""),
+      ` ${alarmWords(of)}`,
     ),
   );
 }
 
+/** The heading while the newest forecast is of the present, and otherwise. */
+const OF_NOW = "The next minute at the present speed and weight";
+const HEADING = "Forecast";
+
 export class ForecastView implements View {
   readonly element: HTMLElement;
+  private readonly heading = h("h2", { id: "forecast-heading" }, HEADING);
   private readonly state = h("p", { class: "hint", id: "forecast-state" });
   private readonly said = h("p", { id: "forecast-summary" });
   private readonly list = h("ul", { class: "chances", id: "forecast-alarms" });
@@ -154,13 +262,7 @@ export class ForecastView implements View {
       this.list,
       this.held,
     );
-    this.element = h(
-      "section",
-      { class: "forecast", "aria-label": "Forecast" },
-      h("h2", {}, "The next minute at the present speed and weight"),
-      this.state,
-      this.body,
-    );
+    this.element = h("section", { class: "forecast", "aria-label": "Forecast" }, this.heading, this.state, this.body);
   }
 
   draw(now: number): void {
@@ -170,7 +272,10 @@ export class ForecastView implements View {
     const { forecasts, layout } = store;
     const newest = forecasts[forecasts.length - 1];
     const past = !store.isBag && store.cursor !== null;
-    show(this.body, newest !== undefined && !past && layout !== null);
+    const why = newest ? withdrawn(newest, presentOf(store), context.settings.units) : null;
+    const isOfNow = newest !== undefined && !past && layout !== null && why === null;
+    show(this.body, isOfNow);
+    setText(this.heading, isOfNow ? OF_NOW : HEADING);
     if (past) return setText(this.state, "The forecast is of the present.");
     if (!newest || !layout) {
       return setText(
@@ -178,9 +283,9 @@ export class ForecastView implements View {
         "No forecast: the twin makes none, or its first one is not there yet (look_ahead.forecast in its configuration).",
       );
     }
-    const age = store.isBag ? 0 : 1e3 * (store.now - seconds(newest.header.stamp));
-    this.element.classList.toggle("old", age > OLD);
-    setText(this.state, `${age > OLD ? "OLD " : ""}Made from the state of ${lapse(age / 1e3)} ago.`);
+    if (why !== null) return setText(this.state, why);
+    const age = store.now - seconds(newest.header.stamp);
+    setText(this.state, `Made from the state of ${lapse(Math.max(0, age))} ago.`);
     this.fill(newest, layout);
   }
 
