@@ -207,7 +207,7 @@ fn early(path: &std::path::Path) -> Vec<Vec<f64>> {
     let messages = bag::open(path).unwrap().map(|message| message.unwrap());
     let joints = messages.filter(|message| message.topic.is("twin/joint_deflections"));
     joints
-        .take(6)
+        .take(3)
         .map(|message| {
             let m: JointDeflections = message.decode().unwrap();
             [m.bend_angle, m.lateral_y, m.lateral_z].concat()
