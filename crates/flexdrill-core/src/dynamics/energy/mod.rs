@@ -95,6 +95,8 @@ pub struct EnergyPoint {
     pub(crate) string_feed: f64,
     /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
     bristles: f64,
+    /// Energy in the twist of a bit that sticks (J), which the rock has not taken yet.
+    bit_elastic: f64,
     /// Power of the advance against the friction of the wall (W).
     feed: f64,
     /// Pressure in the pipe at the tool's top (Pa).
@@ -140,6 +142,7 @@ impl EnergyPoint {
             hoist_work: 0.0,
             string_feed: 0.0,
             bristles: 0.0,
+            bit_elastic: 0.0,
             feed: 0.0,
             pressure: 0.0,
             lifted_by_pressure: 0.0,
@@ -192,13 +195,14 @@ impl EnergyPoint {
             hoist_work,
             string_feed,
             bristles,
+            bit_elastic,
             feed,
             pressure,
             lifted_by_pressure,
             ..
         } = *other;
         (self.string_lost, self.hoist_work, self.string_feed) = (string_lost, hoist_work, string_feed);
-        (self.bristles, self.feed) = (bristles, feed);
+        (self.bristles, self.bit_elastic, self.feed) = (bristles, bit_elastic, feed);
         (self.kinetic, self.foresight) = (kinetic, foresight);
         (self.stored, self.geometric_energy, self.contact_dissipation) =
             (stored, geometric_energy, contact_dissipation);
@@ -345,7 +349,8 @@ impl EnergyPoint {
         }
         self.bristles =
             interactions.inner.bristle_energy(&conditions.inner) + interactions.outer.bristle_energy(&conditions.outer);
-        self.stored = stored + self.bristles;
+        self.bit_elastic = interactions.bit.elastic;
+        self.stored = stored + self.bristles + self.bit_elastic;
         self.feed = if conditions.rate_of_penetration == 0.0 {
             0.0
         } else {
