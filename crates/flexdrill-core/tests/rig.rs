@@ -440,3 +440,54 @@ fn transfer_has_every_place_from_the_surface_to_the_bit() {
 fn string_drag_by_mud() -> f64 {
     string(Feed::Rate).pieces.iter().map(|piece| piece.torsion.drag).sum()
 }
+
+/// A string wound up to 60 % of what holds the bit keeps its twist: the bit does not turn. Wound further, the bit breaks off where
+/// the torque of wear flats and cutters under its weight says, T = mu_g a W_f / 2 + (W - W_f) a / (2 zeta).
+#[test]
+fn a_stuck_bit_holds_a_wound_string_and_breaks_off_at_its_limit() {
+    let mut twin = simulation(&rig(Feed::Weight));
+    // Set down without rotation, then wound by 0.21 rad against string and drive, 262 N m/rad in series.
+    let wound = |time: f64| Inputs {
+        rotary_speed: if (15.0..15.42).contains(&time) { 0.5 } else { 0.0 },
+        weight_on_bit: 10e3,
+        ..Inputs::default()
+    };
+    run(&mut twin, 60.0, wound);
+    let before = (twin.bit(), twin.displacement(8, Body::Pipe, Direction::Psi).unwrap());
+    run(&mut twin, 90.0, wound);
+    let (after, angle) = (twin.bit(), twin.displacement(8, Body::Pipe, Direction::Psi).unwrap());
+    assert!(before.0.torque > 30.0, "the string is wound: {:?}", before.0);
+    assert!(
+        (after.torque / before.0.torque - 1.0).abs() < 1e-3,
+        "{before:?} {after:?}"
+    );
+    // 1e-9 rad/s over 30 s.
+    assert!(
+        (angle - before.1).abs() < 3e-8 && after.rotary_speed.abs() < 1e-9,
+        "{angle} {before:?} {after:?}"
+    );
+
+    let limit = |weight: f64| {
+        let flats = ROCK.wear_flat_force.min(weight);
+        0.5 * 0.059 * (ROCK.wear_flat_friction * flats + (weight - flats) / ROCK.cutter_inclination)
+    };
+    let mut most = after;
+    while twin.time() < 120.0 && twin.bit().rotary_speed < 0.1 {
+        let until = twin.time() + 1e-3;
+        run(&mut twin, until, |_| Inputs {
+            rotary_speed: 0.2,
+            weight_on_bit: 10e3,
+            ..Inputs::default()
+        });
+        if twin.bit().torque > most.torque {
+            most = twin.bit();
+        }
+    }
+    assert!(twin.bit().rotary_speed >= 0.1, "it breaks off");
+    // The step of breaking off, in which the torque and the weight change.
+    assert!(
+        (most.torque / limit(most.weight_on_bit) - 1.0).abs() < 0.01,
+        "{most:?}, {}",
+        limit(most.weight_on_bit)
+    );
+}

@@ -9,7 +9,7 @@ pub(crate) mod well;
 
 pub use crate::elements::rock::{DepthOfCut, RockLaw, Weakening};
 pub use crate::elements::string::{
-    Feed, Hoist, Piece, SpeedController, StringDescription, TopDrive, WallFriction, Wave,
+    Feed, HangingTool, Hoist, Piece, SpeedController, StringDescription, TopDrive, TorsionalMode, WallFriction, Wave,
 };
 pub use description::{
     AddedMass, BitDescription, Body, Direction, FreeCurvature, FrictionLaw, GapDescription, HingeAngle, HoleInterval,

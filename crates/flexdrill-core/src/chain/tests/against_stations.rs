@@ -6,11 +6,12 @@ use crate::dynamics::stations::{add_shortening_tangent, add_slots_tangent};
 /// Over the fewest nodes there can be, and over those that steps of this size need.
 fn check(tool: &ToolDescription, h: f64, seed: u64) {
     for nodes_for in [1.0, h] {
-        check_over(tool, (h, nodes_for), seed);
+        check_over(tool, (h, nodes_for), seed, 4e-4);
     }
 }
 
-fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
+/// With a bit that the step has `turned` (rad).
+fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, turned: f64) {
     let model = Model::new(tool).unwrap();
     let scheme = Scheme::generalised_alpha(0.45);
     let factors = scheme.factors(h);
@@ -32,6 +33,8 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         let mut room = Room::new(&model, instructions);
         let start = before(&chain, &state, seed);
         room.interactions.begin(&start, h);
+        let bit_before = bit_before(&chain, &state, turned);
+        room.interactions.set_bit(bit_before);
         equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
         let mut full = State::at_rest(&model);
         let forces = JointForces {
@@ -44,6 +47,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64) {
         let mut full_start = State::at_rest(&model);
         chain.show(&model, &start, &forces, &mut full_start);
         at_stations.begin(&full_start, h);
+        at_stations.set_bit(bit_before);
         whole.residual(&mut at_stations, &model, &full, &conditions);
         let inside = |layer: &LayerContacts| {
             layer
@@ -218,6 +222,18 @@ fn links_that_shorten() {
         joint_seal_diameter: 0.062,
     });
     check(&tool, 5e-4, 4);
+}
+
+/// A bit that sticks, slips ahead, and slips back.
+#[test]
+fn bits_that_stick() {
+    for rock in ROCKS {
+        let mut tool = small(5, 3);
+        tool.rock = rock;
+        for turned in [4e-4, 2e-2, -2e-2] {
+            check_over(&tool, (5e-4, 5e-4), 7, turned);
+        }
+    }
 }
 
 #[test]

@@ -5,6 +5,11 @@ use super::*;
 /// The linear system that steps solve is the derivative of the residual that they judge by: the solution for a random
 /// right-hand side brings the residual's difference quotient back to it.
 fn check_derivative(tool: &ToolDescription) {
+    check_turned(tool, 4e-4);
+}
+
+/// With a bit that the step has `turned` (rad).
+fn check_turned(tool: &ToolDescription, turned: f64) {
     let model = Model::new(tool).unwrap();
     let factors = Scheme::newmark(0.6).factors(5e-4);
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.0, 1e4);
@@ -18,6 +23,8 @@ fn check_derivative(tool: &ToolDescription) {
     let mut room = Room::new(&model, instructions);
     let start = before(&chain, &state, 22);
     room.interactions.begin(&start, 5e-4);
+    let bit_before = bit_before(&chain, &state, turned);
+    room.interactions.set_bit(bit_before);
     equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
     assert!(room.interactions.inner.count() > 2, "no inner contact to test");
     assert!(
@@ -57,6 +64,7 @@ fn check_derivative(tool: &ToolDescription) {
         // New room each time, as the laws learn of friction from one correction to the next.
         let mut room = Room::new(&model, instructions);
         room.interactions.begin(&start, 5e-4);
+        room.interactions.set_bit(bit_before);
         let mut newton = equations(&model, &mut chain, &mut room);
         correct(&newton, &mut moved, factors);
         newton.evaluate(&mut moved, &conditions, true);
@@ -97,6 +105,14 @@ fn the_tangent_is_the_derivative_of_the_residual() {
     check_derivative(&with_shortening(small(6, 3)));
     for tool in with_slots(&small(6, 3)) {
         check_derivative(&tool);
+    }
+    for rock in ROCKS {
+        let mut tool = small(6, 3);
+        tool.rock = rock;
+        // It sticks, slips ahead, and slips back.
+        for turned in [4e-4, 2e-2, -2e-2] {
+            check_turned(&tool, turned);
+        }
     }
     check_derivative(&with_mud(small(6, 3)));
     check_derivative(&with_mud_near_walls(small(6, 3)));

@@ -25,9 +25,9 @@ use crate::elements::joint::Joint;
 use crate::model::Model;
 use crate::tool::description::LiveParameters;
 use crate::tool::{
-    AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
-    MudDescription, MudFilm, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, Shortening,
-    Support, ToolDescription, WallFrictionFactors, WellSection, WobPath,
+    AddedMass, Body, DepthOfCut, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
+    MudDescription, MudFilm, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw,
+    Shortening, Support, ToolDescription, WallFrictionFactors, Weakening, WellSection, WobPath,
 };
 
 fn random(seed: &mut u64) -> f64 {
@@ -158,6 +158,29 @@ fn before(chain: &Chain, state: &State, seed: u64) -> State {
     let forces = before.bristles.iter_mut().flatten().flatten();
     forces.for_each(|force| *force = 300.0 * random(&mut seed));
     before
+}
+
+const WEAKENS: Weakening = Weakening { ratio: 1.8, rate: 4.0 };
+
+/// The laws under which a bit sticks.
+const ROCKS: [RockLaw; 2] = [
+    RockLaw::Weakening(WEAKENS),
+    RockLaw::DepthOfCut(DepthOfCut {
+        blades: 3,
+        specific_energy: 30e6,
+        cutter_inclination: 0.6,
+        wear_flat_force: 8e3,
+        wear_flat_friction: 0.1,
+        wear_flat_travel: 1e-4,
+        weakening: WEAKENS,
+    }),
+];
+
+/// Angle of the bit (rad) that a step has `turned` (rad), and a bottom 0.3 mm above the bit (m): it cuts, and its wear flats
+/// bear fully.
+fn bit_before(chain: &Chain, state: &State, turned: f64) -> [f64; 2] {
+    let places = &chain.model.places;
+    [state.q[places.bit_spin] - turned, state.q[places.guide_end] - 3e-4]
 }
 
 fn mass(location: Location, body: Body) -> PointMass {

@@ -98,6 +98,8 @@ pub struct EnergyPoint {
     pub(crate) advance_power: f64,
     /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
     bristles: f64,
+    /// Energy in the twist of a bit that sticks (J), which the rock has not taken yet.
+    bit_elastic: f64,
     /// Power of the advance against the friction of the wall (W).
     feed: f64,
     /// Pressure in the pipe at the tool's top (Pa).
@@ -144,6 +146,7 @@ impl EnergyPoint {
             advance: 0.0,
             advance_power: 0.0,
             bristles: 0.0,
+            bit_elastic: 0.0,
             feed: 0.0,
             pressure: 0.0,
             lifted_by_pressure: 0.0,
@@ -197,6 +200,7 @@ impl EnergyPoint {
             advance,
             advance_power,
             bristles,
+            bit_elastic,
             feed,
             pressure,
             lifted_by_pressure,
@@ -204,7 +208,7 @@ impl EnergyPoint {
         } = *other;
         (self.string_lost, self.hoist_work) = (string_lost, hoist_work);
         (self.advance, self.advance_power) = (advance, advance_power);
-        (self.bristles, self.feed) = (bristles, feed);
+        (self.bristles, self.bit_elastic, self.feed) = (bristles, bit_elastic, feed);
         (self.kinetic, self.foresight) = (kinetic, foresight);
         (self.stored, self.geometric_energy, self.contact_dissipation) =
             (stored, geometric_energy, contact_dissipation);
@@ -354,7 +358,8 @@ impl EnergyPoint {
         }
         self.bristles =
             interactions.inner.bristle_energy(&conditions.inner) + interactions.outer.bristle_energy(&conditions.outer);
-        self.stored = stored + self.bristles;
+        self.bit_elastic = interactions.bit.elastic;
+        self.stored = stored + self.bristles + self.bit_elastic;
         self.feed = if conditions.rate_of_penetration == 0.0 {
             0.0
         } else {

@@ -127,7 +127,9 @@ impl EnergyAudit {
             self.feed += h * mean(e0.advance_power, e1.advance_power);
         }
         self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[places.guide_end];
-        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[places.bit_spin];
+        // What the twist of a bit that sticks takes it gives back.
+        let twisted = e1.bit_elastic - e0.bit_elastic;
+        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[places.bit_spin] - twisted;
         for (k, &load) in places.loads.iter().enumerate() {
             self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
         }

@@ -62,7 +62,7 @@ impl Interactions {
     /// in which bristles keep their forces. The laws forget what they learned of friction in the corrections of the step
     /// before.
     pub(crate) fn begin(&mut self, from: &State, step: f64) {
-        self.bit.begin();
+        self.bit.begin(step);
         self.joints.begin();
         self.step = step;
         self.inner.begin(from.bristles.iter().map(|station| station[0]), step);
@@ -71,6 +71,12 @@ impl Interactions {
             self.start.clear();
             self.start.extend_from_slice(&from.q);
         }
+    }
+
+    /// Lets the bit begin the step at `angle` (rad) without torque, over a flat bottom at `depth` (m).
+    #[cfg(test)]
+    pub(crate) fn set_bit(&mut self, [angle, depth]: [f64; 2]) {
+        self.bit.start(angle, depth);
     }
 
     /// Keeps the friction of the bristles at the end of a step in `to`.

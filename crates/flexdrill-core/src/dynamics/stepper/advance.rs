@@ -111,7 +111,7 @@ impl Stepper {
     /// Keeps the present state for [`Stepper::retreat`].
     fn keep(&mut self) {
         self.track.keep();
-        self.bit_mark = self.interactions.bit.mark();
+        self.bit_mark = Some(self.interactions.bit.mark());
         if let Some(string) = &mut self.string {
             string.keep();
         }
@@ -120,7 +120,9 @@ impl Stepper {
     /// Goes back to the state kept last.
     fn retreat(&mut self) {
         self.track.retreat();
-        self.interactions.bit.rewind(self.bit_mark);
+        if let Some(mark) = &self.bit_mark {
+            self.interactions.bit.rewind(mark);
+        }
         if let Some(string) = &mut self.string {
             string.retreat();
         }

@@ -8,7 +8,7 @@ use super::{Counters, Stepper};
 use crate::dynamics::energy::EnergyPoint;
 use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
-use crate::elements::rock::Groove;
+use crate::elements::rock::BitState;
 use crate::elements::string::StringState;
 use crate::inputs::Inputs;
 use crate::tool::description::LiveParameters;
@@ -25,7 +25,7 @@ pub struct StepperCheckpoint<'a> {
     inputs: Inputs,
     refinement: u32,
     string: Option<Cow<'a, StringState>>,
-    groove: Option<Cow<'a, Groove>>,
+    bit: Cow<'a, BitState>,
 }
 
 impl Stepper {
@@ -41,7 +41,7 @@ impl Stepper {
             inputs: self.inputs,
             refinement: self.refinement,
             string: self.string.as_ref().map(|string| Cow::Borrowed(string.state())),
-            groove: self.interactions.bit.groove().map(Cow::Borrowed),
+            bit: Cow::Borrowed(self.interactions.bit.state()),
         }
     }
 
@@ -52,7 +52,7 @@ impl Stepper {
             && checkpoint.state.pipe_axial.len() == track.state.pipe_axial.len()
             && checkpoint.state.bristles.len() == track.state.bristles.len()
             && checkpoint.energy.fits(&track.energy)
-            && self.interactions.bit.fits(checkpoint.groove.as_deref())
+            && self.interactions.bit.fits(&checkpoint.bit)
             && match (&self.string, &checkpoint.string) {
                 (Some(string), Some(saved)) => string.fits(saved),
                 (None, None) => true,
@@ -64,7 +64,7 @@ impl Stepper {
         self.live = checkpoint.live;
         track.state.copy_from(&checkpoint.state);
         let mut conditions = self.conditions(checkpoint.state.time, &checkpoint.inputs);
-        self.interactions.bit.restore(checkpoint.groove.as_deref());
+        self.interactions.bit.restore(&checkpoint.bit);
         let (spin, top) = (self.places().top_spin, self.places().guide_top);
         if let (Some(string), Some(saved)) = (&mut self.string, &checkpoint.string) {
             string.restore(saved);

@@ -13,8 +13,9 @@ use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::support::{Random, small};
 use crate::tool::{
-    AddedMass, Body, FreeCurvature, FrictionLaw, JointKind, Location, MudDamping, MudDescription, MudFilm, PointMass,
-    PressureDescription, PressureEnd, PressureSource, Shortening, ToolDescription, WobPath,
+    AddedMass, Body, DepthOfCut, FreeCurvature, FrictionLaw, JointKind, Location, MudDamping, MudDescription, MudFilm,
+    PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw, Shortening, ToolDescription, Weakening,
+    WobPath,
 };
 
 /// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces.
@@ -52,6 +53,11 @@ fn lively_state(model: &Model) -> State {
 }
 
 fn check(tool: &ToolDescription) {
+    check_turned(tool, 4e-4);
+}
+
+/// With a bit that the step has `turned` (rad).
+fn check_turned(tool: &ToolDescription, turned: f64) {
     let settings = StepperSettings {
         time_step: 5e-4,
         scheme: Scheme::newmark(0.6),
@@ -85,6 +91,12 @@ fn check(tool: &ToolDescription) {
     let mut assembler = Assembler::new(model, Instructions::best());
     let mut interactions = Interactions::new(model, Instructions::best());
     interactions.begin(&start, settings.time_step);
+    // The bit is 0.3 mm below the bottom: it cuts, and its wear flats bear fully.
+    let bit_before = [
+        state.q[model.places.bit_spin] - turned,
+        state.q[model.places.guide_end] - 3e-4,
+    ];
+    interactions.set_bit(bit_before);
     assembler.residual(&mut interactions, model, &state, &conditions);
     assert!(interactions.inner.count() > 2, "no inner contact to test");
     assert!(interactions.outer.count() > 2, "no outer contact to test");
@@ -140,6 +152,7 @@ fn check(tool: &ToolDescription) {
                 let mut assembler = Assembler::new(model, Instructions::best());
                 let mut interactions = Interactions::new(model, Instructions::best());
                 interactions.begin(&start, settings.time_step);
+                interactions.set_bit(bit_before);
                 assembler.residual(&mut interactions, model, &moved, &conditions);
                 assembler.residual
             };
@@ -185,6 +198,33 @@ fn friction_laws() {
         tool.wall_friction_factors.arc = 1.7;
         check(&tool);
     }
+}
+
+/// A bit that sticks, slips ahead, and slips back.
+#[test]
+fn bits_that_stick() {
+    for turned in [4e-4, 2e-2, -2e-2] {
+        for rock in rocks() {
+            let mut tool = small();
+            tool.rock = rock;
+            check_turned(&tool, turned);
+        }
+    }
+}
+
+/// The laws under which a bit sticks.
+fn rocks() -> [RockLaw; 2] {
+    let weakening = Weakening { ratio: 1.8, rate: 4.0 };
+    let cut = DepthOfCut {
+        blades: 3,
+        specific_energy: 30e6,
+        cutter_inclination: 0.6,
+        wear_flat_force: 8e3,
+        wear_flat_friction: 0.1,
+        wear_flat_travel: 1e-4,
+        weakening,
+    };
+    [RockLaw::Weakening(weakening), RockLaw::DepthOfCut(cut)]
 }
 
 #[test]

@@ -1,6 +1,12 @@
 //! The rock's torque and weight on the bit at the last residual, with what the tangent needs of them.
 
-use super::{Answer, Groove, RockLaw, Weakening};
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::bristle::Held;
+use super::groove::GrooveMark;
+use super::{Answer, Bristle, Groove, RockLaw, Weakening};
 use crate::elements::slip::{Slip, SlipMemory};
 
 /// The bit as the rock finds it.
@@ -20,8 +26,28 @@ pub struct BitAt {
     pub depth: f64,
 }
 
+/// How the bit holds the rock at the end of a step: all that a run needs to continue.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BitState {
+    /// `None` for the paper's law.
+    bristle: Option<Bristle>,
+    /// Of the law with depth of cut.
+    groove: Option<Groove>,
+}
+
+#[cfg(test)]
+impl BitState {
+    /// A bit that holds the rock by `bristle` over the paths in `groove`.
+    pub(super) fn of(bristle: Bristle, groove: Groove) -> Self {
+        Self {
+            bristle: Some(bristle),
+            groove: Some(groove),
+        }
+    }
+}
+
 /// Torque and weight with their derivatives at the last residual, and the memory of the step's corrections.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct BitLoad {
     /// Torque against the rotation (N m).
     pub torque: f64,
@@ -35,15 +61,32 @@ pub struct BitLoad {
     pub weight_by: [f64; 2],
     /// Depth of cut (m per turn); 0 for laws without one.
     pub depth_of_cut: f64,
+    /// Elastic energy of the bit's twist (J).
+    pub elastic: f64,
     /// Angle and depth of the bit at the last residual (rad, m), and depth down to which the wear flats press (m).
     at: [f64; 3],
     /// `None` before the first residual of a step.
     memory: Option<SlipMemory>,
-    groove: Option<Groove>,
+    state: BitState,
+    /// Size of the step (s); 0 at rest.
+    step: f64,
+    /// The bristle at the last residual of the step.
+    held: Option<Held>,
 }
 
 /// See [`BitLoad::mark`].
-pub type BitMark = super::groove::GrooveMark;
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BitMark {
+    bristle: Option<Bristle>,
+    groove: Option<GrooveMark>,
+}
+
+/// What the rock resists with, before it is known in which sense the bit turns or whether it sticks.
+struct Resistance {
+    answer: Answer,
+    /// P and dP/domega (s/rad) of the friction.
+    factor: [f64; 2],
+}
 
 impl BitLoad {
     /// Room for what `law` keeps.
@@ -52,28 +95,55 @@ impl BitLoad {
             RockLaw::DepthOfCut(cut) => Some(Groove::new(cut.blades)),
             _ => None,
         };
+        let bristle = match law {
+            RockLaw::Paper => None,
+            _ => Some(Bristle::default()),
+        };
         Self {
-            groove,
-            ..Self::default()
+            torque: 0.0,
+            slope: 0.0,
+            torque_by: [0.0; 2],
+            weight: 0.0,
+            weight_by: [0.0; 2],
+            depth_of_cut: 0.0,
+            elastic: 0.0,
+            at: [0.0; 3],
+            memory: None,
+            state: BitState { bristle, groove },
+            step: 0.0,
+            held: None,
         }
     }
 
-    /// Clears the memory at the start of a step.
-    pub fn begin(&mut self) {
+    /// Clears the memory at the start of a step of size `step` (s), or with 0 of a state at rest, in which the torque of a bit
+    /// that sticks stays.
+    pub fn begin(&mut self, step: f64) {
         self.memory = None;
+        self.held = None;
+        self.step = step;
     }
 
     /// Evaluates torque, weight and slopes.
     pub fn evaluate(&mut self, law: &RockLaw, bit: &BitAt) {
+        let resistance = self.resistance(law, bit);
+        match self.state.bristle {
+            Some(bristle) => self.stick(&bristle, bit, &resistance),
+            None => self.slide(bit, &resistance.answer),
+        }
+        let answer = &resistance.answer;
+        (self.weight, self.weight_by) = (answer.weight, answer.weight_by);
+        self.depth_of_cut = answer.depth_of_cut;
+        self.at = [bit.angle, bit.depth, answer.pressed];
+    }
+
+    fn resistance(&self, law: &RockLaw, bit: &BitAt) -> Resistance {
         let [full, weight] = bit.given;
-        let given = Answer {
-            torque: full,
-            weight,
-            ..Answer::default()
-        };
-        let (answer, weakening) = match (law, &self.groove) {
+        let (answer, weakening) = match (law, &self.state.groove) {
             (RockLaw::DepthOfCut(cut), Some(groove)) => {
-                (cut.answer(bit.radius, bit.depth, bit.angle, groove), &cut.weakening)
+                // Where the cutters were at the start of the step: the share does not change within it.
+                let share = self.state.bristle.map_or(1.0, |bristle| groove.share(bristle.root()));
+                let answer = cut.answer(bit.radius, bit.depth, bit.angle, groove, share);
+                (answer, &cut.weakening)
             }
             (RockLaw::Weakening(weakening), _) => (
                 Answer {
@@ -84,92 +154,148 @@ impl BitLoad {
                 },
                 weakening,
             ),
-            _ => (given, &Weakening::NONE),
+            _ => (
+                Answer {
+                    torque: full,
+                    weight,
+                    ..Answer::default()
+                },
+                &Weakening::NONE,
+            ),
         };
-        let weakens = weakening.ratio > 1.0;
-        let (factor, factor_slope) = if weakens { weakening.at(bit.speed) } else { (1.0, 0.0) };
-        let full = answer.torque + answer.friction * factor;
+        let (factor, slope) = if weakening.ratio > 1.0 {
+            weakening.at(bit.speed)
+        } else {
+            (1.0, 0.0)
+        };
+        Resistance {
+            answer,
+            factor: [factor, slope],
+        }
+    }
+
+    /// Eq. 1 with a smooth sign of the speed.
+    fn slide(&mut self, bit: &BitAt, answer: &Answer) {
+        let full = answer.torque;
         let mut slip = Slip::at(bit.speed, full, bit.slip_rate);
         match &mut self.memory {
             Some(memory) => memory.follow(&mut slip, full, bit.slip_rate),
             None => self.memory = Some(SlipMemory::new(slip)),
         }
-        let sign = if full > 0.0 { slip.friction / full } else { 0.0 };
-        self.torque = slip.friction;
-        self.slope = if weakens {
-            slip.slope + sign * answer.friction * factor_slope
-        } else {
-            slip.slope
-        };
+        (self.torque, self.slope) = (slip.friction, slip.slope);
+    }
+
+    /// Sticks on the bristle or slips with the rock's torque.
+    fn stick(&mut self, bristle: &Bristle, bit: &BitAt, resistance: &Resistance) {
+        let Resistance {
+            answer,
+            factor: [factor, factor_slope],
+        } = resistance;
+        let friction = answer.friction * factor;
+        let limits = [answer.torque + friction, friction];
+        let held = bristle.turned(bit.radius, self.step, bit.angle, limits);
+        self.torque = held.bristle.torque();
+        self.elastic = held.bristle.energy(bit.radius);
+        let sense = f64::from(held.slips);
+        self.slope = sense * answer.friction * factor_slope;
+        let cut = if held.slips > 0 { answer.torque_by } else { [0.0; 2] };
         self.torque_by = [
-            sign * (answer.torque_by[0] + factor * answer.friction_by_depth),
-            sign * answer.torque_by[1],
+            cut[0] + sense * factor * answer.friction_by_depth,
+            cut[1] + held.by_angle,
         ];
-        (self.weight, self.weight_by) = (answer.weight, answer.weight_by);
-        self.depth_of_cut = answer.depth_of_cut;
-        self.at = [bit.angle, bit.depth, answer.pressed];
+        // Newton's tangent of a slipping bit leads far to the other side of sticking, and back from there, without end. A bit
+        // that has crossed so gets the stiffness of the line through both.
+        if self.held.is_some_and(|last| last.slips * held.slips < 0) {
+            self.torque_by[1] = held.secant;
+        }
+        self.held = Some(held);
     }
 
-    /// Whether the weight is a result of the rock's law.
+    /// Whether the tangent has derivatives by angle and depth.
     pub fn holds(&self) -> bool {
-        self.groove.is_some()
+        self.state.bristle.is_some()
     }
 
-    /// Begins with a flat bottom of the hole at `depth` (m), the bit at `angle` (rad).
+    /// Begins with a flat bottom of the hole at `depth` (m), the bit at `angle` (rad) without torque.
     pub fn start(&mut self, angle: f64, depth: f64) {
-        if let Some(groove) = &mut self.groove {
+        if let Some(groove) = &mut self.state.groove {
             groove.begin(angle, depth);
         }
+        if let Some(bristle) = &mut self.state.bristle {
+            *bristle = Bristle::at(angle);
+        }
+        self.held = None;
     }
 
     /// Takes the last residual as the end of a step: the blades have left their paths.
     pub fn accept(&mut self) {
         let [angle, depth, pressed] = self.at;
-        if let Some(groove) = &mut self.groove {
+        if let (Some(bristle), Some(held)) = (&mut self.state.bristle, self.held) {
+            *bristle = held.bristle;
+        }
+        if let Some(groove) = &mut self.state.groove {
             groove.record(angle, depth, pressed);
+            groove.slide_to(self.state.bristle.map_or(angle, |bristle| bristle.root()));
         }
     }
 
     /// What a retreat from a step needs.
-    pub fn mark(&self) -> Option<BitMark> {
-        self.groove.as_ref().map(Groove::mark)
+    pub fn mark(&self) -> BitMark {
+        BitMark {
+            bristle: self.state.bristle,
+            groove: self.state.groove.as_ref().map(Groove::mark),
+        }
     }
 
     /// Goes back to a mark of the present step.
-    pub fn rewind(&mut self, mark: Option<BitMark>) {
-        if let (Some(groove), Some(mark)) = (&mut self.groove, mark) {
-            groove.rewind(&mark);
+    pub fn rewind(&mut self, mark: &BitMark) {
+        self.state.bristle = mark.bristle;
+        if let (Some(groove), Some(mark)) = (&mut self.state.groove, &mark.groove) {
+            groove.rewind(mark);
         }
     }
 
     /// Takes whole turns off the angle.
     pub fn unwind(&mut self, turns: f64) {
-        if let Some(groove) = &mut self.groove {
+        if let Some(groove) = &mut self.state.groove {
             groove.unwind(turns);
+        }
+        if let Some(bristle) = &mut self.state.bristle {
+            bristle.unwind(turns * TAU);
         }
     }
 
-    /// The paths of the blades, to be saved.
+    /// How the bit holds the rock, to be saved.
     #[cfg(feature = "checkpoints")]
-    pub fn groove(&self) -> Option<&Groove> {
-        self.groove.as_ref()
+    pub fn state(&self) -> &BitState {
+        &self.state
     }
 
-    /// Whether saved paths are those of this bit.
+    /// The paths of the blades, of the law with depth of cut.
+    #[cfg(test)]
+    pub(super) fn groove(&self) -> Option<&Groove> {
+        self.state.groove.as_ref()
+    }
+
+    /// Whether a saved state is one of this bit.
     #[cfg(feature = "checkpoints")]
-    pub fn fits(&self, saved: Option<&Groove>) -> bool {
-        match (&self.groove, saved) {
+    pub fn fits(&self, saved: &BitState) -> bool {
+        let bristles = self.state.bristle.is_some() == saved.bristle.is_some();
+        let grooves = match (&self.state.groove, &saved.groove) {
             (Some(groove), Some(saved)) => groove.fits(saved),
             (None, None) => true,
             _ => false,
-        }
+        };
+        bristles && grooves
     }
 
-    /// Continues with saved paths that fit.
+    /// Continues with a saved state that fits.
     #[cfg(feature = "checkpoints")]
-    pub fn restore(&mut self, saved: Option<&Groove>) {
-        if let (Some(groove), Some(saved)) = (&mut self.groove, saved) {
+    pub fn restore(&mut self, saved: &BitState) {
+        self.state.bristle = saved.bristle;
+        if let (Some(groove), Some(saved)) = (&mut self.state.groove, &saved.groove) {
             groove.copy_from(saved);
         }
+        self.held = None;
     }
 }

@@ -13,15 +13,20 @@
 //! d = n [U - max path]+        W = zeta e a d + W_f        T = e a^2 d / 2 + mu_g a W_f / 2 P(omega)
 //! ```
 //!
-//! U is the depth of the bit (m, down), n the number of blades, a the radius. The torque has a smooth sign of the speed, so
-//! that the bit may stick.
+//! U is the depth of the bit (m, down), n the number of blades, a the radius. That is while the bit turns ahead. Turning back,
+//! its cutters leave the rock: only the wear flats act, they carry all the weight, and nothing is removed.
+//!
+//! The torque of the paper's law has a smooth sign of the speed, by which a bit that is held creeps. With the other laws
+//! the bit sticks on an elastic twist ([`Bristle`]).
 
 mod bit;
+mod bristle;
 mod groove;
 #[cfg(test)]
 mod tests;
 
-pub use bit::{BitAt, BitLoad, BitMark};
+pub use bit::{BitAt, BitLoad, BitMark, BitState};
+pub use bristle::Bristle;
 pub use groove::Groove;
 
 use serde::{Deserialize, Serialize};
@@ -100,31 +105,48 @@ pub struct Answer {
 }
 
 impl DepthOfCut {
-    /// The answer to a bit of `radius` (m) at a depth (m, down) and an angle (rad) over the paths in `groove`.
-    pub fn answer(&self, radius: f64, depth: f64, angle: f64, groove: &Groove) -> Answer {
+    /// The answer to a bit of `radius` (m) at a depth (m, down) and an angle (rad) over the paths in `groove`, with a `share` (0
+    /// to 1) of the cutters' faces in the rock.
+    pub fn answer(&self, radius: f64, depth: f64, angle: f64, groove: &Groove, share: f64) -> Answer {
         let (path, slope) = groove.path(angle);
         let (blades, cutting) = (f64::from(self.blades), self.specific_energy * radius);
         let cuts = depth > path;
-        let depth_of_cut = if cuts { blades * (depth - path) } else { 0.0 };
-        // The wear flats press elastically over their travel and follow the bit down at their full force.
+        let depth_of_cut = if cuts { share * blades * (depth - path) } else { 0.0 };
+        // The wear flats press elastically over their travel. While the bit cuts they follow it down at their full force; the
+        // rock below them is broken by the cutters. Turning back they carry whatever weight there is.
         let stiffness = self.wear_flat_force / self.wear_flat_travel;
         let deepest = depth - self.wear_flat_travel;
-        let pressed = groove.pressed().max(deepest);
+        let yields = (deepest - groove.pressed()).max(0.0);
+        let pressed = if share < 1.0 {
+            groove.pressed() + share * yields
+        } else {
+            groove.pressed().max(deepest)
+        };
         let compressed = depth - pressed;
         let bears = compressed > 0.0;
         let flat = if bears { stiffness * compressed } else { 0.0 };
-        let flat_slope = if bears && pressed > deepest { stiffness } else { 0.0 };
-        let by_depth = if cuts { blades * cutting } else { 0.0 };
+        let flat_slope = match (bears, yields > 0.0) {
+            (false, _) => 0.0,
+            (true, false) => stiffness,
+            (true, true) => (1.0 - share) * stiffness,
+        };
+        let by_depth = if cuts { share * blades * cutting } else { 0.0 };
         let by_angle = -by_depth * slope;
+        // A bit without wear flats stands on its cutters in either sense.
+        let (standing, standing_by_depth) = if self.wear_flat_force > 0.0 || !cuts {
+            (depth_of_cut, by_depth)
+        } else {
+            (blades * (depth - path), blades * cutting)
+        };
         Answer {
             torque: 0.5 * cutting * radius * depth_of_cut,
             torque_by: [0.5 * radius * by_depth, 0.5 * radius * by_angle],
             friction: 0.5 * self.wear_flat_friction * radius * flat,
             friction_by_depth: 0.5 * self.wear_flat_friction * radius * flat_slope,
-            weight: self.cutter_inclination * cutting * depth_of_cut + flat,
+            weight: self.cutter_inclination * cutting * standing + flat,
             weight_by: [
-                self.cutter_inclination * by_depth + flat_slope,
-                self.cutter_inclination * by_angle,
+                self.cutter_inclination * standing_by_depth + flat_slope,
+                -self.cutter_inclination * standing_by_depth * slope,
             ],
             depth_of_cut,
             pressed,

@@ -15,6 +15,7 @@ mod friction;
 mod history;
 mod hoist;
 mod line;
+mod modes;
 mod top_drive;
 
 pub use friction::WallFriction;
@@ -22,4 +23,5 @@ pub use hoist::{Feed, Hoist};
 #[cfg(feature = "checkpoints")]
 pub use line::StringState;
 pub use line::{Piece, StringDescription, StringLine, StringStep, Wave};
+pub use modes::{HangingTool, TorsionalMode};
 pub use top_drive::{SpeedController, TopDrive};

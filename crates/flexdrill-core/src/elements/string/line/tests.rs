@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::*;
+use crate::elements::string::modes::HangingTool;
 use crate::elements::string::top_drive::SpeedController;
 use crate::support::figure;
 use crate::tool::{Material, Tube};
@@ -379,4 +380,151 @@ fn val_break_off_under_distributed_friction() {
         println!("amplitude {amplitude:.3} of the source's");
         assert!((1.0..2.2).contains(&amplitude), "{amplitude}");
     }
+}
+
+/// 1400 m of 88.9/70.2 mm over 150 m of 120.65/57.15 mm.
+fn pipe_and_collars() -> Vec<Piece> {
+    let sections = [(0.0889, 0.0702, 1400.0), (0.120_65, 0.057_15, 150.0)];
+    let piece = |(outer, inner, length): (f64, f64, f64)| Piece::of(&tube(outer, inner, STEEL), length);
+    sections.map(piece).to_vec()
+}
+
+fn described(pieces: Vec<Piece>, drive: TopDrive) -> StringDescription {
+    StringDescription {
+        pieces,
+        drive,
+        hoist: None,
+        weight: 0.0,
+    }
+}
+
+/// The default tool's pipe, 5.0265 m of 63/32 mm, without a bit.
+fn five_metres() -> HangingTool {
+    HangingTool {
+        pieces: vec![Piece::of(&tube(0.063, 0.032, STEEL), 5.0265).torsion],
+        inertia: 0.0,
+    }
+}
+
+fn controlled(inertia: f64, proportional: f64, integral: f64) -> TopDrive {
+    TopDrive::Controlled(SpeedController {
+        inertia,
+        proportional,
+        integral,
+        torque_limit: 1e9,
+    })
+}
+
+/// A drive tuned as the configuration's soft torque: P a multiple of the impedance, I that of the quarter wave.
+fn soft_torque(pieces: &[Piece], inertia: f64, ratio: f64) -> TopDrive {
+    let delay: f64 = pieces.iter().map(|piece| piece.torsion.delay).sum();
+    let mode = FRAC_PI_2 / delay;
+    controlled(inertia, ratio * pieces[0].torsion.impedance, inertia * mode * mode)
+}
+
+/// Torsional modes s of 1400 m of pipe over 150 m of collars and a tool of 5 m under two drives, by another program's exact
+/// eigenvalues. Frequencies are held to 3e-4. Decays are held to 4 %: the other program's tool is another one, whose length and
+/// damping it does not print; the last digit of the smallest is 1 % of it.
+#[test]
+fn val_torsional_modes_under_two_drives() {
+    let pieces = pipe_and_collars();
+    let drives = [
+        ("stiff", controlled(800.0, 3000.0, 2000.0)),
+        ("soft torque", soft_torque(&pieces, 300.0, 3.0)),
+    ];
+    let expected = [
+        [(0.0454, 2.3714), (0.0119, 8.1491), (0.0043, 14.779)],
+        [(0.0523, 2.1798), (0.3955, 3.3875), (0.0120, 8.2138)],
+    ];
+    for ((name, drive), expected) in drives.into_iter().zip(expected) {
+        let modes = described(pieces.clone(), drive).torsional_modes(&five_metres(), 3);
+        assert_eq!(modes.len(), 3, "{modes:?}");
+        for (k, (mode, (decay, frequency))) in modes.iter().zip(expected).enumerate() {
+            let of = format!("{name}, mode {}", k + 1);
+            figure(&format!("{of}: frequency (rad/s)"), frequency, mode.frequency, 3e-4);
+            figure(&format!("{of}: decay (1/s)"), decay, mode.decay, 0.04);
+        }
+    }
+}
+
+/// A rotor on a string that is held at its upper end: x tan(x) = J_string / J, x = omega L / c, for every mode, and no decay.
+/// Tolerance: rounding of the search.
+#[test]
+fn analytic_modes_of_a_rotor_on_a_string() {
+    let (piece, ratio) = (plain(), 0.6);
+    let Wave { impedance, delay, .. } = piece.torsion;
+    let rotor = HangingTool {
+        pieces: Vec::new(),
+        inertia: impedance * delay / ratio,
+    };
+    let modes = described(vec![piece], TopDrive::Rigid).torsional_modes(&rotor, 4);
+    assert_eq!(modes.len(), 4, "{modes:?}");
+    for (k, mode) in modes.iter().enumerate() {
+        let (mut low, mut high) = (k as f64 * PI, k as f64 * PI + FRAC_PI_2 - 1e-9);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let below: f64 = middle * f64::tan(middle);
+            (low, high) = if below < ratio { (middle, high) } else { (low, middle) };
+        }
+        figure(
+            &format!("mode {}: frequency (rad/s)", k + 1),
+            low / delay,
+            mode.frequency,
+            1e-9,
+        );
+        assert!(mode.decay.abs() < 1e-9, "{mode:?}");
+    }
+}
+
+/// A ring-down of the string's own steps has the decay and the frequency of the condition of impedance: the second mode of
+/// that string with a rotor under a drive, rocked at its frequency and then left alone.
+///
+/// Tolerance: of the decay 5 %, what other modes leave after ten periods; of the frequency 0.2 %, crossings of zero.
+#[test]
+fn analytic_ring_down_of_the_second_mode() {
+    let piece = plain();
+    let drive = controlled(400.0, 900.0, 2000.0);
+    let inertia = 0.5;
+    let tool = HangingTool {
+        pieces: Vec::new(),
+        inertia,
+    };
+    let mode = described(vec![piece], drive).torsional_modes(&tool, 2)[1];
+    let mut end = Rotor::new(string(vec![piece], drive), inertia);
+    let period = TAU / mode.frequency;
+    while end.time < 30.0 * period {
+        let load = 5.0 * f64::sin(mode.frequency * end.time);
+        end.step(0.0, load);
+    }
+    let until = end.time + 10.0 * period;
+    while end.time < until {
+        end.step(0.0, 0.0);
+    }
+    // Amplitude and phase at the mode's frequency over windows of ten periods.
+    let mut window = || {
+        let (start, mut sums, mut count) = (end.time, [0.0; 2], 0.0);
+        while end.time < start + 10.0 * period {
+            end.step(0.0, 0.0);
+            let phase = mode.frequency * end.time;
+            sums[0] += end.speed * phase.cos();
+            sums[1] += end.speed * phase.sin();
+            count += 1.0;
+        }
+        let middle = 0.5 * (start + end.time);
+        (
+            middle,
+            2.0 * f64::hypot(sums[0], sums[1]) / count,
+            f64::atan2(sums[1], sums[0]),
+        )
+    };
+    let (first, second) = (window(), window());
+    let between = second.0 - first.0;
+    let lag = (second.2 - first.2 + PI).rem_euclid(TAU) - PI;
+    figure("decay (1/s)", mode.decay, (first.1 / second.1).ln() / between, 0.05);
+    figure(
+        "frequency (rad/s)",
+        mode.frequency,
+        mode.frequency - lag / between,
+        2e-3,
+    );
 }
