@@ -30,7 +30,8 @@ const POINTS: &str = "points.csv";
 /// Fit friction, the bit's coefficient and the sensors' tares to a field log or a bag with what the rig measured.
 ///
 /// The steady parts of the log are compared with runs of the twin. What the log does not determine is left as it is and
-/// said so. Full runs check what was found: where they contradict it, the values are not to be used, and the exit code is 1. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
+/// said so. Full runs check what was found: where they contradict it, the values are not to be used, and the exit code
+/// is 1. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
 /// calibration.json and report.html. The twin's runs are kept in points.csv: the same command goes on after an
 /// interruption.
 #[derive(Debug, Args)]

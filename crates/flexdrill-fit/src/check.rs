@@ -16,8 +16,8 @@ use flexdrill_config::Config;
 const LOADS: usize = 3;
 /// Members of the posterior that are checked besides its centre.
 const MEMBERS: usize = 2;
-/// Mean square of the standardised differences of one quantity above which full runs speak against the values: three times
-/// the stated error. Of three independent differences it is above in one of 20,000 calibrations; with
+/// Mean square of the standardised differences of one quantity above which full runs speak against the values: three
+/// times the stated error. Of three independent differences it is above in one of 20,000 calibrations; with
 /// [`EXPLAINS`] it would be in one of 140, and there are six quantities.
 const OF_ONE: f64 = 9.0;
 

@@ -1,6 +1,7 @@
-//! Logs with known truth from a soft string on a bit of Detournay and Defourny, both in closed form: how near the estimates
-//! are, how often their 90 % bands hold the truth, and what is called not identifiable. The surrogates see the closed form at
-//! the points of a design, as they see the twin's runs; `cargo xtask bench --cases calibration` has full runs for both.
+//! Logs with known truth from a soft string on a bit of Detournay and Defourny, both in closed form: how near the
+//! estimates are, how often their 90 % bands hold the truth, and what is called not identifiable. The surrogates see
+//! the closed form at the points of a design, as they see the twin's runs; `cargo xtask bench --cases calibration` has
+//! full runs for both.
 //!
 //! What a log has, as real sensors do:
 //! - torque of the top drive: white noise of 15 N m (4 % of 350 N m) at 1 Hz, a drift of 5 N m per root of an hour, and an
@@ -39,8 +40,8 @@ struct World {
     problem: Problem,
 }
 
-/// A tool in a right angle of 3.2 m, and 20 m of level hole after it where `level`. The weight at the bit is what the wall's
-/// friction leaves of that at the surface, as `flexdrill verify --only capstan_intervals` holds the twin to.
+/// A tool in a right angle of 3.2 m, and 20 m of level hole after it where `level`. The weight at the bit is what the
+/// wall's friction leaves of that at the surface, as `flexdrill verify --only capstan_intervals` holds the twin to.
 fn world(level: bool) -> World {
     let text = include_str!("../../../tests/data/short_rig.yaml")
         .replace("radius: 1.2, build_angle_deg: 60", "radius: 3.2, build_angle_deg: 90")
@@ -140,8 +141,8 @@ impl Normal {
     }
 }
 
-/// Parts of the log: speed (r/min), weight (kN), seconds. 40 minutes with three times off bottom. At the lightest weights
-/// no tool of the prior cuts, at the heaviest every one does.
+/// Parts of the log: speed (r/min), weight (kN), seconds. 40 minutes with three times off bottom. At the lightest
+/// weights no tool of the prior cuts, at the heaviest every one does.
 fn schedule() -> Vec<(f64, f64, u32)> {
     let mut all = Vec::new();
     for (rpm, kn) in [(40.0, 10.0), (60.0, 20.0), (50.0, 14.0)] {

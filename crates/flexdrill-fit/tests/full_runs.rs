@@ -1,5 +1,6 @@
-//! A log that a run of the twin itself made second by second, with known truth, noise and drift, calibrated with its own
-//! design and checked by full runs: `cargo test --release -p flexdrill-fit --test full_runs -- --ignored --nocapture`.
+//! A log that a run of the twin itself made second by second, with known truth, noise and drift, calibrated with its
+//! own design and checked by full runs: `cargo test --release -p flexdrill-fit --test full_runs -- --ignored
+//! --nocapture`.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 

@@ -1,6 +1,6 @@
-//! `--cases calibration`: how often the bands of a calibration hold the truth. The truth comes from full runs of the twin
-//! with unknowns and loads that the design has not seen; to their figures come the noise, the drift and the tares of a rig's
-//! sensors. The weights of every log lie on both sides of the one at which the bit begins to cut.
+//! `--cases calibration`: how often the bands of a calibration hold the truth. The truth comes from full runs of the
+//! twin with unknowns and loads that the design has not seen; to their figures come the noise, the drift and the tares
+//! of a rig's sensors. The weights of every log lie on both sides of the one at which the bit begins to cut.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -22,8 +22,8 @@ use flexdrill_fit::{StudySettings, study};
 
 /// Speeds (r/min) of design and logs.
 const SPEEDS: [f64; 2] = [35.0, 65.0];
-/// Weights at the surface of design and logs, over the force of the wear flats. Below 1 no tool cuts; at 2.2 each does that
-/// passes on half.
+/// Weights at the surface of design and logs, over the force of the wear flats. Below 1 no tool cuts; at 2.2 each does
+/// that passes on half.
 const WEIGHTS: [f64; 2] = [0.9, 2.2];
 /// Parts of a log in which the bit drills, each with a weight of its own fifth of the range, and their duration (s).
 const DRILLING: usize = 5;

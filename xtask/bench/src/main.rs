@@ -46,7 +46,8 @@ struct Measurements {
     /// Logs of calibration whose result is checked by full runs, up to 18 each.
     #[arg(long, default_value_t = 3)]
     checked: u32,
-    /// Folder in which truth, rig-truth and calibration keep every run that is done: the same command continues from there.
+    /// Folder in which truth, rig-truth and calibration keep every run that is done: the same command continues from
+    /// there.
     #[arg(long, value_name = "FOLDER")]
     parts: Option<PathBuf>,
     /// Only the first so many cases of truth and rig-truth.
