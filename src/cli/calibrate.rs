@@ -17,6 +17,7 @@ use flexdrill_calibration::fit::refusals;
 use flexdrill_calibration::identify::Verdict;
 use flexdrill_calibration::windows::{self, Motion, Sample, WindowSettings, Windows};
 use flexdrill_config::Config;
+use flexdrill_fit::check::At;
 use flexdrill_fit::overlay::{self, Provenance};
 use flexdrill_fit::points::{self, Cover, Point};
 use flexdrill_fit::unknowns::Unknowns;
@@ -29,7 +30,8 @@ const POINTS: &str = "points.csv";
 /// Fit friction, the bit's coefficient and the sensors' tares to a field log or a bag with what the rig measured.
 ///
 /// The steady parts of the log are compared with runs of the twin. What the log does not determine is left as it is and
-/// said so. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
+/// said so. Full runs check what was found: where they contradict it, the values are not to be used, and the exit code
+/// is 1. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
 /// calibration.json and report.html. The twin's runs are kept in points.csv: the same command goes on after an
 /// interruption.
 #[derive(Debug, Args)]
@@ -101,7 +103,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
         members: args.members as usize,
     };
     tell!("fitting, and checking what was found by full runs");
-    let study = study(&config, unknowns, windows, &points, &covers, &settings)?;
+    let study = study(&config, unknowns, windows, &points, &settings)?;
     let rows = [samples.first(), samples.last()].map(|sample| sample.map_or(0, |sample| sample.row));
     let name = args
         .log
@@ -119,11 +121,11 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
     };
     write(args, &config, &study, &provenance)?;
     tell_result(&study);
+    let objections: Vec<String> = study.objections().iter().map(ToString::to_string).collect();
     anyhow::ensure!(
-        study.outcome.explains(),
-        "the twin does not explain the log: the residuals are {:.1} times their stated errors (root mean square). The \
-         values fit this configuration to another tool or another well; do not use them",
-        study.outcome.misfit.sqrt()
+        objections.is_empty(),
+        "the values are not to be used: {}",
+        objections.join("; ")
     );
     Ok(())
 }
@@ -216,7 +218,7 @@ fn run_points(
 
 fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Provenance) -> anyhow::Result<()> {
     let calibrated = overlay::apply(config, study)?;
-    let whole = overlay::header(provenance) + &calibrated.to_yaml()?;
+    let whole = overlay::header(provenance) + &overlay::warnings(study) + &calibrated.to_yaml()?;
     let json = serde_json::to_string_pretty(&overlay::json(study, provenance))?;
     write_file(&args.out, "overlay.yaml", &overlay::yaml(study, provenance))?;
     write_file(&args.out, "calibrated.yaml", &whole)?;
@@ -239,13 +241,19 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
             .map(|checked| page::Checked {
                 window: checked.window,
                 channel: checked.channel,
+                at: match checked.at {
+                    At::Centre => "values found".to_owned(),
+                    At::Member(number) => format!("member {}", number + 1),
+                },
                 measured: checked.measured,
                 run: checked.run.clone(),
                 surrogate: checked.surrogate,
+                surrogate_band: checked.surrogate_band,
                 band: checked.band,
             })
             .collect(),
         failed: study.failed.clone(),
+        objections: study.objections().iter().map(ToString::to_string).collect(),
     };
     let html = page::html(&about, &study.windows, &study.problem, &study.outcome)?;
     write_file(&args.out, crate::report::FILE, &html)?;

@@ -3,7 +3,7 @@
 /// Why nothing was fitted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
-    /// Fewer points than the surrogate has coefficients.
+    /// Too few points for the coefficients of the surrogate's mean.
     #[error(
         "the surrogate of {quantity} has {points} points for {coefficients} coefficients: at least {least} are needed; run \
          more points of the design"
@@ -13,7 +13,7 @@ pub enum CalibrationError {
         quantity: String,
         /// Points with a result.
         points: usize,
-        /// Coefficients of the quadratic.
+        /// Coefficients of the surrogate's mean.
         coefficients: usize,
         /// Least number of points.
         least: usize,

@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 
 use crate::identify::{CombinedPair, Estimate, identify};
 use crate::noise::{ErrorSource, covariance};
-use crate::smoother::{SmootherSettings, smooth};
+use crate::random::Random;
+use crate::smoother::{SmootherSettings, smooth, standard_normal};
 use crate::surrogate::Surrogate;
 use crate::unknown::Unknown;
 use crate::windows::{Channel, Motion, Windows};
@@ -14,6 +15,10 @@ use crate::{BAND, CalibrationError};
 pub const DESIGN: f64 = 2.5;
 /// Mean square of the standardised residuals above which the twin does not explain the log: twice the stated error.
 pub const EXPLAINS: f64 = 4.0;
+
+/// Members of the prior over which the covariance of the surrogates' errors is a mean. Where a variance differs by half
+/// of itself from member to member, the mean of so many is known to an eighth.
+const PRIOR_MEMBERS: usize = 16;
 
 /// A measured quantity that the twin predicts.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,8 +61,6 @@ pub struct Problem {
     pub quantities: Vec<Quantity>,
     /// Standard deviation of each channel's drift after an hour, in the order of [`Channel::ALL`].
     pub drift: [f64; 4],
-    /// Ranges of speed and weight in which the surrogates were fitted.
-    pub loads: [[f64; 2]; 2],
     /// What was observed.
     pub observations: Vec<Observation>,
 }
@@ -160,6 +163,30 @@ pub fn load(motion: Motion, rotary_speed: f64, weight: f64) -> Vec<f64> {
     }
 }
 
+impl Quantity {
+    /// Correlation of the surrogates' errors of two quantities, from the runs that were left out.
+    fn errors_alike(&self, other: &Self) -> f64 {
+        let [a, b] = [self, other].map(|quantity| &quantity.surrogate.left_out);
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let size = (product(a, a) * product(b, b)).sqrt();
+        match (a.len() == b.len(), size > 0.0) {
+            (true, true) => product(a, b) / size,
+            _ => 0.0,
+        }
+    }
+}
+
+/// The correlations of a covariance; without a variance, nothing depends on anything.
+fn correlations(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
+        let size = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+        match (size > 0.0, i == j) {
+            (true, _) => covariance[(i, j)] / size,
+            (false, same) => f64::from(u8::from(same)),
+        }
+    })
+}
+
 impl Problem {
     /// The predictions of all observations from standardised unknowns.
     pub fn predict(&self, z: &[f64]) -> Vec<f64> {
@@ -167,41 +194,92 @@ impl Problem {
             .iter()
             .map(|observation| {
                 let quantity = &self.quantities[observation.quantity];
-                let mut inputs = z[..self.modelled].to_vec();
-                inputs.extend(&observation.load);
                 let tare = quantity.tare.map_or(0.0, |tare| self.unknowns[tare].value(z[tare]));
-                quantity.surrogate.predict(&inputs) + tare
+                quantity.surrogate.predict(&self.inputs(z, observation)) + tare
             })
             .collect()
     }
 
-    /// The covariance of the errors of all observations.
+    /// Inputs of the surrogate of an observation.
+    fn inputs(&self, z: &[f64], observation: &Observation) -> Vec<f64> {
+        let mut inputs = z[..self.modelled].to_vec();
+        inputs.extend(&observation.load);
+        inputs
+    }
+
+    /// The standard deviation of the surrogate's error of an observation, at standardised unknowns.
+    pub fn surrogate_deviation(&self, z: &[f64], observation: usize) -> f64 {
+        let observation = &self.observations[observation];
+        let surrogate = &self.quantities[observation.quantity].surrogate;
+        surrogate.deviation(&self.inputs(z, observation))
+    }
+
+    /// The covariance of the errors of all observations: of what is measured, and of the surrogates.
     ///
     /// # Errors
     /// When a number of an observation cannot be.
-    pub fn covariance(&self) -> Result<DMatrix<f64>, CalibrationError> {
+    pub fn covariance(&self, seed: u64) -> Result<DMatrix<f64>, CalibrationError> {
         let sources: Vec<ErrorSource> = self
             .observations
             .iter()
             .map(|observation| {
-                let quantity = &self.quantities[observation.quantity];
-                let scaled = observation
-                    .load
-                    .iter()
-                    .zip(self.loads)
-                    .map(|(value, [low, high])| (value - low) / (high - low).max(f64::MIN_POSITIVE));
+                let channel = self.quantities[observation.quantity].channel as usize;
                 ErrorSource {
-                    sensor: quantity.channel as usize,
-                    surrogate: observation.quantity,
+                    sensor: channel,
                     time: observation.time.max(0.0),
                     scatter: observation.scatter,
-                    model: quantity.surrogate.error,
-                    drift_in_an_hour: self.drift[quantity.channel as usize],
-                    load: scaled.collect(),
+                    drift_in_an_hour: self.drift[channel],
                 }
             })
             .collect();
-        covariance(&sources)
+        let prior = standard_normal(self.unknowns.len(), PRIOR_MEMBERS, &mut Random::new(seed));
+        Ok(covariance(&sources)? + self.surrogate_errors(&prior))
+    }
+
+    /// The covariance of the surrogates' errors, as a mean over members of standardised unknowns, one column each. The
+    /// unknowns are the same at all loads of a log, so that the errors of its windows depend on each other as the
+    /// processes say. Quantities of one state of motion come from the same runs: their errors depend on each other as
+    /// those of the runs that were left out. The mean of the correlations over the quantities, times the correlations
+    /// of these, is again a correlation (a product of two by elements).
+    fn surrogate_errors(&self, members: &DMatrix<f64>) -> DMatrix<f64> {
+        let count = self.observations.len();
+        let mut all = DMatrix::zeros(count, count);
+        for motion in [Motion::OffBottom, Motion::Drilling] {
+            let of_motion: Vec<usize> = (0..count)
+                .filter(|k| self.quantities[self.observations[*k].quantity].motion == motion)
+                .collect();
+            let mut quantities: Vec<usize> = of_motion.iter().map(|k| self.observations[*k].quantity).collect();
+            quantities.sort_unstable();
+            quantities.dedup();
+            let mut between_loads = DMatrix::zeros(of_motion.len(), of_motion.len());
+            let mut deviations = vec![0.0; of_motion.len()];
+            for &number in &quantities {
+                let surrogate = &self.quantities[number].surrogate;
+                let mut mean = DMatrix::zeros(of_motion.len(), of_motion.len());
+                for member in members.column_iter() {
+                    let z: Vec<f64> = member.iter().copied().collect();
+                    let at: Vec<Vec<f64>> = of_motion
+                        .iter()
+                        .map(|k| self.inputs(&z, &self.observations[*k]))
+                        .collect();
+                    mean += surrogate.error_covariance(&at) / members.ncols() as f64;
+                }
+                for (row, k) in of_motion.iter().enumerate() {
+                    if self.observations[*k].quantity == number {
+                        deviations[row] = mean[(row, row)].sqrt();
+                    }
+                }
+                between_loads += correlations(&mean) / quantities.len() as f64;
+            }
+            for (row, i) in of_motion.iter().enumerate() {
+                for (column, j) in of_motion.iter().enumerate() {
+                    let [a, b] = [i, j].map(|k| self.observations[*k].quantity);
+                    let alike = self.quantities[a].errors_alike(&self.quantities[b]);
+                    all[(*i, *j)] = alike * between_loads[(row, column)] * deviations[row] * deviations[column];
+                }
+            }
+        }
+        all
     }
 
     /// Fits the unknowns to the observations.
@@ -213,7 +291,7 @@ impl Problem {
             return Err(CalibrationError::NothingObserved);
         }
         let observed: Vec<f64> = self.observations.iter().map(|observation| observation.value).collect();
-        let errors = self.covariance()?;
+        let errors = self.covariance(settings.seed)?;
         let posterior = smooth(self.unknowns.len(), &observed, &errors, settings, |z| self.predict(z))?;
         let (estimates, pairs) = identify(&self.unknowns, &posterior);
         let prior = self.predict(&vec![0.0; self.unknowns.len()]);

@@ -6,11 +6,12 @@
 //! # Layout
 //! - [`windows`]: the steady parts of a log, and what was left out with its reason.
 //! - [`unknown`]: what is fitted, with its prior; everything below works on standardised values, whose prior is N(0, 1).
-//! - [`design`]: a Latin hypercube of points at which the twin is run. [`surrogate`]: a quadratic through their results.
-//! - [`noise`]: the covariance of what is observed: scatter of a window, drift of a sensor, error of the surrogate.
+//! - [`design`]: a Latin hypercube of points at which the twin is run. [`surrogate`]: a Gaussian process through their
+//!   results.
+//! - [`noise`]: the covariance of what is measured: scatter of a window, drift of a sensor.
 //! - [`smoother`]: the ensemble smoother with multiple data assimilation (ES-MDA).
 //! - [`identify`]: what the data determine, what they do not, and pairs of which they determine one combination only.
-//! - [`fit`]: all of it in one call.
+//! - [`fit`]: all of it in one call, with the error of the surrogate.
 //! - [`follow`]: the recursive estimate of friction and tare while drilling. [`following`]: the twin's parameters on their
 //!   way to it, within limits.
 //! - [`residual`]: measured less predicted with its band. [`monitor`]: the comparison of rig and twin while drilling.

@@ -1,34 +1,24 @@
-//! The covariance of the errors of what is observed.
+//! The covariance of the errors of what is measured.
 //!
-//! Three errors that are independent of each other: the scatter of a window's mean, of that window alone; the drift of
-//! the sensor, a random walk from the beginning of the log; and the error of the surrogate, which is the same for windows
-//! at the same load and fades with the distance of the loads. Treating the last two as independent from window to window
-//! would make a long log look far more certain than it is.
+//! Two errors that are independent of each other: the scatter of a window's mean, of that window alone, and the drift
+//! of the sensor, a random walk from the beginning of the log. Treating drift as independent from window to window
+//! would make a long log look far more certain than it is. The error of the surrogate is added by [`crate::fit`].
 
 use nalgebra::DMatrix;
 
 use crate::CalibrationError;
 
-/// Distance of two loads, in ranges of the load, over which the surrogate's error fades to e^-1/2.
-const FADES: f64 = 0.5;
-
 /// What the covariance needs of an observation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorSource {
     /// Sensor that it comes from.
     pub sensor: usize,
-    /// Surrogate that predicts it.
-    pub surrogate: usize,
     /// Time from the beginning of the log (s).
     pub time: f64,
     /// Standard deviation of the window's mean.
     pub scatter: f64,
-    /// Standard deviation of the surrogate's error.
-    pub model: f64,
     /// Standard deviation of the sensor's drift after an hour; it grows with the root of time.
     pub drift_in_an_hour: f64,
-    /// Speed and weight, each over the range in which the surrogate was fitted.
-    pub load: Vec<f64>,
 }
 
 /// The covariance of the errors of all observations.
@@ -39,7 +29,6 @@ pub fn covariance(sources: &[ErrorSource]) -> Result<DMatrix<f64>, CalibrationEr
     for source in sources {
         for (what, value) in [
             ("the scatter of a window", source.scatter),
-            ("the error of a surrogate", source.model),
             ("the drift of a sensor", source.drift_in_an_hour),
             ("the time of a window", source.time),
         ] {
@@ -58,10 +47,6 @@ pub fn covariance(sources: &[ErrorSource]) -> Result<DMatrix<f64>, CalibrationEr
         if a.sensor == b.sensor {
             sum += a.drift_in_an_hour * b.drift_in_an_hour * a.time.min(b.time) / 3600.0;
         }
-        if a.surrogate == b.surrogate {
-            let square: f64 = a.load.iter().zip(&b.load).map(|(a, b)| (a - b) * (a - b)).sum();
-            sum += a.model * b.model * libm::exp(-0.5 * square / (FADES * FADES));
-        }
         sum
     };
     Ok(DMatrix::from_fn(sources.len(), sources.len(), between))
@@ -72,24 +57,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_long_log_does_not_average_drift_and_model_error_away() {
+    fn a_long_log_does_not_average_drift_away() {
         let source = |time: f64| ErrorSource {
             sensor: 0,
-            surrogate: 0,
             time,
             scatter: 1.0,
-            model: 2.0,
             drift_in_an_hour: 3.0,
-            load: vec![0.5, 0.5],
         };
         let all: Vec<ErrorSource> = (0..100).map(|k| source(f64::from(k) * 36.0)).collect();
         let c = covariance(&all).unwrap();
-        assert_eq!(c[(0, 0)], 5.0);
-        assert_eq!(c[(50, 50)], 5.0 + 9.0 * 0.5);
-        assert_eq!(c[(10, 50)], 4.0 + 9.0 * 0.1);
-        // The variance of the mean of all: scatter 0.01, model 4, and a third of the drift after the hour.
+        assert_eq!(c[(0, 0)], 1.0);
+        assert_eq!(c[(50, 50)], 1.0 + 9.0 * 0.5);
+        assert_eq!(c[(10, 50)], 9.0 * 0.1);
+        // The variance of the mean of all: scatter 0.01, and a third of the drift after the hour.
         let mean = c.sum() / 1e4;
-        assert!((mean - (0.01 + 4.0 + 3.0)).abs() < 0.1, "{mean}");
+        assert!((mean - (0.01 + 3.0)).abs() < 0.1, "{mean}");
         assert!(c.cholesky().is_some());
         let mut wrong = source(0.0);
         wrong.scatter = f64::NAN;

@@ -6,10 +6,12 @@
 //! - [`unknowns`]: what is fitted of a configuration, with its priors.
 //! - [`point`]: one run of the twin at constant speed and weight. [`points`]: all runs of a design, on threads, kept in a
 //!   file.
-//! - [`study`](mod@study): the whole, from windows of a log to what was found, checked by full runs.
+//! - [`study`](mod@study): the whole, from windows of a log to what was found. [`check`]: full runs with it, which decide
+//!   whether it is to be used.
 //! - [`stated`](fn@stated): errors of sensors and twin, for the comparison while drilling.
 //! - [`overlay`]: what was found as configuration and for other programs.
 
+pub mod check;
 pub mod overlay;
 pub mod point;
 pub mod points;
@@ -17,5 +19,6 @@ mod stated;
 pub mod study;
 pub mod unknowns;
 
+pub use check::{Checked, Objection};
 pub use stated::stated;
-pub use study::{Checked, Study, StudySettings, study};
+pub use study::{Study, StudySettings, study};

@@ -7,6 +7,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use super::check::At;
 use super::study::Study;
 use flexdrill_calibration::identify::{Estimate, Verdict};
 use flexdrill_calibration::windows::Channel;
@@ -134,6 +135,17 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
+/// Comment lines that say why the values are not to be used; empty where they may be.
+pub fn warnings(study: &Study) -> String {
+    let mut text = String::new();
+    for objection in study.objections() {
+        // The problem of a run may hold anything.
+        let plain = objection.to_string().replace(char::is_control, " ");
+        let _ = writeln!(text, "# NOT TO BE USED: {plain}.");
+    }
+    text
+}
+
 /// Comment lines with the provenance.
 pub fn header(provenance: &Provenance) -> String {
     format!(
@@ -152,6 +164,7 @@ pub fn header(provenance: &Provenance) -> String {
 /// The changed keys as YAML, with their bands.
 pub fn yaml(study: &Study, provenance: &Provenance) -> String {
     let mut text = header(provenance);
+    text.push_str(&warnings(study));
     text.push_str("# Values with the ends of their 90 % bands. Keys that the log does not determine are at the end.\n");
     let mut path: Vec<&str> = Vec::new();
     let mut all = changes(study);
@@ -214,6 +227,11 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
         },
         "misfit": study.outcome.misfit,
         "explains": study.outcome.explains(),
+        "usable": study.objections().is_empty(),
+        "not_to_be_used": study.objections().iter().map(|objection| json!({
+            "why": objection.name(),
+            "text": objection.to_string(),
+        })).collect::<Vec<_>>(),
         "unknowns": problem.unknowns.iter().zip(&study.outcome.estimates).enumerate().map(|(index, (unknown, estimate))| json!({
             "name": unknown.name,
             "keys": study.unknowns.modelled.get(index).map(|modelled| modelled.keys.clone()),
@@ -246,6 +264,7 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "motion": format!("{:?}", quantity.motion),
             "points": quantity.surrogate.points,
             "error": quantity.surrogate.error,
+            "error_over_stated": quantity.surrogate.over_stated(),
             "range": quantity.surrogate.range,
         })).collect::<Vec<_>>(),
         "windows": problem.observations.iter().zip(&study.outcome.explained).map(|(observation, explained)| {
@@ -271,7 +290,12 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "measured": checked.measured,
             "run": checked.run.as_ref().ok(),
             "problem": checked.run.as_ref().err(),
+            "at": match checked.at {
+                At::Centre => json!("centre"),
+                At::Member(number) => json!(number),
+            },
             "surrogate": checked.surrogate,
+            "surrogate_band": checked.surrogate_band,
             "band": checked.band,
         })).collect::<Vec<_>>(),
         "left_out": study.windows.left_out_by_reason().iter().map(|(reason, samples)| json!({

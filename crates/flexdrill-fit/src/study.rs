@@ -1,24 +1,20 @@
 //! The whole calibration of a log.
 
-use super::point::{self, Load};
-use super::points::{self, Cover, Point};
+use super::check::{Checked, Objection, check, objections};
+use super::points::{Cover, Point};
 use super::unknowns::Unknowns;
 use flexdrill_calibration::CalibrationError;
 use flexdrill_calibration::fit::{Outcome, Problem, Quantity, Refusal, observations, refusals};
 use flexdrill_calibration::smoother::SmootherSettings;
-use flexdrill_calibration::surrogate::{Surrogate, least_points};
+use flexdrill_calibration::surrogate::{Surrogate, usual_points};
 use flexdrill_calibration::unknown::Unknown;
 use flexdrill_calibration::windows::{Channel, Motion, Window, Windows};
 use flexdrill_config::Config;
 use flexdrill_core::units::kn_to_n;
 
-/// Points over the least number for a quadratic.
-const MORE: f64 = 1.3;
 /// Least half width of the speeds of a design, as a share of their mean, and of the weights: without a range there is no
 /// slope.
 const SPREAD: f64 = 0.1;
-/// Largest number of loads that are checked by full runs, in each state of motion.
-const CHECKED: usize = 3;
 
 /// How a log is calibrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,23 +25,6 @@ pub struct StudySettings {
     pub seed: u64,
     /// Members of the ensemble.
     pub members: usize,
-}
-
-/// A full run of the twin with what was found, against the log.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Checked {
-    /// Window of the log.
-    pub window: usize,
-    /// Quantity.
-    pub channel: Channel,
-    /// Mean of the log (SI).
-    pub measured: f64,
-    /// The twin's figure in a full run, with the tare of the sensor, or why there is none.
-    pub run: Result<f64, String>,
-    /// The surrogate's.
-    pub surrogate: f64,
-    /// Half of the 90 % band of the measurement.
-    pub band: f64,
 }
 
 /// What was found.
@@ -63,11 +42,16 @@ pub struct Study {
     pub problem: Problem,
     /// Its solution.
     pub outcome: Outcome,
-    /// The posterior checked by full runs.
+    /// Full runs at the posterior's centre and at some of its members.
     pub checked: Vec<Checked>,
 }
 
 impl Study {
+    /// Why the values are not to be used; none where they may be.
+    pub fn objections(&self) -> Vec<Objection> {
+        objections(self)
+    }
+
     /// Value per modelled unknown: what was found, the configured value where the data do not determine it.
     pub fn values(&self) -> Vec<f64> {
         let estimates = self.outcome.estimates.iter().take(self.unknowns.modelled.len());
@@ -95,7 +79,7 @@ pub fn cover(windows: &Windows, motion: Motion, unknowns: usize) -> Option<Cover
             motion,
             rotary_speed,
             weight: of(|window| window.weight),
-            points: (MORE * least_points(unknowns + loads) as f64).ceil() as usize,
+            points: usual_points(unknowns + loads),
         }
     })
 }
@@ -154,7 +138,6 @@ pub fn problem(
     unknowns: &Unknowns,
     windows: &Windows,
     points: &[Point],
-    covers: &[Cover],
 ) -> Result<Problem, CalibrationError> {
     let quantities = quantities(windows, points, unknowns)?;
     let mut all: Vec<Unknown> = unknowns
@@ -163,11 +146,6 @@ pub fn problem(
         .map(|modelled| modelled.unknown.clone())
         .collect();
     all.extend([unknowns.torque_tare.clone(), unknowns.hook_load_tare.clone()]);
-    let drilling = covers
-        .iter()
-        .find(|cover| cover.motion == Motion::Drilling)
-        .or(covers.first());
-    let loads = drilling.map_or([[0.0, 1.0]; 2], |cover| [cover.rotary_speed, cover.weight]);
     let settings = &config.calibration;
     Ok(Problem {
         unknowns: all,
@@ -175,7 +153,6 @@ pub fn problem(
         observations: observations(windows, &quantities),
         quantities,
         drift: [settings.torque_drift_nm, kn_to_n(settings.hook_load_drift_kn), 0.0, 0.0],
-        loads,
     })
 }
 
@@ -188,10 +165,9 @@ pub fn study(
     unknowns: Unknowns,
     windows: Windows,
     points: &[Point],
-    covers: &[Cover],
     settings: &StudySettings,
 ) -> Result<Study, CalibrationError> {
-    let problem = problem(config, &unknowns, &windows, points, covers)?;
+    let problem = problem(config, &unknowns, &windows, points)?;
     let smoother = SmootherSettings {
         members: settings.members,
         seed: settings.seed,
@@ -212,81 +188,4 @@ pub fn study(
     };
     study.checked = check(config, &study, settings.jobs);
     Ok(study)
-}
-
-/// Full runs at what was found, for some windows of each state of motion: those of the least, the middle and the largest
-/// load.
-fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked> {
-    let mut chosen = Vec::new();
-    for motion in [Motion::OffBottom, Motion::Drilling] {
-        let mut of_motion: Vec<usize> = study
-            .problem
-            .observations
-            .iter()
-            .map(|observation| observation.window)
-            .filter(|window| study.windows.steady[*window].motion == motion)
-            .collect();
-        of_motion.dedup();
-        let load = |window: &usize| {
-            let window = &study.windows.steady[*window];
-            (window.weight, window.rotary_speed)
-        };
-        of_motion.sort_by(|a, b| load(a).partial_cmp(&load(b)).unwrap_or(std::cmp::Ordering::Equal));
-        let last = of_motion.len().saturating_sub(1);
-        let mut some: Vec<usize> = (0..CHECKED)
-            .filter_map(|k| of_motion.get(k * last / (CHECKED - 1)).copied())
-            .collect();
-        some.dedup();
-        chosen.extend(some);
-    }
-    let posterior: Vec<f64> = study
-        .problem
-        .unknowns
-        .iter()
-        .zip(&study.outcome.estimates)
-        .map(|(unknown, estimate)| unknown.standard(estimate.value))
-        .collect();
-    let wanted: Vec<Point> = chosen
-        .iter()
-        .map(|window| {
-            let window = &study.windows.steady[*window];
-            Point {
-                z: posterior[..study.unknowns.modelled.len()].to_vec(),
-                load: Load {
-                    motion: window.motion,
-                    rotary_speed: window.rotary_speed.abs(),
-                    weight: match window.motion {
-                        Motion::OffBottom => 0.0,
-                        Motion::Drilling => window.weight,
-                    },
-                },
-                found: None,
-            }
-        })
-        .collect();
-    let run = points::run(config, &study.unknowns, wanted, jobs, |_, _| {});
-    let predicted = study.problem.predict(&posterior);
-    let mut checked = Vec::new();
-    for (window, point) in chosen.into_iter().zip(&run) {
-        for (index, observation) in study.problem.observations.iter().enumerate() {
-            if observation.window != window {
-                continue;
-            }
-            let quantity = &study.problem.quantities[observation.quantity];
-            let tare = quantity.tare.map_or(0.0, |tare| study.outcome.estimates[tare].value);
-            let found: Result<point::Figures, String> = point
-                .found
-                .clone()
-                .unwrap_or_else(|| Err("the run did not take place".to_owned()));
-            checked.push(Checked {
-                window,
-                channel: quantity.channel,
-                measured: observation.value,
-                run: found.map(|figures| figures[quantity.channel as usize] + tare),
-                surrogate: predicted[index],
-                band: study.outcome.explained[index].band,
-            });
-        }
-    }
-    checked
 }

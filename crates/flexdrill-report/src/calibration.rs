@@ -31,6 +31,8 @@ pub struct About {
     pub checked: Vec<Checked>,
     /// Why runs of the twin gave no figure.
     pub failed: Vec<String>,
+    /// Why the values are not to be used; empty where they may be.
+    pub objections: Vec<String>,
 }
 
 /// A full run of the twin with what was found. SI.
@@ -40,13 +42,17 @@ pub struct Checked {
     pub window: usize,
     /// Quantity.
     pub channel: Channel,
+    /// With which unknowns, in words.
+    pub at: String,
     /// Mean of the log.
     pub measured: f64,
     /// The twin's figure, or why there is none.
     pub run: Result<f64, String>,
     /// The surrogate's.
     pub surrogate: f64,
-    /// Half of the 90 % band.
+    /// Half of the 90 % band of the run less the surrogate.
+    pub surrogate_band: f64,
+    /// Half of the 90 % band of the measurement.
     pub band: f64,
 }
 
@@ -61,12 +67,12 @@ pub fn html(about: &About, windows: &Windows, problem: &Problem, outcome: &Outco
             p.of { (about.log) }
             @for line in &about.lines { p.note { (line) } }
         }
-        (tiles(problem, outcome))
-        @if !outcome.explains() {
+        (tiles(about, problem, outcome))
+        @if !about.objections.is_empty() {
             section.missing {
-                h2 { "The twin does not explain the log" }
-                p { "The residuals are " (text::number(outcome.misfit.sqrt())) " times their stated errors (root mean square). \
-                     The configuration is of another tool or another well, or a sensor is wrong. The values below are not to be used." }
+                h2 { "Not to be used" }
+                p { "The values below are not to be used:" }
+                ul { @for objection in &about.objections { li { (text::capital(objection)) "." } } }
             }
         }
         @if !about.refused.is_empty() {
@@ -87,7 +93,7 @@ pub fn html(about: &About, windows: &Windows, problem: &Problem, outcome: &Outco
     Ok(document(&format!("Calibration: {}", about.log), &body))
 }
 
-fn tiles(problem: &Problem, outcome: &Outcome) -> Markup {
+fn tiles(about: &About, problem: &Problem, outcome: &Outcome) -> Markup {
     let count = |verdict: Verdict| {
         outcome
             .estimates
@@ -97,7 +103,7 @@ fn tiles(problem: &Problem, outcome: &Outcome) -> Markup {
     };
     html! {
         div.tiles {
-            div.tile.(if outcome.explains() { "good" } else { "high" }) {
+            div.tile.(if about.objections.is_empty() { "good" } else { "high" }) {
                 b { (text::number(outcome.misfit.sqrt())) } "residual over its stated error" small { "root mean square; near or below 1 explains the log" }
             }
             div.tile { b { (count(Verdict::Identified)) " of " (problem.unknowns.len()) } "unknowns identified" small { "to 5 %" } }
@@ -287,24 +293,27 @@ fn checked(about: &About, windows: &Windows) -> Markup {
         @if !about.checked.is_empty() {
             section {
                 h2 { "Checked by full runs" }
-                p { "The twin run with what was found, at the loads of some windows." }
+                p { "Full runs of the twin at the loads of some windows, with what was found and with members of the ensemble. \
+                     A run must agree with the surrogate within the surrogate's band, and with the log within the log's." }
                 table {
-                    thead { tr { th { "quantity" } th { "rows" } th.n { "r/min" } th.n { "kN" } th.n { "measured" } th.n { "full run" } th.n { "surrogate" } th.n { "90 % band" } th { "unit" } } }
+                    thead { tr { th { "quantity" } th { "rows" } th { "run with" } th.n { "r/min" } th.n { "kN" } th.n { "measured" } th.n { "90 % band" } th.n { "full run" } th.n { "surrogate" } th.n { "90 % band" } th { "unit" } } }
                     tbody { @for checked in &about.checked {
                         @let (unit, factor) = unit(checked.channel);
                         @let window = &windows.steady[checked.window];
                         tr {
                             td { (checked.channel.name_and_unit().0) ", " (state(window.motion)) }
                             td { (window.rows[0]) " to " (window.rows[1]) }
+                            td { (checked.at) }
                             td.n { (text::number(rad_per_s_to_rpm(window.rotary_speed))) }
                             td.n { (text::number(n_to_kn(window.weight))) }
                             td.n { (text::number(factor * checked.measured)) }
+                            td.n { "± " (text::number(factor * checked.band)) }
                             @match &checked.run {
                                 Ok(value) => td.n { (text::number(factor * value)) },
                                 Err(problem) => td { (problem) },
                             }
                             td.n { (text::number(factor * checked.surrogate)) }
-                            td.n { "± " (text::number(factor * checked.band)) }
+                            td.n { "± " (text::number(factor * checked.surrogate_band)) }
                             td { (unit) }
                         }
                     } }
@@ -319,7 +328,7 @@ fn surrogates(problem: &Problem, about: &About) -> Markup {
         section {
             h2 { "Surrogates of the twin" }
             table {
-                thead { tr { th { "quantity" } th.n { "runs" } th.n { "least" } th.n { "largest" } th.n { "error of a run left out" } th { "unit" } } }
+                thead { tr { th { "quantity" } th.n { "runs" } th.n { "least" } th.n { "largest" } th.n { "error of a run left out" } th { "unit" } th.n { "over its stated error" } } }
                 tbody { @for quantity in &problem.quantities {
                     @let (unit, factor) = unit(quantity.channel);
                     tr {
@@ -328,6 +337,7 @@ fn surrogates(problem: &Problem, about: &About) -> Markup {
                         @for end in quantity.surrogate.range { td.n { (text::number(factor * end)) } }
                         td.n { (text::number(factor * quantity.surrogate.error)) }
                         td { (unit) }
+                        td.n { (text::number(quantity.surrogate.over_stated())) }
                     }
                 } }
             }

@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: the measurements of `docs/measurements.md` that take minutes to hours.
 
+mod calibration;
 mod document;
 mod faults;
 mod memory;
@@ -39,16 +40,20 @@ struct Measurements {
     /// 40 truth and rig-truth].
     #[arg(long)]
     duration: Option<f64>,
-    /// Runs per row of truth and rig-truth, which show their mean and its error.
+    /// Runs per row of truth and rig-truth, which show their mean and its error; logs of calibration.
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
     runs: u32,
-    /// Folder in which truth and rig-truth keep every run that is done: the same command continues from there.
+    /// Logs of calibration whose result is checked by full runs, up to 18 each.
+    #[arg(long, default_value_t = 3)]
+    checked: u32,
+    /// Folder in which truth, rig-truth and calibration keep every run that is done: the same command continues from
+    /// there.
     #[arg(long, value_name = "FOLDER")]
     parts: Option<PathBuf>,
     /// Only the first so many cases of truth and rig-truth.
     #[arg(long, value_name = "N")]
     first: Option<usize>,
-    /// Runs of truth and rig-truth at the same time, a thread each. The figures do not depend on it.
+    /// Runs of truth, rig-truth and calibration at the same time, a thread each. The figures do not depend on it.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=64))]
     jobs: u8,
     /// Rotary speed (r/min).
@@ -91,6 +96,8 @@ enum Cases {
     RigQuality,
     /// Faults of the rig and the alarm of the comparison with the twin; of config/rig.yaml unless another is named.
     RigFaults,
+    /// How often the bands of a calibration hold the truth of full runs; of config/rig.yaml unless another is named.
+    Calibration,
     /// All of them.
     All,
 }
@@ -106,6 +113,7 @@ impl Cases {
                 Self::Quality,
                 Self::RigQuality,
                 Self::RigFaults,
+                Self::Calibration,
                 Self::Scaling,
                 Self::Physics,
                 Self::Memory,
@@ -127,6 +135,7 @@ impl Cases {
             Self::Quality => "quality",
             Self::RigQuality => "rig-quality",
             Self::RigFaults => "rig-faults",
+            Self::Calibration => "calibration",
             Self::All => "all",
         }
     }
@@ -140,6 +149,8 @@ impl Cases {
             Self::Scaling | Self::Physics => 10.0,
             Self::Memory | Self::All => 3600.0,
             Self::RigFaults => 86_400.0,
+            // Each run lasts until its means have settled.
+            Self::Calibration => 0.0,
         }
     }
 }
@@ -192,7 +203,7 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
     // Sets of the rig's tool have another configuration of their own.
     let of_the_rig = matches!(
         case,
-        Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults
+        Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults | Cases::Calibration
     ) && args.configs.is_empty();
     let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
     let rig = of_the_rig.then(|| load("config/rig.yaml")).transpose()?;
@@ -227,21 +238,29 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
             })?
         }
         Cases::RigFaults => faults::tables(config, duration)?,
+        Cases::Calibration => calibration::tables(&calibration::Plan {
+            config,
+            logs: args.runs as usize,
+            checked: args.checked as usize,
+            jobs: args.jobs.into(),
+            parts: args.parts.as_ref().map(|folder| folder.join(case.name())),
+        })?,
         Cases::Quality => quality::tables(config, args.rpm, duration, quality::STEPS)?,
         Cases::RigQuality => quality::tables(config, args.rpm, duration, quality::RIG_STEPS)?,
         Cases::Physics => physics::tables(config, &load("config/default.yaml")?, constant, duration)?,
         Cases::Scaling => scaling::tables(config, constant, duration)?,
         Cases::Memory | Cases::All => memory::tables(config, constant, duration)?,
     };
-    let runs = match case {
+    let options = match case {
         Cases::Truth | Cases::RigTruth => {
             let first = args.first.map_or_else(String::new, |first| format!(" --first {first}"));
-            format!(" --runs {}{first}", args.runs)
+            format!(" --runs {}{first} --duration {duration}", args.runs)
         }
-        _ => String::new(),
+        Cases::Calibration => format!(" --runs {} --checked {}", args.runs, args.checked),
+        _ => format!(" --duration {duration}"),
     };
     Ok(format!(
-        "Command: `cargo xtask bench --cases {}{runs} --duration {duration}`, `{name}`. {}\n\n{tables}",
+        "Command: `cargo xtask bench --cases {}{options}`, `{name}`. {}\n\n{tables}",
         case.name(),
         machine::describe()
     ))

@@ -1,0 +1,523 @@
+//! `--cases calibration`: how often the bands of a calibration hold the truth. The truth comes from full runs of the
+//! twin with unknowns and loads that the design has not seen; to their figures come the noise, the drift and the tares
+//! of a rig's sensors. The weights of every log lie on both sides of the one at which the bit begins to cut.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use flexdrill_bench::table::Table;
+use flexdrill_calibration::fit::{Outcome, Problem};
+use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::smoother::SmootherSettings;
+use flexdrill_calibration::surrogate::usual_points;
+use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, Windows, find};
+use flexdrill_config::Config;
+use flexdrill_core::units::{kn_to_n, n_to_kn, rad_per_s_to_rpm, rpm_to_rad_per_s};
+use flexdrill_fit::check::{Checked, Objection};
+use flexdrill_fit::point::{Figures, Load};
+use flexdrill_fit::points::{self, Cover, Point, design};
+use flexdrill_fit::unknowns::Unknowns;
+use flexdrill_fit::{StudySettings, study};
+
+/// Speeds (r/min) of design and logs.
+const SPEEDS: [f64; 2] = [35.0, 65.0];
+/// Weights at the surface of design and logs, over the force of the wear flats. Below 1 no tool cuts; at 2.2 each does
+/// that passes on half.
+const WEIGHTS: [f64; 2] = [0.9, 2.2];
+/// Parts of a log in which the bit drills, each with a weight of its own fifth of the range, and their duration (s).
+const DRILLING: usize = 5;
+const DRILLING_TIME: u32 = 200;
+/// Duration of rotation off bottom (s) at the begin and at the end of a log.
+const OFF_BOTTOM_TIME: u32 = 90;
+/// Noise from second to second of a sub above the bit (N m, N); it is tared in the hole and does not drift.
+const IN_THE_HOLE: [f64; 2] = [10.0, 400.0];
+/// Standardised unknowns of the truth: beyond this lie 5 % of the prior.
+const TRUTH: f64 = 2.0;
+/// Seed of the design. The logs have their own numbers.
+const SEED: u64 = 1;
+const MEMBERS: usize = 1000;
+/// Name of the file with the runs of the twin.
+const POINTS: &str = "points.csv";
+
+/// What is run.
+pub(crate) struct Plan<'a> {
+    pub(crate) config: &'a Config,
+    /// Number of logs.
+    pub(crate) logs: usize,
+    /// Of so many logs the result is checked by full runs.
+    pub(crate) checked: usize,
+    /// Threads.
+    pub(crate) jobs: usize,
+    /// Folder that keeps the runs of design and truth.
+    pub(crate) parts: Option<PathBuf>,
+}
+
+/// A log with what it was made of.
+#[derive(Clone)]
+struct Log {
+    /// Standardised unknowns: of the twin, then the tares.
+    truth: Vec<f64>,
+    /// The runs that it is made of: off bottom, then drilling.
+    points: Vec<Point>,
+    random: fastrand::Rng,
+}
+
+/// What the calibration of a log gave.
+struct Trial {
+    truth: Vec<f64>,
+    /// Whether the bit carries less than its wear flats do at one load, and more at another.
+    straddles: bool,
+    problem: Problem,
+    outcome: Outcome,
+    /// Full runs, where the result was checked.
+    checked: Option<(Vec<Checked>, Vec<Objection>)>,
+}
+
+fn normal(random: &mut fastrand::Rng) -> f64 {
+    let radius = (-2.0 * (1.0 - random.f64()).ln()).sqrt();
+    radius * (TAU * random.f64()).cos()
+}
+
+fn covers(config: &Config, unknowns: &Unknowns) -> [Cover; 2] {
+    let modelled = unknowns.modelled.len();
+    let rotary_speed = SPEEDS.map(rpm_to_rad_per_s);
+    [
+        Cover {
+            motion: Motion::OffBottom,
+            rotary_speed,
+            weight: [0.0; 2],
+            points: usual_points(modelled + 1),
+        },
+        Cover {
+            motion: Motion::Drilling,
+            rotary_speed,
+            weight: WEIGHTS.map(|share| share * config.rock.depth_of_cut.wear_flat_force),
+            points: usual_points(modelled + 2),
+        },
+    ]
+}
+
+impl Log {
+    /// The log of a number, before its runs.
+    fn new(config: &Config, unknowns: &Unknowns, number: usize) -> Self {
+        let mut random = fastrand::Rng::with_seed(1_000 + number as u64);
+        let modelled = unknowns.modelled.len();
+        let truth: Vec<f64> = (0..modelled + 2)
+            .map(|_| normal(&mut random).clamp(-TRUTH, TRUTH))
+            .collect();
+        let [_, drilling] = covers(config, unknowns);
+        let mut points = Vec::new();
+        for part in 0..=DRILLING {
+            let [slow, fast] = drilling.rotary_speed;
+            let rotary_speed = slow + random.f64() * (fast - slow);
+            let [low, high] = drilling.weight;
+            let load = match part.checked_sub(1) {
+                None => Load {
+                    motion: Motion::OffBottom,
+                    rotary_speed,
+                    weight: 0.0,
+                },
+                Some(fifth) => Load {
+                    motion: Motion::Drilling,
+                    rotary_speed,
+                    weight: low + (fifth as f64 + random.f64()) / DRILLING as f64 * (high - low),
+                },
+            };
+            points.push(Point {
+                z: truth[..modelled].to_vec(),
+                load,
+                found: None,
+            });
+        }
+        Self { truth, points, random }
+    }
+
+    /// The samples at 1 Hz: off bottom, the drilling parts in a random order, off bottom again.
+    fn samples(&mut self, config: &Config, unknowns: &Unknowns) -> anyhow::Result<Vec<Sample>> {
+        let given = &config.calibration;
+        let [torque, weight] = IN_THE_HOLE;
+        let noise = [given.torque_noise_nm, kn_to_n(given.hook_load_noise_kn), torque, weight];
+        let drift = [given.torque_drift_nm, kn_to_n(given.hook_load_drift_kn), 0.0, 0.0].map(|hour| hour / 60.0);
+        let modelled = unknowns.modelled.len();
+        let tares = [
+            unknowns.torque_tare.value(self.truth[modelled]),
+            unknowns.hook_load_tare.value(self.truth[modelled + 1]),
+            0.0,
+            0.0,
+        ];
+        let (off_bottom, drilling) = self.points.split_at_mut(1);
+        self.random.shuffle(drilling);
+        let (mut walk, mut samples) = ([0.0; Channel::ALL.len()], Vec::new());
+        for point in off_bottom.iter().chain(drilling.iter()).chain(off_bottom.iter()) {
+            let figures: &Figures = match &point.found {
+                Some(Ok(figures)) => figures,
+                Some(Err(problem)) => anyhow::bail!("a run of a log gave no figure: {problem}"),
+                None => anyhow::bail!("a run of a log did not take place"),
+            };
+            let seconds = match point.load.motion {
+                Motion::OffBottom => OFF_BOTTOM_TIME,
+                Motion::Drilling => DRILLING_TIME,
+            };
+            for _ in 0..seconds {
+                let mut measured = [f64::NAN; Channel::ALL.len()];
+                for k in 0..measured.len() {
+                    walk[k] += drift[k] * normal(&mut self.random);
+                    measured[k] = figures[k] + tares[k] + walk[k] + noise[k] * normal(&mut self.random);
+                }
+                let row = samples.len() as u64;
+                samples.push(Sample {
+                    time: row as f64,
+                    row: row + 2,
+                    rotary_speed: point.load.rotary_speed,
+                    weight: point.load.weight,
+                    measured,
+                });
+            }
+        }
+        Ok(samples)
+    }
+
+    /// Weights at the bit (N) while drilling.
+    fn bit_weights(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().skip(1).filter_map(|point| match &point.found {
+            Some(Ok(figures)) => Some(figures[Channel::BitWeight as usize]),
+            _ => None,
+        })
+    }
+}
+
+/// The runs of design and logs.
+fn runs(plan: &Plan, unknowns: &Unknowns) -> anyhow::Result<(Vec<Point>, Vec<Log>)> {
+    let mut logs: Vec<Log> = (0..plan.logs)
+        .map(|number| Log::new(plan.config, unknowns, number))
+        .collect();
+    let mut all: Vec<Point> = covers(plan.config, unknowns)
+        .iter()
+        .flat_map(|cover| design(unknowns.modelled.len(), cover, SEED))
+        .collect();
+    let of_design = all.len();
+    all.extend(logs.iter().flat_map(|log| log.points.iter().cloned()));
+    let file = plan.parts.as_ref().map(|folder| folder.join(POINTS));
+    if let Some(file) = &file {
+        if let Some(folder) = file.parent() {
+            std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", folder.display()))?;
+        }
+        if let Ok(text) = std::fs::read_to_string(file) {
+            points::fill(file, &text, plan.config, unknowns, SEED, &mut all)?;
+        }
+    }
+    let mut problem = None;
+    let mut all = points::run(plan.config, unknowns, all, plan.jobs, |points, left| {
+        if let Some(file) = &file {
+            let text = points::to_csv(plan.config, unknowns, SEED, points);
+            problem = problem.take().or(std::fs::write(file, text).err());
+        }
+        if left % 50 == 0 {
+            eprintln!("{left} runs of the twin left");
+        }
+    });
+    if let Some(problem) = problem {
+        return Err(problem).context("the runs of the twin cannot be kept");
+    }
+    let mut of_logs = all.split_off(of_design).into_iter();
+    for log in &mut logs {
+        log.points = of_logs.by_ref().take(1 + DRILLING).collect();
+    }
+    Ok((all, logs))
+}
+
+fn windows(log: &mut Log, config: &Config, unknowns: &Unknowns) -> anyhow::Result<Windows> {
+    Ok(find(&log.samples(config, unknowns)?, &WindowSettings::default()))
+}
+
+/// The calibration of every log.
+fn trials(plan: &Plan, unknowns: &Unknowns, points: &[Point], logs: Vec<Log>) -> anyhow::Result<Vec<Trial>> {
+    let flats = plan.config.rock.depth_of_cut.wear_flat_force;
+    let mut all = Vec::new();
+    for (number, mut log) in logs.into_iter().enumerate() {
+        let windows = windows(&mut log, plan.config, unknowns)?;
+        let straddles =
+            log.bit_weights().any(|weight| weight < flats) && log.bit_weights().any(|weight| weight > flats);
+        let seed = 1 + number as u64;
+        let (problem, outcome, checked) = if number < plan.checked {
+            eprintln!("log {} of {}, checked by full runs", number + 1, plan.logs);
+            let settings = StudySettings {
+                jobs: plan.jobs,
+                seed,
+                members: MEMBERS,
+            };
+            let study = study(plan.config, unknowns.clone(), windows, points, &settings)?;
+            let objections = study.objections();
+            (study.problem, study.outcome, Some((study.checked, objections)))
+        } else {
+            let problem = flexdrill_fit::study::problem(plan.config, unknowns, &windows, points)?;
+            let outcome = problem.fit(&SmootherSettings {
+                members: MEMBERS,
+                seed,
+                ..SmootherSettings::default()
+            })?;
+            (problem, outcome, None)
+        };
+        all.push(Trial {
+            truth: log.truth,
+            straddles,
+            problem,
+            outcome,
+            checked,
+        });
+    }
+    Ok(all)
+}
+
+/// Counts over logs, of one unknown.
+#[derive(Debug, Default, Clone, Copy)]
+struct Count {
+    /// Logs whose band holds the truth.
+    holds: usize,
+    identified: usize,
+    bounded: usize,
+    combined: usize,
+    /// Sum of the half widths of the bands over those of the prior.
+    width: f64,
+    /// Sum of the variance ratios.
+    ratio: f64,
+}
+
+/// Counts of every unknown over some trials.
+fn counts<'a>(trials: impl Iterator<Item = &'a Trial>, unknowns: usize) -> Vec<Count> {
+    let mut all = vec![Count::default(); unknowns];
+    for trial in trials {
+        let of_unknown = trial.problem.unknowns.iter().zip(&trial.outcome.estimates);
+        for ((count, (unknown, estimate)), truth) in all.iter_mut().zip(of_unknown).zip(&trial.truth) {
+            let [low, high] = estimate.band;
+            count.holds += usize::from((low..=high).contains(&unknown.value(*truth)));
+            count.width += (unknown.standard(high) - unknown.standard(low)) / (2.0 * flexdrill_calibration::BAND);
+            count.ratio += estimate.variance_ratio;
+            match estimate.verdict {
+                Verdict::Identified => count.identified += 1,
+                Verdict::Bounded => count.bounded += 1,
+                Verdict::InCombination => count.combined += 1,
+                Verdict::NotIdentifiable => {}
+            }
+        }
+    }
+    all
+}
+
+/// The 95 % interval of a share (Wilson, J. Am. Stat. Assoc. 22, 1927, 209).
+fn interval(holds: usize, of: usize) -> [f64; 2] {
+    let (n, z) = (of as f64, 1.959_964);
+    let share = holds as f64 / n;
+    let middle = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
+    let half = z / (1.0 + z * z / n) * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
+    [middle - half, middle + half]
+}
+
+fn shown(holds: usize, of: usize) -> String {
+    if of == 0 {
+        return "-".to_owned();
+    }
+    let [low, high] = interval(holds, of).map(|share| 100.0 * share);
+    format!("{holds} of {of} ({low:.0} to {high:.0} %)")
+}
+
+/// Runs all logs; gives the tables.
+///
+/// # Errors
+/// When a run of a log fails, or nothing can be fitted.
+pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
+    let unknowns = Unknowns::of(plan.config)?;
+    let (points, logs) = runs(plan, &unknowns)?;
+    let trials = trials(plan, &unknowns, &points, logs)?;
+    let Some(first) = trials.first() else {
+        return Ok(String::new());
+    };
+    let names: Vec<String> = first
+        .problem
+        .unknowns
+        .iter()
+        .map(|unknown| unknown.name.clone())
+        .collect();
+    let straddling = trials.iter().filter(|trial| trial.straddles).count();
+    let each = counts(trials.iter(), names.len());
+    let of_straddling = counts(trials.iter().filter(|trial| trial.straddles), names.len());
+    let mut bands = Table::new([
+        "unknown",
+        "90 % band holds the truth (95 % interval)",
+        "of logs on both sides of the wear flats' force",
+        "half width over the prior's",
+        "posterior over prior variance",
+        "identified, bounded, in combination",
+    ]);
+    for ((name, count), straddles) in names.iter().zip(&each).zip(&of_straddling) {
+        let mean = |sum: f64| sum / trials.len() as f64;
+        bands.row([
+            name.clone(),
+            shown(count.holds, trials.len()),
+            shown(straddles.holds, straddling),
+            format!("{:.2}", mean(count.width)),
+            format!("{:.3}", mean(count.ratio)),
+            format!("{}, {}, {}", count.identified, count.bounded, count.combined),
+        ]);
+    }
+    let mut surrogates = Table::new([
+        "surrogate",
+        "runs",
+        "range",
+        "error of a run left out",
+        "over its stated error",
+    ]);
+    for quantity in &first.problem.quantities {
+        let (name, unit) = quantity.channel.name_and_unit();
+        let motion = match quantity.motion {
+            Motion::OffBottom => "off bottom",
+            Motion::Drilling => "drilling",
+        };
+        let [low, high] = quantity.surrogate.range;
+        surrogates.row([
+            format!("{name} ({unit}), {motion}"),
+            quantity.surrogate.points.to_string(),
+            format!("{low:.1} to {high:.1}"),
+            format!("{:.2}", quantity.surrogate.error),
+            format!("{:.2}", quantity.surrogate.over_stated()),
+        ]);
+    }
+    let [_, drilling] = covers(plan.config, &unknowns);
+    let [slow, fast] = drilling.rotary_speed.map(rad_per_s_to_rpm);
+    let [light, heavy] = drilling.weight.map(n_to_kn);
+    let explained = trials.iter().filter(|trial| trial.outcome.explains()).count();
+    let mut text = format!(
+        "{} logs at {slow:.0} to {fast:.0} r/min and {light:.1} to {heavy:.1} kN, {straddling} of them on both sides of the \
+         wear flats' force at the bit. The twin explains {explained}.",
+        trials.len()
+    );
+    let checked: Vec<&(Vec<Checked>, Vec<Objection>)> =
+        trials.iter().filter_map(|trial| trial.checked.as_ref()).collect();
+    if !checked.is_empty() {
+        let usable = checked.iter().filter(|(_, objections)| objections.is_empty()).count();
+        text.push_str(&format!(
+            " Full runs checked {} of them and found nothing against {usable}.",
+            checked.len()
+        ));
+        let mut reasons: Vec<&str> = checked
+            .iter()
+            .flat_map(|(_, all)| all.iter().map(Objection::name))
+            .collect();
+        reasons.sort_unstable();
+        for of_one in reasons.chunk_by(|a, b| a == b) {
+            text.push_str(&format!(" Against {}: `{}`.", of_one.len(), of_one[0]));
+        }
+    }
+    Ok(format!("{text}\n\n{}\n{}", bands.text(), surrogates.text()))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+mod tests {
+    use std::sync::LazyLock;
+
+    use super::*;
+
+    /// Logs of a usual run of the tests, of six runs each.
+    const LOGS: usize = 8;
+
+    struct Short {
+        config: Config,
+        unknowns: Unknowns,
+        points: Vec<Point>,
+        logs: Vec<Log>,
+    }
+
+    /// Runs that the tests share.
+    static SHORT: LazyLock<Short> = LazyLock::new(|| {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/short_rig.yaml");
+        let config = Config::load(file).unwrap();
+        let unknowns = Unknowns::of(&config).unwrap();
+        let (points, logs) = runs(&plan(&config, 0), &unknowns).unwrap();
+        Short {
+            config,
+            unknowns,
+            points,
+            logs,
+        }
+    });
+
+    fn plan(config: &Config, checked: usize) -> Plan<'_> {
+        Plan {
+            config,
+            logs: LOGS,
+            checked,
+            jobs: 2,
+            parts: None,
+        }
+    }
+
+    #[test]
+    fn the_interval_is_wilsons() {
+        // Newcombe, Stat. Med. 17, 1998, table I: 81 of 263, 0.2553 to 0.3662.
+        let [low, high] = interval(81, 263);
+        assert!(
+            (low - 0.2553).abs() < 5e-5 && (high - 0.3662).abs() < 5e-5,
+            "{low} {high}"
+        );
+    }
+
+    /// Full runs are the truth: a surrogate that does not follow the twin, or does not say how wrong it is, misses it.
+    #[test]
+    fn the_bands_hold_the_truth_of_full_runs() {
+        let short = &*SHORT;
+        let plan = plan(&short.config, 1);
+        let trials = trials(&plan, &short.unknowns, &short.points, short.logs.clone()).unwrap();
+        let names: Vec<&str> = trials[0]
+            .problem
+            .unknowns
+            .iter()
+            .map(|unknown| unknown.name.as_str())
+            .collect();
+        let counts = counts(trials.iter(), names.len());
+        eprintln!("{names:?}\n{counts:#?}");
+        assert!(trials.iter().filter(|trial| trial.straddles).count() >= 6);
+        for (name, count) in names.iter().zip(&counts) {
+            // Of eight bands that hold nine of ten truths, fewer than six do once in 26 times (binomial).
+            assert!(count.holds >= 6, "{name}: {count:?}");
+        }
+        let holds: usize = counts.iter().map(|count| count.holds).sum();
+        assert!(10 * holds >= 8 * LOGS * names.len(), "{holds}");
+        // The bands say something: the wall's friction is known better than before in every log.
+        let wall = names.iter().position(|name| name.contains("wall")).unwrap();
+        assert_eq!(counts[wall].identified + counts[wall].bounded, LOGS);
+        let (checked, objections) = trials[0].checked.as_ref().unwrap();
+        assert!(objections.is_empty(), "{objections:?}\n{checked:#?}");
+    }
+
+    /// A design without runs below the wear flats' force gives a surrogate that is sure of itself and wrong there.
+    #[test]
+    fn full_runs_find_a_surrogate_that_has_never_seen_the_kink() {
+        let short = &*SHORT;
+        let flats = short.config.rock.depth_of_cut.wear_flat_force;
+        let cuts = |point: &&Point| match &point.found {
+            Some(Ok(figures)) => {
+                point.load.motion == Motion::OffBottom || figures[Channel::BitWeight as usize] > 1.02 * flats
+            }
+            _ => false,
+        };
+        let points: Vec<Point> = short.points.iter().filter(cuts).cloned().collect();
+        let mut log = short.logs[0].clone();
+        let windows = windows(&mut log, &short.config, &short.unknowns).unwrap();
+        let settings = StudySettings {
+            jobs: 2,
+            seed: 1,
+            members: MEMBERS,
+        };
+        let study = study(&short.config, short.unknowns.clone(), windows, &points, &settings).unwrap();
+        let objections = study.objections();
+        eprintln!("{objections:?}\n{:#?}", study.checked);
+        assert!(
+            objections
+                .iter()
+                .any(|objection| matches!(objection, Objection::Misled { .. })),
+            "{objections:?}"
+        );
+    }
+}
