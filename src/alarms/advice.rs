@@ -39,6 +39,11 @@ fn own_action(id: AlarmId) -> Option<&'static str> {
              guide.",
         ),
         AlarmId::PressureFolding => Some("Reduce the pump rate until the alarm clears, and call the engineer."),
+        AlarmId::BitStuck => Some(
+            "Stop the rotation and hold the torque, then let it out slowly: never release or reverse the drive suddenly. Pick \
+             up gently until the bit is free, or slack off if the tool is held on the way up. If neither frees it, call the \
+             engineer.",
+        ),
         _ => None,
     }
 }

@@ -10,6 +10,8 @@ use flexdrill_core::motion::HazardKind;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]
 pub enum AlarmId {
+    /// The bit is stuck, and the top drive stalls: the torque in the string decides what may be done first.
+    BitStuck,
     /// Whirl of the pipe or the guide against the rotation.
     BackwardWhirl,
     /// Whirl in the direction of the rotation.
@@ -58,7 +60,8 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 22] = [
+    pub const ALL: [AlarmId; 23] = [
+        AlarmId::BitStuck,
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
         AlarmId::Shock,
@@ -96,6 +99,7 @@ impl AlarmId {
             AlarmId::TorqueTransfer => "torque_transfer",
             AlarmId::GuidePreload => "guide_preload",
             AlarmId::PressureFolding => "pressure_folding",
+            AlarmId::BitStuck => "bit_stuck",
             AlarmId::ModelQuality => "model_quality",
             AlarmId::KnownWindow => "known_window",
             AlarmId::RigDisagrees => "rig_disagrees",
@@ -124,6 +128,7 @@ impl AlarmId {
             AlarmId::TorqueTransfer => "torque not arriving",
             AlarmId::GuidePreload => "guide overbent",
             AlarmId::PressureFolding => "folding under pressure",
+            AlarmId::BitStuck => "bit stuck",
             AlarmId::ModelQuality => "model unreliable",
             AlarmId::KnownWindow => "outside the known window",
             AlarmId::RigDisagrees => "twin and rig disagree",
@@ -150,14 +155,15 @@ impl AlarmId {
 
     /// The lowest priority at which the condition is an alarm; below it the condition is a displayed state. Forward
     /// whirl requires no action before it wears the pipe: the tool turns this way at moderate speed and load. Nor does
-    /// friction that takes a usual share of weight and torque, or a load below its rating.
+    /// friction that takes a usual share of weight and torque, a load below its rating, or a bit that sticks for a moment.
     pub const fn lowest(self) -> Priority {
         match self {
             AlarmId::ForwardWhirl
             | AlarmId::WeightTransfer
             | AlarmId::TorqueTransfer
             | AlarmId::GuidePreload
-            | AlarmId::PressureFolding => Priority::Medium,
+            | AlarmId::PressureFolding
+            | AlarmId::BitStuck => Priority::Medium,
             _ => Priority::Low,
         }
     }
@@ -175,6 +181,7 @@ impl AlarmId {
             HazardKind::TorqueTransfer => AlarmId::TorqueTransfer,
             HazardKind::GuidePreload => AlarmId::GuidePreload,
             HazardKind::PressureFolding => AlarmId::PressureFolding,
+            HazardKind::BitStuck => AlarmId::BitStuck,
         }
     }
 
@@ -203,6 +210,7 @@ impl AlarmId {
             AlarmId::TorqueTransfer => tool(&alarms.torque_transfer),
             AlarmId::GuidePreload => tool(&alarms.guide_preload),
             AlarmId::PressureFolding => tool(&alarms.pressure_folding),
+            AlarmId::BitStuck => tool(&alarms.bit_stuck),
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::KnownWindow => tool(&alarms.known_window),
             AlarmId::RigDisagrees => tool(&alarms.rig_disagrees),

@@ -142,6 +142,7 @@ pub(super) fn rule(kind: HazardKind, table: &AdviceTable) -> Advice {
         HazardKind::TorqueTransfer => table.torque_transfer,
         HazardKind::GuidePreload => table.guide_preload,
         HazardKind::PressureFolding => table.pressure_folding,
+        HazardKind::BitStuck => table.bit_stuck,
     }
 }
 
@@ -255,13 +256,11 @@ fn words(hazard: &Hazard) -> Words {
             unit: "of the weight",
             evidence: match number(100.0 * hazard.value, 0) {
                 Some(lost) => {
-                    format!("Weight does not arrive: friction takes {lost} % of the weight slacked off at the surface")
+                    format!("Weight does not arrive: {lost} % of the weight at the surface is not on the bottom")
                 }
-                None => {
-                    "Weight does not arrive: friction takes most of the weight slacked off at the surface".to_owned()
-                }
+                None => "Weight does not arrive: much of the weight at the surface is not on the bottom".to_owned(),
             },
-            cause: "Friction on the wall holds the string or the guide back.",
+            cause: "Friction on the wall holds the string or the guide back, or the bit whips on the bottom.",
             consequence:
                 "The bit hardly cuts. More weight at the surface may buckle the string, or reach the bit at once \
                           when the friction gives way"
@@ -305,6 +304,24 @@ fn words(hazard: &Hazard) -> Words {
                 .to_owned(),
             engineer: "Check pressure_folding.rated_compression_kn against the manufacturer's rating. Use a larger nozzle, or \
                        a lower end that the pressure does not push up.",
+        },
+        HazardKind::BitStuck => Words {
+            unit: "s",
+            evidence: match value(0) {
+                Some(time) => format!(
+                    "The bit is stuck and the drive stalls: for {time} s the top drive has been at its torque limit and the \
+                     bit has not turned"
+                ),
+                None => "The bit is stuck and the drive stalls at its torque limit".to_owned(),
+            },
+            cause: "The bit needs more torque than the limit of the top drive: too much weight is on it, or the tool is held \
+                    in the hole.",
+            consequence:
+                "The string is wound up. If it is released suddenly, it spins back and may unscrew; if the bit breaks \
+                          free, it spins faster than the drive and damages cutters and joints"
+                    .to_owned(),
+            engineer: "Check string.top_drive.torque_limit against the make-up torque of the connections, and the limit that \
+                       the rig has set. Compare the torque of the bit with the rock's. A less aggressive bit needs less torque.",
         },
     }
 }

@@ -104,6 +104,7 @@ impl MotionEvidence {
                 AlarmId::TorqueTransfer,
                 AlarmId::GuidePreload,
                 AlarmId::PressureFolding,
+                AlarmId::BitStuck,
             ],
             calm: calm.unwrap_or_else(|| "no torque".to_owned()),
             values: efficiency

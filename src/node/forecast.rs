@@ -58,7 +58,7 @@ impl ForecastDesk {
     /// Takes what came.
     pub fn observe(&mut self, frame: &Frame) {
         let time = frame.ticks as f64 * self.time_step;
-        if frame.ends_interval {
+        if frame.ends_interval.contacts {
             self.held.peaks(time, &frame.snapshot);
         }
         if frame.due.has(Output::Alarms) {

@@ -1,7 +1,7 @@
 //! Outputs on DDS whose rate was lowered while the twin runs. Recordings and viewers keep the rates with which the run
 //! began, so that no parameter removes an output from a recording.
 //!
-//! Peaks and root mean squares of a message cover the time since the previous message. A message on DDS therefore combines
+//! Means, peaks and root mean squares of a message cover the time since the previous message. A message on DDS therefore combines
 //! the statistics of all messages that were recorded since the previous message on DDS.
 
 use flexdrill_config::Config;
@@ -45,8 +45,8 @@ pub struct Thinned {
     last: [Option<u64>; THINNED.len()],
     contacts: Combined<ContactForces>,
     bit: Combined<BitState>,
-    /// Step at which the present statistics began.
-    interval_begin: u64,
+    /// Step at which the present statistics of the contacts began, and those of the bit.
+    interval_begin: [u64; 2],
 }
 
 impl Thinned {
@@ -59,7 +59,7 @@ impl Thinned {
             last: [None; THINNED.len()],
             contacts: Combined::default(),
             bit: Combined::default(),
-            interval_begin: 0,
+            interval_begin: [0; 2],
         }
     }
 
@@ -88,10 +88,11 @@ impl Thinned {
         let number = step.checked_div(published);
         let publish = number.is_some() && number != self.last[index];
         self.last[index] = number;
-        let weight = step.saturating_sub(self.interval_begin) as f64;
+        let [contacts, bit] = self.interval_begin.map(|begin| step.saturating_sub(begin) as f64);
+        let ends = frame.ends_interval;
         match output {
-            Output::ContactForces => self.contacts.share(cdr, weight, publish, frame.ends_interval),
-            Output::BitState => self.bit.share(cdr, weight, publish, frame.ends_interval),
+            Output::ContactForces => self.contacts.share(cdr, contacts, publish, ends.contacts),
+            Output::BitState => self.bit.share(cdr, bit, publish, ends.bit),
             _ if publish => Ok(Share::Same),
             _ => Ok(Share::Nothing),
         }
@@ -99,8 +100,11 @@ impl Thinned {
 
     /// To be called after the messages of a frame.
     pub fn end_frame(&mut self, frame: &Frame) {
-        if frame.ends_interval || frame.snapshot.step < self.interval_begin {
-            self.interval_begin = frame.snapshot.step;
+        let (step, ends) = (frame.snapshot.step, frame.ends_interval);
+        for (begin, ends) in self.interval_begin.iter_mut().zip([ends.contacts, ends.bit]) {
+            if ends || step < *begin {
+                *begin = step;
+            }
         }
     }
 
@@ -157,6 +161,16 @@ trait Statistics: flexdrill_messages::Message {
     fn combine(&mut self, steps: f64, earlier: &Self, earlier_steps: f64);
 }
 
+/// The mean over both times.
+fn combined_mean(value: f64, steps: f64, earlier: f64, earlier_steps: f64) -> f64 {
+    let all = steps + earlier_steps;
+    if all > 0.0 {
+        (value * steps + earlier * earlier_steps) / all
+    } else {
+        value
+    }
+}
+
 /// The root mean square over both times.
 fn combined_rms(value: f64, steps: f64, earlier: f64, earlier_steps: f64) -> f64 {
     let all = steps + earlier_steps;
@@ -201,6 +215,13 @@ impl Statistics for ContactForces {
 impl Statistics for BitState {
     fn combine(&mut self, steps: f64, earlier: &Self, earlier_steps: f64) {
         for (value, before) in [
+            (&mut self.torque, earlier.torque),
+            (&mut self.rotary_speed, earlier.rotary_speed),
+            (&mut self.weight_on_bit, earlier.weight_on_bit),
+        ] {
+            *value = combined_mean(*value, steps, before, earlier_steps);
+        }
+        for (value, before) in [
             (&mut self.tangential_acceleration, earlier.tangential_acceleration),
             (&mut self.axial_acceleration, earlier.axial_acceleration),
             (&mut self.lateral_acceleration, earlier.lateral_acceleration),
@@ -215,6 +236,7 @@ impl Statistics for BitState {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flexdrill_core::twin::EndsInterval;
     use flexdrill_messages::outputs::schedule;
 
     /// Contact forces of two stations at 50 Hz: `force` at the first, half of it at the second.
@@ -232,7 +254,7 @@ mod tests {
     fn frame(step: u64) -> Frame {
         let mut frame = Frame::default();
         frame.snapshot.step = step;
-        frame.ends_interval = true;
+        frame.ends_interval = EndsInterval::ALL;
         frame
     }
 
@@ -303,6 +325,34 @@ mod tests {
             panic!("{:?}", got[3])
         };
         assert_eq!(from_cdr::<ContactForces>(bytes).unwrap().max_pipe_guide_force, 100.0);
+    }
+
+    /// Means of the bit at a lower rate are those of all its intervals, whose statistics end with its own messages.
+    #[test]
+    fn a_lower_rate_has_the_mean_of_every_step() {
+        let text = include_str!("../../config/default.yaml");
+        let begun = Config::from_text("default.yaml", text).unwrap();
+        let changed = begun.with_value("outputs.rates.bit_state", 10.0).unwrap();
+        let mut thinned = Thinned::new(&begun);
+        thinned.reconfigure(schedule(&changed, &begun.outputs.rates), &changed);
+        let mut got = Vec::new();
+        for step in (40..=600_u64).step_by(40) {
+            let mut frame = frame(step);
+            frame.ends_interval.contacts = step.is_multiple_of(80);
+            let torque = step as f64;
+            let message = to_cdr(&BitState {
+                torque,
+                ..BitState::default()
+            })
+            .unwrap();
+            let share = thinned.share(&frame, &topics::BIT_STATE, &message).unwrap();
+            thinned.end_frame(&frame);
+            if let Share::Combined(bytes) = share {
+                got.push((step, from_cdr::<BitState>(&bytes).unwrap().torque));
+            }
+        }
+        // The messages since the one before: 80 to 200 in steps of 40, then 240 to 400.
+        assert_eq!(got, [(40, 40.0), (200, 140.0), (400, 320.0), (600, 520.0)]);
     }
 
     /// 30 Hz is every 67 steps, which no message of every 40 steps meets.

@@ -230,7 +230,12 @@ fn asked(text: &str) -> (Vec<(bool, bool, f64)>, bool) {
             asked.push((raise, quantity.starts_with("speed"), limit));
         }
     }
-    let actions = ["Pick up", "Do not push the tool", "Reduce the pump rate"];
+    let actions = [
+        "Pick up",
+        "Do not push the tool",
+        "Reduce the pump rate",
+        "Stop the rotation",
+    ];
     (asked, actions.iter().any(|action| text.starts_with(action)))
 }
 

@@ -110,11 +110,11 @@ figures! {
         let active = list.alarms.iter().filter(|alarm| alarm.active).map(|alarm| alarm.priority);
         f64::from(active.max().unwrap_or(Alarm::NO_PRIORITY))
     };
-    /// Torque of the rock against the bit.
+    /// Torque of the rock against the bit, mean since the message before.
     BitTorque "bit_torque" in Torque from bit: |bit: &BitState| bit.torque;
-    /// Rotary speed of the bit.
+    /// Rotary speed of the bit, mean since the message before.
     BitSpeed "bit_rotary_speed" in RotarySpeed from bit: |bit: &BitState| bit.rotary_speed;
-    /// Weight on the bit.
+    /// Weight on the bit, mean since the message before.
     BitWeight "bit_weight" in Force from bit: |bit: &BitState| bit.weight_on_bit;
     /// Largest minus smallest speed of the bit over twice its mean.
     StickSlip "stick_slip_index" in Number from bit: |bit: &BitState| bit.stick_slip_index;
@@ -136,11 +136,13 @@ figures! {
     SurfaceTorque "surface_torque" in Torque from transfer: |transfer: &Transfer| transfer.surface_torque;
     /// Torque on the top of the tool.
     KickoffTorque "kickoff_torque" in Torque from transfer: |transfer: &Transfer| transfer.kickoff_torque;
-    /// Torque at the bit over that at the surface.
+    /// Torque at the bit over that at the surface; not while the tool does not turn.
     TorqueEfficiency "torque_efficiency" in Number from transfer: |transfer: &Transfer| transfer.torque_efficiency;
+    /// Share of the time in which the torque of the top drive was at its limit; only with a string above.
+    DriveAtLimit "drive_at_limit" in Number from transfer: |transfer: &Transfer| transfer.drive_at_limit;
     /// Load on the hook that the twin computes; only with a string above.
     HookLoad "hook_load" in Force from transfer: |transfer: &Transfer| transfer.hook_load;
-    /// Rate of penetration that the twin computes.
+    /// Rate at which the hole deepens, as the twin computes it; 0 off bottom.
     RateOfPenetration "rate_of_penetration" in Speed from transfer: |transfer: &Transfer| transfer.rate_of_penetration;
     /// Model time over wall time.
     RealTimeFactor "real_time_factor" in Number from status: |status: &TwinStatus| status.real_time_factor;

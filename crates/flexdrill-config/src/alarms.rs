@@ -34,6 +34,8 @@ section! {
         guide_preload: ToolAlarm = ToolAlarm::default(), below;
         /// Pressure compresses the pipe beyond its rating.
         pressure_folding: ToolAlarm = ToolAlarm::default(), below;
+        /// The bit is stuck, and the top drive stalls at its torque limit.
+        bit_stuck: ToolAlarm = ToolAlarm::default(), below;
         /// The energy errors of the steps make the motion doubtful.
         model_quality: ToolAlarm = ToolAlarm::default(), below;
         /// Speed and weight are outside the part of the map (`map.file`) in which no alarm must be expected.
@@ -115,6 +117,8 @@ pub struct AdviceTable {
     pub guide_preload: Advice,
     /// Rule against folding under pressure. Default: none; the alarm has its own action.
     pub pressure_folding: Advice,
+    /// Rule against a stuck bit. Default: none; the alarm has its own action.
+    pub bit_stuck: Advice,
 }
 
 impl Default for AdviceTable {
@@ -133,6 +137,7 @@ impl Default for AdviceTable {
             torque_transfer: Advice::default(),
             guide_preload: Advice::default(),
             pressure_folding: Advice::default(),
+            bit_stuck: Advice::default(),
         }
     }
 }
@@ -205,6 +210,7 @@ impl Alarms {
                 ("torque_transfer", advice.torque_transfer),
                 ("guide_preload", advice.guide_preload),
                 ("pressure_folding", advice.pressure_folding),
+                ("bit_stuck", advice.bit_stuck),
             ] {
                 c.below(key, |c| advice.check(c));
             }

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use super::string::Model;
 use super::{Config, hex_of};
 
 /// Sections that determine the motion or its levels.
@@ -40,6 +41,7 @@ const ALARMS: &[&str] = &[
     "torque_transfer",
     "guide_preload",
     "pressure_folding",
+    "bit_stuck",
     "model_quality",
 ];
 
@@ -69,6 +71,18 @@ impl Config {
             && let Some(guide) = guide.as_object_mut()
         {
             guide.remove("slots_close_at");
+        }
+        // Without a string there is no drive that could stall, and no hoist that is asked for a weight.
+        if self.string.model != Model::Line {
+            for (section, key) in [
+                ("transfer", "stalled"),
+                ("transfer", "weight_short"),
+                ("alarms", "bit_stuck"),
+            ] {
+                if let Some(section) = motion.get_mut(section).and_then(Value::as_object_mut) {
+                    section.remove(key);
+                }
+            }
         }
         let factor = self.calibration.friction_factor;
         if factor != 1.0 {
@@ -153,5 +167,10 @@ mod tests {
         ] {
             assert_ne!(other(key, value).motion_hash(), hash, "{key}");
         }
+        // A drive stalls below a string only.
+        let stalled = |config: &Config| config.with_value("transfer.stalled.watch", Value::from(3.0)).unwrap();
+        assert_eq!(stalled(&config).motion_hash(), hash);
+        let rig = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        assert_ne!(stalled(&rig).motion_hash(), rig.motion_hash());
     }
 }

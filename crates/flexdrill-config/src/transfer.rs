@@ -27,8 +27,15 @@ section! {
         hold_off: f64 = TransferSettings::default().weight.hold_off, within(0.0, 3600.0), "s", "an hour";
         /// Thresholds of the share of the weight that does not arrive. Default 0.7, 0.8, 0.95.
         weight_lost: Steps = Steps::from(TransferSettings::default().weight.levels);
+        /// Thresholds of the share of the weight that ought to arrive and is not on the bottom: of the weight asked for, less
+        /// what friction takes round the arc (a rope's) and along the string. Judged once the weight has been asked for over
+        /// five response times of the hoist and two windows. Default 0.3, 0.4, 0.7.
+        weight_short: Steps = Steps::from(TransferSettings::default().short.levels);
         /// Thresholds of the share of the torque that does not arrive. Default 0.7, 0.8, 0.95.
         torque_lost: Steps = Steps::from(TransferSettings::default().torque.levels);
+        /// Thresholds of the time for which the top drive is at its torque limit while the bit does not turn (s). Default 2,
+        /// 5, 10.
+        stalled: Steps = Steps::from(TransferSettings::default().stall.levels);
     }
 }
 
@@ -73,7 +80,9 @@ impl Transfer {
     pub(super) fn check(&self, c: &mut Checker) {
         self.check_numbers(c);
         c.below("weight_lost", |c| self.weight_lost.check(c, 1.0, ""));
+        c.below("weight_short", |c| self.weight_short.check(c, 1.0, ""));
         c.below("torque_lost", |c| self.torque_lost.check(c, 1.0, ""));
+        c.below("stalled", |c| self.stalled.check(c, 3600.0, "s"));
     }
 
     pub(super) fn describe(&self) -> TransferSettings {
@@ -87,7 +96,9 @@ impl Transfer {
         settings.least_weight = kn_to_n(self.least_weight_kn);
         settings.steadiness = self.steadiness;
         settings.weight = of(&self.weight_lost);
+        settings.short = of(&self.weight_short);
         settings.torque = of(&self.torque_lost);
+        settings.stall = of(&self.stalled);
         settings
     }
 }

@@ -917,16 +917,18 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AppliedInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "skipped_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reset", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inner_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "outer_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_asked_by", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "refinement", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// The bit.
+    /// The bit. Torque, speed, weight and accelerations cover the time since the previous message, in which every step counts:
+    /// an instant would alias with the rotation. Only the first message of a run has torque, speed and weight of its instant.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct BitState {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Torque of the rock against the bit (N m, positive against the drive's sense).
+        /// Torque of the rock against the bit, mean (N m): positive where it opposes forward rotation, negative in
+        /// reverse, 0 off bottom.
         pub torque: f64,
-        /// Rotary speed of the bit (rad/s, positive in the drive's sense).
+        /// Rotary speed of the bit, mean (rad/s, negative in reverse).
         pub rotary_speed: f64,
-        /// Weight on bit as applied to the model (N).
+        /// Weight on the bit, mean (N): given, or what the rock carries; 0 off bottom.
         pub weight_on_bit: f64,
         /// (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive is near standstill, at least 1 while the
         /// bit stands and the drive turns.
@@ -1232,16 +1234,16 @@ pub mod flexdrill {
 
     /// The external forces on the tool, so that a reader can check the balance: supports, weight, wall, bit and loads. At
     /// rest they sum to zero; in motion they do so together with inertia and damping. All vectors are along the axes of the
-    /// frame: X horizontal in the build's direction, Y horizontal, Z down.
+    /// frame: X horizontal in the build's direction, Y horizontal, Z down. All figures are of the instant of the stamp.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Reactions {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
-        /// Torque of the drive at the top of the pipe (N m), positive when it drives.
+        /// Torque on the top of the pipe (N m), negative in reverse: the drive's, or below a string the string's.
         pub drive_torque: f64,
-        /// Torque of the rock against the bit (N m).
+        /// Torque of the rock against the bit (N m), negative in reverse, 0 off bottom.
         pub bit_torque: f64,
-        /// Sum of the forces of all supports (N).
+        /// Sum of the forces in the list below (N).
         pub support_force: [f64; 3],
         /// Weight of both pipes and of the bodies on them, minus buoyancy (N).
         pub weight: [f64; 3],
@@ -1257,19 +1259,20 @@ pub mod flexdrill {
         pub damping_force: [f64; 3],
         /// Sum of the seven forces: the residual of the solver (N).
         pub unbalanced_force: [f64; 3],
-        /// Per support, which holds a pipe in some directions: measured depth from the kick-off (m).
+        /// Per support, which holds a pipe in some directions, and last the string above where a hoist carries it: measured depth
+        /// from the kick-off (m).
         pub measured_depth: Vec<f64>,
         /// Inclination of the bore there, 0 is straight down (rad).
         pub inclination: Vec<f64>,
-        /// PIPE or GUIDE.
+        /// PIPE, GUIDE or STRING.
         pub body: Vec<u8>,
-        /// Force of the support on the pipe, X (N).
+        /// Force on the pipe, X (N); that of STRING on the guide.
         pub force_x: Vec<f64>,
         /// Force, Y (N).
         pub force_y: Vec<f64>,
         /// Force, Z (N).
         pub force_z: Vec<f64>,
-        /// Moment of the support on the pipe about the support's location, X (N m), without the drive's torque.
+        /// Moment on the pipe about the location, X (N m), without drive_torque; 0 for STRING.
         pub moment_x: Vec<f64>,
         /// Moment, Y (N m).
         pub moment_y: Vec<f64>,
@@ -1278,10 +1281,12 @@ pub mod flexdrill {
     }
 
     impl Reactions {
-        /// The flexible pipe.
+        /// A support of the flexible pipe.
         pub const PIPE: u8 = 0;
-        /// The guide pipe.
+        /// A support of the guide pipe.
         pub const GUIDE: u8 = 1;
+        /// The string above, which pulls at the top of the guide pipe along the hole.
+        pub const STRING: u8 = 2;
     }
 
     impl Message for Reactions {
@@ -1593,38 +1598,47 @@ pub mod flexdrill {
 
     /// Torque, weight and power from the surface to the bit, and where they are lost. All figures are means over the last
     /// `duration` seconds, in which every step counts; those ending in `_rms` are root mean squares over the same time.
-    /// A figure that the tool does not have is NaN: surface torque and hook load need the string above, surface weight and
-    /// drag of the string its hoist, the depth of cut a rock that holds the bit.
+    /// A figure that the tool does not have is NaN: surface torque, hook load and the drive's limit need the string above,
+    /// surface weight and drag of the string its hoist, the depth of cut a rock that holds the bit.
+    /// 
+    /// Signs: a torque is positive where it belongs to forward rotation, and negative in reverse: the drive's, the bit's and
+    /// every loss, since a loss opposes the rotation. In both senses a torque less the losses below it is the torque below.
+    /// Powers are positive in both senses, as their names say: put in, or taken.
+    /// 
+    /// The tool turns where the mean speed of its top is above a tenth of the speed asked for, of the root mean square of its
+    /// own speed, and of a turn per minute. Standing, at a stall or swinging to and fro it does not turn, and what is a power
+    /// over a speed does not exist: it is NaN.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Transfer {
         /// Stamp: model time on the rig's clock. Frame: the tool.
         pub header: super::std_msgs::Header,
         /// Time that the means cover (s): transfer.window, less at the beginning; 0 before the first tenth of a second.
         pub duration: f64,
-        /// Torque of the top drive (N m), positive when it drives.
+        /// Torque of the top drive (N m).
         pub surface_torque: f64,
         /// Root mean square of it (N m).
         pub surface_torque_rms: f64,
-        /// Torque on the top of the tool (N m), positive when it drives.
+        /// Torque on the top of the tool (N m).
         pub kickoff_torque: f64,
         /// Root mean square of it (N m).
         pub kickoff_torque_rms: f64,
-        /// Torque of the rock against the bit (N m).
+        /// Torque of the rock against the bit (N m), 0 off bottom.
         pub bit_torque: f64,
         /// Root mean square of it (N m).
         pub bit_torque_rms: f64,
-        /// Torque at the bit over that at the surface, without a string over that at the kick-off. NaN below 1 N m there.
+        /// Torque at the bit over that at the surface, without a string over that at the kick-off; 0 off bottom. NaN below 1 N m
+        /// there and while the tool does not turn.
         pub torque_efficiency: f64,
         /// Torque of the rotation that friction between pipe and guide takes (N m): its power over the speed of the tool's top.
-        /// NaN while the tool stands, as for the next two.
+        /// NaN while the tool does not turn, as for the next two.
         pub pipe_guide_friction_torque: f64,
         /// Torque of the rotation that friction between guide and wall takes (N m), without what the advance takes.
         pub guide_wall_friction_torque: f64,
         /// Torque of the rotation that the pins of the joints take (N m).
         pub joint_friction_torque: f64,
-        /// Torque that the friction of the wall takes from the string above (N m).
+        /// Torque that the friction of the wall takes from the string above (N m); it also holds a string that stands.
         pub string_friction_torque: f64,
-        /// Weight that is slacked off at the surface (N).
+        /// Weight that is slacked off at the surface (N): what the hook carries less than off bottom.
         pub surface_weight: f64,
         /// Root mean square of it (N).
         pub surface_weight_rms: f64,
@@ -1632,11 +1646,12 @@ pub mod flexdrill {
         pub kickoff_weight: f64,
         /// Root mean square of it (N).
         pub kickoff_weight_rms: f64,
-        /// Weight on the bit (N).
+        /// Weight on the bit (N), 0 off bottom.
         pub bit_weight: f64,
         /// Root mean square of it (N).
         pub bit_weight_rms: f64,
-        /// Load on the hook (N).
+        /// Load on the hook (N): the weight in mud of the string and of all that hangs on its end, guide and pipe, less what stands
+        /// on the bottom and on the wall.
         pub hook_load: f64,
         /// Axial friction of the guide on the pipe (N), positive where it pushes up the hole.
         pub pipe_guide_axial_drag: f64,
@@ -1644,9 +1659,10 @@ pub mod flexdrill {
         pub guide_wall_axial_drag: f64,
         /// Axial friction of the wall on the string above (N), positive where it pushes up the hole.
         pub string_axial_drag: f64,
-        /// Depth of cut (m per turn).
+        /// Depth of cut (m per turn), 0 off bottom.
         pub depth_of_cut: f64,
-        /// Rate of penetration of the bit (m/s), negative when the tool is pulled back.
+        /// Rate at which the hole deepens (m/s), never negative: how much deeper than before the bit has come. 0 off bottom, whatever
+        /// the block does, and while a bit that was lifted is lowered to the bottom again.
         pub rate_of_penetration: f64,
         /// Power put in: of the top drive (W).
         pub drive_power: f64,
@@ -1688,6 +1704,8 @@ pub mod flexdrill {
         pub error_power: f64,
         /// By the mud that moves with pipe and guide (W): power taken, part of the same balance.
         pub mud_power: f64,
+        /// Share of the time (0 to 1) in which the torque of the top drive was at its limit: the speed asked for is then not kept.
+        pub drive_at_limit: f64,
     }
 
     impl Message for Transfer {
@@ -1695,7 +1713,7 @@ pub mod flexdrill {
         const NAME: &'static str = "Transfer";
         const ROS_TYPE: &'static str = "flexdrill/msg/Transfer";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Transfer_";
-        const RIHS01: &'static str = "RIHS01_6b2d808978473e5fe3b74336f6c2b20ae586c69bab21147455d7e086a39ece27";
+        const RIHS01: &'static str = "RIHS01_7e3f2a74b3db2e79d8af7d7efa2d7bc80df00f14bfa1f77ebd36a422a7c41177";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/Transfer.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1703,7 +1721,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Transfer", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_efficiency", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hook_load", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "depth_of_cut", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drive_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hoist_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "gravity_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "feed_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pressure_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rayleigh_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "numerical_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_update_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stored_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "error_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mud_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Transfer", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_torque_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque_efficiency", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_friction_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surface_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "kickoff_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_weight", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_weight_rms", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hook_load", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_axial_drag", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "depth_of_cut", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drive_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hoist_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "gravity_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "load_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "feed_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pressure_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_friction_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "contact_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rayleigh_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "numerical_damping_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "string_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_update_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stored_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "error_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mud_power", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "drive_at_limit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Health of the twin. The sequence is its heartbeat: when it stops, the twin has stopped.

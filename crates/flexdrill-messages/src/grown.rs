@@ -3,7 +3,7 @@
 
 use byteorder::{BigEndian, LittleEndian};
 
-use super::{AppliedInputs, Message, RigInputs, to_cdr_body};
+use super::{AppliedInputs, Message, RigInputs, Transfer, to_cdr_body};
 
 /// What an older sender leaves out.
 struct Missing {
@@ -15,6 +15,8 @@ struct Missing {
 
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.
 const NOT_APPLIED: &[f64] = &[0.0; 4];
+/// An older twin does not say whether its drive was at its limit.
+const NOT_SAID: &[f64] = &[f64::NAN];
 /// NaN is a value that is not given.
 const NOT_GIVEN: &[f64] = &[f64::NAN; 2];
 
@@ -35,6 +37,10 @@ fn missing(ros_type: &str) -> &'static [Missing] {
         RigInputs::ROS_TYPE => &[Missing {
             first: 0,
             numbers: NOT_GIVEN,
+        }],
+        Transfer::ROS_TYPE => &[Missing {
+            first: 0,
+            numbers: NOT_SAID,
         }],
         _ => &[],
     }
@@ -116,6 +122,21 @@ mod tests {
                 assert!(read.standpipe_pressure_mpa.is_nan());
             }
         }
+    }
+
+    #[test]
+    fn an_older_transfer_does_not_say_whether_the_drive_was_at_its_limit() {
+        let whole = Transfer {
+            bit_torque: 90.0,
+            mud_power: 3.0,
+            drive_at_limit: 0.5,
+            ..Transfer::default()
+        };
+        let body = to_cdr_body(&whole).unwrap();
+        let read: Transfer = message_from_cdr_body(&body[..body.len() - 8]).unwrap();
+        assert_eq!((read.bit_torque, read.mud_power), (90.0, 3.0));
+        assert!(read.drive_at_limit.is_nan());
+        assert!(message_from_cdr_body::<Transfer>(&body[..body.len() - 16]).is_err());
     }
 
     #[test]

@@ -50,8 +50,8 @@ def test_a_replay_of_a_field_log(config: str, tmp_path: Path) -> None:
     )
     assert len(run) == 201
     equal = [
-        ("twin/bit_state", "torque", run.bit.torque_nm),
-        ("twin/bit_state", "rotary_speed", run.bit.rotary_speed_rad_per_s),
+        ("twin/bit_state", "torque", run.bit.mean_torque_nm),
+        ("twin/bit_state", "rotary_speed", run.bit.mean_rotary_speed_rad_per_s),
         ("twin/bit_state", "stick_slip_index", run.bit.stick_slip_index),
         ("twin/bit_state", "lateral_acceleration_peak", run.bit.lateral_acceleration_peak_m_per_s2),
         ("twin/joint_deflections", "bend_angle", run.joints.bend_angle_rad),

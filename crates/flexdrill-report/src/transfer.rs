@@ -55,6 +55,8 @@ pub(crate) struct TransferHistory {
     pub depth_of_cut: History,
     /// m/s.
     pub rate_of_penetration: History,
+    /// Share of the time, 0 to 1.
+    pub drive_at_limit: History,
     /// Powers that are put in (W).
     pub put_in: Group,
     /// Powers that are taken (W).
@@ -90,6 +92,7 @@ impl Default for TransferHistory {
             ]),
             depth_of_cut: History::default(),
             rate_of_penetration: History::default(),
+            drive_at_limit: History::default(),
             put_in: Group::new(&[
                 ("top drive", |m| m.drive_power),
                 ("hoist", |m| m.hoist_power),
@@ -128,6 +131,7 @@ impl TransferHistory {
         groups.into_iter().for_each(|group| group.push(time, message));
         self.depth_of_cut.push(time, message.depth_of_cut);
         self.rate_of_penetration.push(time, message.rate_of_penetration);
+        self.drive_at_limit.push(time, message.drive_at_limit);
         self.window = self.window.max(message.duration);
     }
 

@@ -31,11 +31,13 @@ pub enum HazardKind {
     GuidePreload = 8,
     /// Pressure in the pipe compresses the chain of links beyond its rating.
     PressureFolding = 9,
+    /// The bit does not turn, and the top drive stalls at its torque limit.
+    BitStuck = 10,
 }
 
 impl HazardKind {
     /// All hazards, in the order of their codes.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::BackwardWhirl,
         Self::ForwardWhirl,
         Self::Shock,
@@ -46,6 +48,7 @@ impl HazardKind {
         Self::TorqueTransfer,
         Self::GuidePreload,
         Self::PressureFolding,
+        Self::BitStuck,
     ];
 
     /// The name in sentences: `backward whirl`.
@@ -61,6 +64,7 @@ impl HazardKind {
             Self::TorqueTransfer => "torque transfer",
             Self::GuidePreload => "guide preload",
             Self::PressureFolding => "folding under pressure",
+            Self::BitStuck => "stuck bit",
         }
     }
 }
@@ -77,7 +81,7 @@ pub struct Hazard {
     pub place: Option<ToolLocation>,
     /// The judged figure: bending cycles per turn of the tool, friction power (W/m), impulse (N s), stick-slip
     /// index, stop moment over its rating, collision power of the chaotic part (W/m), lost share of weight or torque,
-    /// moment of the guide over its rating, effective compression of the pipe over its rating.
+    /// moment of the guide over its rating, effective compression of the pipe over its rating, time of a stall (s).
     pub value: f64,
     /// Threshold of the level, of WATCH while the level is OK, in the same unit.
     pub threshold: f64,

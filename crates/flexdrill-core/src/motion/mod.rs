@@ -42,7 +42,7 @@ mod whirl;
 
 pub use ageing::{Ageing, AgeingSettings, AgeingWatch};
 pub use chaotic_whirl::{ChaoticWhirlLevel, ChaoticWhirlSettings, ChaoticWhirlWatch};
-pub use contact_statistics::{ContactStatistics, RootMeanSquare};
+pub use contact_statistics::{ContactStatistics, Means, RootMeanSquare};
 pub use drive::DriveState;
 pub use episodes::{Episode, EpisodeKind, EpisodeLog, Observation, ToolLocation};
 pub(crate) use hazards::ended;

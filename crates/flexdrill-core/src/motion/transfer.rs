@@ -5,7 +5,9 @@
 //! NaN: no surface torque without a string above, no weight at the surface without a hoist.
 //!
 //! Two conditions are judged in steady drilling only: weight that does not arrive and torque that does not arrive, both
-//! as the lost share of what is put in at the surface.
+//! as the lost share of what is put in at the surface. Weight that is asked for and is not on the bottom, by more than
+//! sliding friction takes, is judged once the hoist has had the time to bring it. A stall is judged while the drive is asked
+//! to turn, by its time.
 
 mod figures;
 #[cfg(test)]
@@ -30,6 +32,19 @@ const LEAST_TORQUE: f64 = 1.0;
 /// Speed of the tool's top (rad/s) below which it stands: a tenth of a turn per minute.
 const LEAST_SPEED: f64 = 0.01;
 
+/// Share of the speed asked for, and of the root mean square of its own speed, above which the tool's top turns. Below,
+/// a tool that is held or swings to and fro has losses that are not those of a rotation.
+const LEAST_TURNING: f64 = 0.1;
+
+/// Share of the weight asked for from which the bit counts as set down: below, the block is on its way.
+const SET_DOWN: f64 = 0.1;
+
+/// Response times of the hoist after which the weight ought to be there: e^-5 of a change is left.
+const RESPONSES: f64 = 5.0;
+
+/// Share of a block in which the drive is at its limit, so that the block counts as one of a stall.
+const MOSTLY: f64 = 0.5;
+
 /// How transfer is averaged and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -42,8 +57,12 @@ pub struct TransferSettings {
     pub steadiness: f64,
     /// Levels of the lost share of the weight, 0 to 1.
     pub weight: AlarmThresholds,
+    /// Levels of the share of the weight that ought to arrive and is not on the bottom, 0 to 1.
+    pub short: AlarmThresholds,
     /// Levels of the lost share of the torque, 0 to 1.
     pub torque: AlarmThresholds,
+    /// Levels of the time for which the drive stalls on a bit that is stuck (s).
+    pub stall: AlarmThresholds,
 }
 
 impl Default for TransferSettings {
@@ -59,6 +78,16 @@ impl Default for TransferSettings {
             steadiness: 0.2,
             weight: thresholds,
             torque: thresholds,
+            // A coefficient of friction of 0.1 more than assumed takes 15 % of what ought to arrive round a right angle.
+            short: AlarmThresholds {
+                levels: [0.3, 0.4, 0.7],
+                ..thresholds
+            },
+            // Longer than a string of 4000 m needs for its slowest swing, 5 s, a bit that sticks does not slip by itself.
+            stall: AlarmThresholds {
+                levels: [2.0, 5.0, 10.0],
+                ..thresholds
+            },
         }
     }
 }
@@ -77,9 +106,19 @@ struct Condition {
     /// The last share that was judged, and the time since then in which none could be judged (s).
     last: f64,
     unknown_for: f64,
+    /// The thresholds that it was judged by last.
+    levels: [f64; 3],
 }
 
 impl Condition {
+    /// A condition at level OK.
+    fn calm(thresholds: &AlarmThresholds) -> Self {
+        Self {
+            levels: thresholds.levels,
+            ..Self::default()
+        }
+    }
+
     /// Takes the lost share, `None` where it cannot be judged. It then holds for the length of a window at most.
     fn update(&mut self, time: f64, elapsed: f64, lost: Option<f64>, window: f64, thresholds: &AlarmThresholds) {
         if let Some(lost) = lost {
@@ -90,6 +129,7 @@ impl Condition {
                 self.last = 0.0;
             }
         }
+        self.levels = thresholds.levels;
         self.alarm.update(time, elapsed, self.last, thresholds);
     }
 
@@ -97,7 +137,8 @@ impl Condition {
         let severity = self.alarm.severity();
         TransferLevel {
             severity,
-            lost: self.alarm.worst(),
+            value: self.alarm.worst(),
+            threshold: self.levels[(severity as usize).saturating_sub(1)],
             seen: self.alarm.worst_at(),
             since: self.alarm.since(),
             ended: ended(severity, self.alarm.met(), now),
@@ -110,8 +151,8 @@ impl Condition {
 struct Block {
     duration: f64,
     integrals: [f64; VALUES],
-    /// Of the squares of torques and weights.
-    squares: [f64; 6],
+    /// Of the squares of torques, weights and the speed of the tool's top.
+    squares: [f64; 7],
     energies: [f64; TERMS],
 }
 
@@ -119,7 +160,7 @@ impl Block {
     const EMPTY: Self = Self {
         duration: 0.0,
         integrals: [0.0; VALUES],
-        squares: [0.0; 6],
+        squares: [0.0; 7],
         energies: [0.0; TERMS],
     };
 
@@ -154,15 +195,24 @@ pub struct TransferWatch {
     before: [f64; TERMS],
     /// Time for which the drive has turned steadily (s).
     judged_for: f64,
+    /// Response time of the hoist (s).
+    response: f64,
+    /// Weight that is asked for (N), and the time for which it has been, with the drive turning and the bit set down (s).
+    asked: f64,
+    asked_for: f64,
     weight: Condition,
+    short: Condition,
     torque: Condition,
+    stall: Condition,
+    /// Time for which the drive has been at its limit while the bit did not turn (s).
+    stalled_for: f64,
     #[serde(skip)]
     summary: Transfer,
 }
 
 impl TransferWatch {
-    /// A watch with an empty window.
-    pub fn new(settings: &TransferSettings) -> Self {
+    /// A watch with an empty window, of a tool whose hoist has a `response` time (s; 0 without a hoist).
+    pub fn new(settings: &TransferSettings, response: f64) -> Self {
         Self {
             settings: *settings,
             blocks: vec![Block::EMPTY; BLOCKS],
@@ -171,8 +221,14 @@ impl TransferWatch {
             current: Block::EMPTY,
             before: [0.0; TERMS],
             judged_for: 0.0,
-            weight: Condition::default(),
-            torque: Condition::default(),
+            response,
+            asked: 0.0,
+            asked_for: 0.0,
+            weight: Condition::calm(&settings.weight),
+            short: Condition::calm(&settings.short),
+            torque: Condition::calm(&settings.torque),
+            stall: Condition::calm(&settings.stall),
+            stalled_for: 0.0,
             summary: Transfer::unknown(),
         }
     }
@@ -200,6 +256,7 @@ impl TransferWatch {
             *energy = now - before;
         }
         self.before = now;
+        self.judge_stall(time, judged);
         self.blocks[self.next] = self.current;
         self.current = Block::EMPTY;
         self.next = (self.next + 1) % BLOCKS;
@@ -229,6 +286,8 @@ impl TransferWatch {
             SURFACE
         };
         let put_in = mean.torque[top];
+        let swing = (total.squares[6] / total.duration).sqrt();
+        let turns = mean.speed.abs() >= LEAST_SPEED.max(LEAST_TURNING * mean.asked_speed.abs().max(swing));
         self.summary = Transfer {
             duration: total.duration,
             torque: Along {
@@ -242,17 +301,12 @@ impl TransferWatch {
             mean,
             friction_torque: {
                 let [inner, outer, joints] = mean.friction_power;
-                let of = |power: f64| {
-                    if mean.speed.abs() >= LEAST_SPEED {
-                        power / mean.speed.abs()
-                    } else {
-                        f64::NAN
-                    }
-                };
+                // The sign of the speed is that of the loss.
+                let of = |power: f64| if turns { power / mean.speed } else { f64::NAN };
                 // What the advance does against the wall takes no torque.
                 [of(inner), of(outer - mean.feed_power), of(joints), mean.string_torque]
             },
-            torque_efficiency: if put_in.abs() >= LEAST_TORQUE {
+            torque_efficiency: if turns && put_in.abs() >= LEAST_TORQUE {
                 mean.torque[BIT] / put_in
             } else {
                 f64::NAN
@@ -291,7 +345,51 @@ impl TransferWatch {
             (drilling && of_bit >= least_weight && top >= LEAST_TORQUE).then(|| lost(top, torque.mean[BIT]));
         let settings = &self.settings;
         self.weight.update(time, elapsed, lost_weight, window, &settings.weight);
+        let (short, thresholds) = self.short_of_asked(elapsed, full);
+        self.short.update(time, elapsed, short, window, &thresholds);
+        let settings = &self.settings;
         self.torque.update(time, elapsed, lost_torque, window, &settings.torque);
+    }
+
+    /// Share of the weight asked for that is not on the bottom, and its thresholds: those of the share that ought to arrive,
+    /// which friction round the arc and along the string leaves. `None` where it cannot be judged: before the hoist has had
+    /// the time to bring the weight, off bottom, and without a hoist. Neither the weight at the surface nor that at the bit
+    /// has to be steady: a bit that whips on the rock never is.
+    fn short_of_asked(&mut self, elapsed: f64, full: bool) -> (Option<f64>, AlarmThresholds) {
+        let settings = self.settings;
+        let Transfer { weight, mean, .. } = self.summary;
+        let (asked, put_in) = (mean.asked_weight, weight.mean[SURFACE]);
+        let is_down = put_in > SET_DOWN * asked && asked >= settings.least_weight;
+        if !full || !is_down || (asked - self.asked).abs() > settings.steadiness * self.asked {
+            (self.asked, self.asked_for) = (asked, 0.0);
+        } else {
+            self.asked_for += elapsed;
+        }
+        let ought = (mean.arrives - mean.axial_drag[2].max(0.0) / asked).clamp(0.0, 1.0);
+        let thresholds = AlarmThresholds {
+            levels: settings.short.levels.map(|level| 1.0 - (1.0 - level) * ought),
+            ..settings.short
+        };
+        let settled = self.asked_for >= 2.0 * settings.window + RESPONSES * self.response;
+        let lost = (1.0 - weight.mean[BIT] / asked).clamp(0.0, 1.0);
+        (settled.then_some(lost), thresholds)
+    }
+
+    /// Judges the block that ends at model time `time` (s): the drive stalls where its torque is at the limit and the bit,
+    /// asked to turn, does not.
+    fn judge_stall(&mut self, time: f64, judged: bool) {
+        let mean = TransferSample::of(self.current.integrals.map(|integral| integral / self.current.duration));
+        let stands = mean.bit_speed.abs() < LEAST_TURNING * mean.asked_speed.abs();
+        // A share of NaN is a tool without a string, whose drive has no limit.
+        self.stalled_for = if judged && stands && mean.drive_at_limit >= MOSTLY {
+            self.stalled_for + self.current.duration
+        } else {
+            0.0
+        };
+        let (window, thresholds) = (self.settings.window, self.settings.stall);
+        let elapsed = self.current.duration;
+        self.stall
+            .update(time, elapsed, Some(self.stalled_for), window, &thresholds);
     }
 
     /// Mean of a value over the newer half of a full window less that over the older half.
@@ -311,14 +409,21 @@ impl TransferWatch {
         &self.summary
     }
 
-    /// Level of the weight that does not arrive at model time `now` (s).
+    /// Level of the weight that does not arrive at model time `now` (s): the higher one of the weight that is lost on the
+    /// way and of the weight that was asked for and is not on the bottom.
     pub fn weight(&self, now: f64) -> TransferLevel {
-        self.weight.level(now)
+        let [lost, short] = [self.weight.level(now), self.short.level(now)];
+        if short.severity > lost.severity { short } else { lost }
     }
 
     /// Level of the torque that does not arrive at model time `now` (s).
     pub fn torque(&self, now: f64) -> TransferLevel {
         self.torque.level(now)
+    }
+
+    /// Level of the drive that stalls on a stuck bit at model time `now` (s).
+    pub fn stall(&self, now: f64) -> TransferLevel {
+        self.stall.level(now)
     }
 
     /// The settings in use.
@@ -336,7 +441,10 @@ impl TransferWatch {
         self.blocks.fill(Block::EMPTY);
         (self.next, self.filled, self.judged_for) = (0, 0, 0.0);
         (self.current, self.before) = (Block::EMPTY, [0.0; TERMS]);
-        (self.weight, self.torque) = (Condition::default(), Condition::default());
+        let settings = &self.settings;
+        (self.asked, self.asked_for, self.stalled_for) = (0.0, 0.0, 0.0);
+        (self.weight, self.short) = (Condition::calm(&settings.weight), Condition::calm(&settings.short));
+        (self.torque, self.stall) = (Condition::calm(&settings.torque), Condition::calm(&settings.stall));
         self.summary = Transfer::unknown();
     }
 }

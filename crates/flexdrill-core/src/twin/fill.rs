@@ -1,11 +1,11 @@
 //! Parts of a snapshot that are read from the mechanics as it stands.
 
-use super::snapshot::{ContactLayer, Joints, Reactions};
+use super::snapshot::{ContactLayer, Holder, Joints, Reactions};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::LayerContacts;
-use crate::model::{HeldNode, Model};
+use crate::model::Model;
 use crate::motion::ContactStatistics;
 use crate::tool::{Direction, JointKind};
 
@@ -26,24 +26,34 @@ pub(super) fn fill_layer(
 
 /// Reactions with all arrays at their size.
 pub(super) fn new_reactions(model: &Model) -> Reactions {
-    let at = |held: &HeldNode| &model.stations[held.station];
-    let supports = &model.held_nodes;
+    let supports = model.held_nodes.iter();
+    let mut held: Vec<_> = supports
+        .map(|held| (held.station, Holder::Support(held.body)))
+        .collect();
+    let hoist = model.description.string.as_ref().and_then(|string| string.hoist);
+    held.extend(hoist.map(|_| (0, Holder::String)));
+    let at = |&(station, _): &(usize, Holder)| &model.stations[station];
     Reactions {
-        measured_depth: supports.iter().map(|held| at(held).depth).collect(),
-        inclination: supports.iter().map(|held| at(held).inclination).collect(),
-        body: supports.iter().map(|held| held.body).collect(),
-        force: vec![[0.0; 3]; supports.len()],
-        moment: vec![[0.0; 3]; supports.len()],
+        measured_depth: held.iter().map(|held| at(held).depth).collect(),
+        inclination: held.iter().map(|held| at(held).inclination).collect(),
+        holder: held.iter().map(|&(_, holder)| holder).collect(),
+        force: vec![[0.0; 3]; held.len()],
+        moment: vec![[0.0; 3]; held.len()],
         ..Reactions::default()
     }
 }
 
-/// Forces of the supports, and the sums of all forces from outside.
+/// Forces of the supports and of the string, and the sums of all forces from outside.
 pub(super) fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
-    for (index, held) in stepper.model().held_nodes.iter().enumerate() {
+    let supports = &stepper.model().held_nodes;
+    for (index, held) in supports.iter().enumerate() {
         let [force, moment] = stepper.reaction(held);
         (out.force[index], out.moment[index]) = (force.into(), moment.into());
     }
+    if let (Some(out), Some(force)) = (out.force.get_mut(supports.len()), stepper.string_on_tool()) {
+        *out = force.into();
+    }
+    out.top_torque = stepper.torque_at_kickoff();
     let forces = stepper.outside_forces();
     out.supports = forces.supports.into();
     out.weight = forces.weight.into();

@@ -23,8 +23,8 @@ pub use quality::{
 };
 pub use readings::StationGeometry;
 pub use run::{Frame, Run, RunInputs};
-pub use schedule::{Due, Output, Schedule, Timeline};
+pub use schedule::{Due, EndsInterval, Output, Schedule, Timeline};
 pub use settings::SimulationSettings;
 pub use simulation::{BuildError, Simulation};
-pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Joints, Reactions, Shape, Snapshot, SolverCounters};
+pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Holder, Joints, Reactions, Shape, Snapshot, SolverCounters};
 pub use step_choice::{StepChoice, StepRule};

@@ -114,9 +114,10 @@ impl Simulation {
         Some(self.touch(station, body)?.map_or(0.0, |touch| touch.axial))
     }
 
-    /// Load on the hook (N): the weight of the string above less what is slacked off; `None` without a string.
+    /// Load on the hook (N): the weight in mud of the string above and of all that hangs on its end, less what is slacked
+    /// off; `None` without a string.
     pub fn hook_load(&self) -> Option<f64> {
-        self.stepper().string().map(StringLine::hook_load)
+        self.stepper().hook_load()
     }
 
     /// Rate at which the hoist lets the tool advance (m/s); `None` without a hoist.
@@ -212,8 +213,8 @@ impl Simulation {
         self.stepper().joint_friction()
     }
 
-    /// Torque at the tool's top that the pins of all joints take now (N m): their power over the first link's own speed;
-    /// zero where it stands.
+    /// Torque at the tool's top that the pins of all joints take now (N m): their power over the first link's own speed,
+    /// negative in reverse; NaN where it does not turn, below a tenth of the speed asked for.
     pub fn joint_friction_torque(&self) -> f64 {
         self.stepper().joint_friction_torque()
     }

@@ -3,7 +3,7 @@
 //! The node and a replay both drive a [`Run`]. The sequence of [`RunInputs`] and the configuration determine it to the
 //! bit; no clock is read here.
 
-use super::schedule::Due;
+use super::schedule::{Due, EndsInterval};
 use super::{Schedule, Simulation, Snapshot};
 use crate::dynamics::outcome::StepOutcome;
 use crate::inputs::InputState;
@@ -45,8 +45,8 @@ pub struct Frame {
     pub ticks: u64,
     /// Which outputs are due.
     pub due: Due,
-    /// Whether the interval of the peak and root-mean-square statistics ends with this frame.
-    pub ends_interval: bool,
+    /// Which statistics end with this frame.
+    pub ends_interval: EndsInterval,
     /// As in [`RunInputs`].
     pub input_quality: u8,
 }
@@ -175,7 +175,8 @@ impl Run {
     pub fn capture(&mut self, frame: &mut Frame) {
         let step = self.simulation.step();
         frame.ends_interval = self.applied.schedule.ends_interval(step);
-        self.simulation.snapshot(&mut frame.snapshot, frame.ends_interval);
+        self.simulation
+            .snapshot_ending(&mut frame.snapshot, frame.ends_interval);
         frame.ticks = self.ticks();
         frame.due = self.due();
         frame.input_quality = self.applied.input_quality;

@@ -76,15 +76,18 @@ impl Schedule {
         due
     }
 
-    /// Whether peak and root-mean-square statistics end with this snapshot: with the contact forces, and with the
-    /// bit's state when those are off.
-    pub fn ends_interval(&self, step: u64) -> bool {
-        let keeper = if self.every[Output::ContactForces as usize] > 0 {
-            Output::ContactForces
-        } else {
-            Output::BitState
+    /// Which statistics end with this snapshot: those of the contacts with the contact forces, and those of the bit with the
+    /// bit's state. An output that is off leaves its statistics to the other one.
+    pub fn ends_interval(&self, step: u64) -> EndsInterval {
+        let due = self.due(step);
+        let ends = |output: Output, other: Output| match self.every[output as usize] {
+            0 => due.has(other),
+            _ => due.has(output),
         };
-        self.due(step).has(keeper)
+        EndsInterval {
+            contacts: ends(Output::ContactForces, Output::BitState),
+            bit: ends(Output::BitState, Output::ContactForces),
+        }
     }
 
     /// Steps between two messages of an output; 0 is off.
@@ -99,6 +102,28 @@ impl Schedule {
             every => 1.0 / (every as f64 * time_step),
         }
     }
+}
+
+/// The statistics whose interval ends with a snapshot: each begins anew after it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct EndsInterval {
+    /// Peaks, root mean squares and shocks of the contact forces.
+    pub contacts: bool,
+    /// Means, root mean squares and peaks of the bit.
+    pub bit: bool,
+}
+
+impl EndsInterval {
+    /// All of them.
+    pub const ALL: Self = Self {
+        contacts: true,
+        bit: true,
+    };
+    /// None.
+    pub const NONE: Self = Self {
+        contacts: false,
+        bit: false,
+    };
 }
 
 /// A set of outputs.
@@ -176,10 +201,18 @@ mod tests {
     }
 
     #[test]
-    fn statistics_end_with_the_contact_forces() {
-        assert!(schedule().ends_interval(80) && !schedule().ends_interval(40));
-        let off = Schedule::new(0.5e-3, |output| if output == Output::BitState { 50.0 } else { 0.0 });
-        assert!(off.ends_interval(40));
+    fn statistics_end_with_their_own_messages() {
+        assert_eq!(schedule().ends_interval(80), EndsInterval::ALL);
+        let bit = EndsInterval {
+            bit: true,
+            ..EndsInterval::NONE
+        };
+        assert_eq!(schedule().ends_interval(40), bit);
+        assert_eq!(schedule().ends_interval(41), EndsInterval::NONE);
+        for only in [Output::BitState, Output::ContactForces] {
+            let off = Schedule::new(0.5e-3, |output| if output == only { 50.0 } else { 0.0 });
+            assert_eq!(off.ends_interval(40), EndsInterval::ALL);
+        }
     }
 
     #[test]

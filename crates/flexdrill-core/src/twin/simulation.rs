@@ -6,6 +6,7 @@ use super::Snapshot;
 #[cfg(feature = "checkpoints")]
 use super::checkpoint::{CheckpointError, Identity};
 use super::observe::Observer;
+use super::schedule::EndsInterval;
 use super::settings::SimulationSettings;
 use super::snapshot::Applied;
 use super::validation::validate_slew;
@@ -221,15 +222,23 @@ impl Simulation {
         out
     }
 
-    /// Fills `out` without allocating. With `end_interval`, the peak and root-mean-square statistics of the contact
-    /// forces and bit accelerations restart.
+    /// Fills `out` without allocating. With `end_interval`, the statistics of the contact forces (peaks, root mean squares)
+    /// and of the bit (means, root mean squares, peaks) restart.
     pub fn snapshot(&mut self, out: &mut Snapshot, end_interval: bool) {
+        let ends = if end_interval {
+            EndsInterval::ALL
+        } else {
+            EndsInterval::NONE
+        };
+        self.snapshot_ending(out, ends);
+    }
+
+    /// The same, after which only these statistics restart.
+    pub(super) fn snapshot_ending(&mut self, out: &mut Snapshot, ends: EndsInterval) {
         self.stepper.stopwatch().start();
         self.stepper.refresh_view();
         self.fill(self.stepper.view(), out);
-        if end_interval {
-            self.observer.end_interval();
-        }
+        self.observer.end_interval(ends);
         self.stepper.stopwatch().stop(Phase::Snapshot);
     }
 

@@ -158,12 +158,19 @@ pub struct ContactLayer {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Bit {
-    /// Torque of the rock against the bit (N m).
+    /// Torque of the rock against the bit at this instant (N m), negative in reverse.
     pub torque: f64,
-    /// Speed of the bit (rad/s).
+    /// Speed of the bit at this instant (rad/s).
     pub rotary_speed: f64,
-    /// Weight on bit as applied (N).
+    /// Weight on bit at this instant (N): given, or what the rock carries.
     pub weight_on_bit: f64,
+    /// Mean of [`Bit::torque`] over the publishing interval (N m); at the start of an interval the instant's, as for the
+    /// next two.
+    pub mean_torque: f64,
+    /// Mean of [`Bit::rotary_speed`] over the publishing interval (rad/s).
+    pub mean_rotary_speed: f64,
+    /// Mean of [`Bit::weight_on_bit`] over the publishing interval (N).
+    pub mean_weight_on_bit: f64,
     /// (max - min) / (2 mean) over its window; 0 while the drive is below the gate.
     pub stick_slip_index: f64,
     /// Root mean square over the publishing interval (m/s2): spin acceleration times bit radius.
@@ -181,23 +188,35 @@ pub struct Bit {
     pub stick_slip: Severity,
 }
 
+/// What holds the tool at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holder {
+    /// A support of that pipe.
+    Support(Body),
+    /// The string above, which pulls at the guide's top along the hole.
+    String,
+}
+
 /// The forces on the tool from outside, in the world frame (X horizontal in the build's direction, Y horizontal, Z
 /// down). The sums of forces and [`Reactions::inertia`] and [`Reactions::damping`] balance but for
 /// [`Reactions::unbalance`].
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Reactions {
-    /// Per support, a node held in some directions: measured depth from the kick-off (m).
+    /// Per support, a node held in some directions, and last the string above where a hoist carries it: measured depth
+    /// from the kick-off (m).
     pub measured_depth: Vec<f64>,
     /// Inclination of the bore there (rad).
     pub inclination: Vec<f64>,
-    /// Which pipe is held.
-    pub body: Vec<Body>,
-    /// Force of the support on the pipe (N).
+    /// What holds the tool there.
+    pub holder: Vec<Holder>,
+    /// Force on the pipe (N).
     pub force: Vec<[f64; 3]>,
-    /// Moment of the support on the pipe (N m), without the drive's.
+    /// Moment on the pipe (N m), without the torque on the top of the pipe.
     pub moment: Vec<[f64; 3]>,
-    /// Sum of the supports' forces (N).
+    /// Torque on the top of the pipe (N m), negative in reverse: the drive's, or below a string the string's.
+    pub top_torque: f64,
+    /// Sum of the forces in the list (N).
     pub supports: [f64; 3],
     /// Weight of both pipes and of all masses (N).
     pub weight: [f64; 3],

@@ -192,7 +192,9 @@ impl TransferSettings {
         Bound::Positive.check("transfer.least_weight", self.least_weight, "N")?;
         Bound::Above(0.0, 1.0).check("transfer.steadiness", self.steadiness, "")?;
         self.weight.validate("transfer.weight", "")?;
-        self.torque.validate("transfer.torque", "")
+        self.short.validate("transfer.short", "")?;
+        self.torque.validate("transfer.torque", "")?;
+        self.stall.validate("transfer.stall", "s")
     }
 }
 

@@ -493,15 +493,21 @@ export function decodeAppliedInputs(reader: CdrReader): AppliedInputs {
   };
 }
 
-/** The bit. */
+/**
+ * The bit. Torque, speed, weight and accelerations cover the time since the previous message, in which every step counts:
+ * an instant would alias with the rotation. Only the first message of a run has torque, speed and weight of its instant.
+ */
 export interface BitState {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Torque of the rock against the bit (N m, positive against the drive's sense). */
+  /**
+   * Torque of the rock against the bit, mean (N m): positive where it opposes forward rotation, negative in
+   * reverse, 0 off bottom.
+   */
   torque: number;
-  /** Rotary speed of the bit (rad/s, positive in the drive's sense). */
+  /** Rotary speed of the bit, mean (rad/s, negative in reverse). */
   rotary_speed: number;
-  /** Weight on bit as applied to the model (N). */
+  /** Weight on the bit, mean (N): given, or what the rock carries; 0 off bottom. */
   weight_on_bit: number;
   /**
    * (max - min) / (2 mean) of the rotary speed over its window; 0 while the drive is near standstill, at least 1 while the
@@ -842,16 +848,16 @@ export function decodeJointDeflections(reader: CdrReader): JointDeflections {
 /**
  * The external forces on the tool, so that a reader can check the balance: supports, weight, wall, bit and loads. At
  * rest they sum to zero; in motion they do so together with inertia and damping. All vectors are along the axes of the
- * frame: X horizontal in the build's direction, Y horizontal, Z down.
+ * frame: X horizontal in the build's direction, Y horizontal, Z down. All figures are of the instant of the stamp.
  */
 export interface Reactions {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
-  /** Torque of the drive at the top of the pipe (N m), positive when it drives. */
+  /** Torque on the top of the pipe (N m), negative in reverse: the drive's, or below a string the string's. */
   drive_torque: number;
-  /** Torque of the rock against the bit (N m). */
+  /** Torque of the rock against the bit (N m), negative in reverse, 0 off bottom. */
   bit_torque: number;
-  /** Sum of the forces of all supports (N). */
+  /** Sum of the forces in the list below (N). */
   support_force: Float64Array;
   /** Weight of both pipes and of the bodies on them, minus buoyancy (N). */
   weight: Float64Array;
@@ -867,19 +873,22 @@ export interface Reactions {
   damping_force: Float64Array;
   /** Sum of the seven forces: the residual of the solver (N). */
   unbalanced_force: Float64Array;
-  /** Per support, which holds a pipe in some directions: measured depth from the kick-off (m). */
+  /**
+   * Per support, which holds a pipe in some directions, and last the string above where a hoist carries it: measured depth
+   * from the kick-off (m).
+   */
   measured_depth: Float64Array;
   /** Inclination of the bore there, 0 is straight down (rad). */
   inclination: Float64Array;
-  /** PIPE or GUIDE. */
+  /** PIPE, GUIDE or STRING. */
   body: Uint8Array;
-  /** Force of the support on the pipe, X (N). */
+  /** Force on the pipe, X (N); that of STRING on the guide. */
   force_x: Float64Array;
   /** Force, Y (N). */
   force_y: Float64Array;
   /** Force, Z (N). */
   force_z: Float64Array;
-  /** Moment of the support on the pipe about the support's location, X (N m), without the drive's torque. */
+  /** Moment on the pipe about the location, X (N m), without drive_torque; 0 for STRING. */
   moment_x: Float64Array;
   /** Moment, Y (N m). */
   moment_y: Float64Array;
@@ -887,10 +896,12 @@ export interface Reactions {
   moment_z: Float64Array;
 }
 export const Reactions = {
-  /** The flexible pipe. */
+  /** A support of the flexible pipe. */
   PIPE: 0,
-  /** The guide pipe. */
+  /** A support of the guide pipe. */
   GUIDE: 1,
+  /** The string above, which pulls at the top of the guide pipe along the hole. */
+  STRING: 2,
 } as const;
 /** Reads a `flexdrill/msg/Reactions`. */
 export function decodeReactions(reader: CdrReader): Reactions {
@@ -1223,40 +1234,51 @@ export function decodeSessionInfo(reader: CdrReader): SessionInfo {
 /**
  * Torque, weight and power from the surface to the bit, and where they are lost. All figures are means over the last
  * `duration` seconds, in which every step counts; those ending in `_rms` are root mean squares over the same time.
- * A figure that the tool does not have is NaN: surface torque and hook load need the string above, surface weight and
- * drag of the string its hoist, the depth of cut a rock that holds the bit.
+ * A figure that the tool does not have is NaN: surface torque, hook load and the drive's limit need the string above,
+ * surface weight and drag of the string its hoist, the depth of cut a rock that holds the bit.
+ * 
+ * Signs: a torque is positive where it belongs to forward rotation, and negative in reverse: the drive's, the bit's and
+ * every loss, since a loss opposes the rotation. In both senses a torque less the losses below it is the torque below.
+ * Powers are positive in both senses, as their names say: put in, or taken.
+ * 
+ * The tool turns where the mean speed of its top is above a tenth of the speed asked for, of the root mean square of its
+ * own speed, and of a turn per minute. Standing, at a stall or swinging to and fro it does not turn, and what is a power
+ * over a speed does not exist: it is NaN.
  */
 export interface Transfer {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
   header: Header;
   /** Time that the means cover (s): transfer.window, less at the beginning; 0 before the first tenth of a second. */
   duration: number;
-  /** Torque of the top drive (N m), positive when it drives. */
+  /** Torque of the top drive (N m). */
   surface_torque: number;
   /** Root mean square of it (N m). */
   surface_torque_rms: number;
-  /** Torque on the top of the tool (N m), positive when it drives. */
+  /** Torque on the top of the tool (N m). */
   kickoff_torque: number;
   /** Root mean square of it (N m). */
   kickoff_torque_rms: number;
-  /** Torque of the rock against the bit (N m). */
+  /** Torque of the rock against the bit (N m), 0 off bottom. */
   bit_torque: number;
   /** Root mean square of it (N m). */
   bit_torque_rms: number;
-  /** Torque at the bit over that at the surface, without a string over that at the kick-off. NaN below 1 N m there. */
+  /**
+   * Torque at the bit over that at the surface, without a string over that at the kick-off; 0 off bottom. NaN below 1 N m
+   * there and while the tool does not turn.
+   */
   torque_efficiency: number;
   /**
    * Torque of the rotation that friction between pipe and guide takes (N m): its power over the speed of the tool's top.
-   * NaN while the tool stands, as for the next two.
+   * NaN while the tool does not turn, as for the next two.
    */
   pipe_guide_friction_torque: number;
   /** Torque of the rotation that friction between guide and wall takes (N m), without what the advance takes. */
   guide_wall_friction_torque: number;
   /** Torque of the rotation that the pins of the joints take (N m). */
   joint_friction_torque: number;
-  /** Torque that the friction of the wall takes from the string above (N m). */
+  /** Torque that the friction of the wall takes from the string above (N m); it also holds a string that stands. */
   string_friction_torque: number;
-  /** Weight that is slacked off at the surface (N). */
+  /** Weight that is slacked off at the surface (N): what the hook carries less than off bottom. */
   surface_weight: number;
   /** Root mean square of it (N). */
   surface_weight_rms: number;
@@ -1264,11 +1286,14 @@ export interface Transfer {
   kickoff_weight: number;
   /** Root mean square of it (N). */
   kickoff_weight_rms: number;
-  /** Weight on the bit (N). */
+  /** Weight on the bit (N), 0 off bottom. */
   bit_weight: number;
   /** Root mean square of it (N). */
   bit_weight_rms: number;
-  /** Load on the hook (N). */
+  /**
+   * Load on the hook (N): the weight in mud of the string and of all that hangs on its end, guide and pipe, less what stands
+   * on the bottom and on the wall.
+   */
   hook_load: number;
   /** Axial friction of the guide on the pipe (N), positive where it pushes up the hole. */
   pipe_guide_axial_drag: number;
@@ -1276,9 +1301,12 @@ export interface Transfer {
   guide_wall_axial_drag: number;
   /** Axial friction of the wall on the string above (N), positive where it pushes up the hole. */
   string_axial_drag: number;
-  /** Depth of cut (m per turn). */
+  /** Depth of cut (m per turn), 0 off bottom. */
   depth_of_cut: number;
-  /** Rate of penetration of the bit (m/s), negative when the tool is pulled back. */
+  /**
+   * Rate at which the hole deepens (m/s), never negative: how much deeper than before the bit has come. 0 off bottom, whatever
+   * the block does, and while a bit that was lifted is lowered to the bottom again.
+   */
   rate_of_penetration: number;
   /** Power put in: of the top drive (W). */
   drive_power: number;
@@ -1320,6 +1348,8 @@ export interface Transfer {
   error_power: number;
   /** By the mud that moves with pipe and guide (W): power taken, part of the same balance. */
   mud_power: number;
+  /** Share of the time (0 to 1) in which the torque of the top drive was at its limit: the speed asked for is then not kept. */
+  drive_at_limit: number;
 }
 /** Reads a `flexdrill/msg/Transfer`. */
 export function decodeTransfer(reader: CdrReader): Transfer {
@@ -1369,6 +1399,7 @@ export function decodeTransfer(reader: CdrReader): Transfer {
     stored_power: reader.float64(),
     error_power: reader.float64(),
     mud_power: reader.float64(),
+    drive_at_limit: reader.float64(),
   };
 }
 

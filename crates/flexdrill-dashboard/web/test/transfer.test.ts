@@ -53,6 +53,11 @@ test("a tool below a string has all places, the paper's tool neither surface nor
   assert.deepEqual(facts(paper, "si"), []);
 });
 
+test("a drive at its torque limit is shown, one below it is not", () => {
+  const shown = (share: number) => facts(transfer({ drive_at_limit: share }), "si").map((row) => row.values[0]);
+  assert.deepEqual([shown(0.4), shown(1), shown(0), shown(NaN)], [["40.0 % of the time"], ["100.0 % of the time"], [], []]);
+});
+
 test("a weight of nothing has no share, whatever the bit has", () => {
   const off = transfer({ surface_weight: 20, bit_weight: 0, surface_torque: 0.2, bit_torque: 0 });
   assert.deepEqual(labels(places(off, "si")), ["Surface", "Bit"]);

@@ -8,9 +8,9 @@ use flexdrill_core::twin::Snapshot;
 pub fn bit_state(snapshot: &Snapshot, header: &Header, out: &mut BitState) {
     super::stamp(&mut out.header, header);
     let bit = &snapshot.bit;
-    out.torque = bit.torque;
-    out.rotary_speed = bit.rotary_speed;
-    out.weight_on_bit = bit.weight_on_bit;
+    out.torque = bit.mean_torque;
+    out.rotary_speed = bit.mean_rotary_speed;
+    out.weight_on_bit = bit.mean_weight_on_bit;
     out.stick_slip_index = bit.stick_slip_index;
     out.tangential_acceleration = bit.tangential_acceleration;
     out.axial_acceleration = bit.axial_acceleration;

@@ -4,13 +4,13 @@ use super::copy;
 use crate::Reactions;
 use crate::std_msgs::Header;
 use flexdrill_core::tool::Body;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{Holder, Snapshot};
 
 /// Fills `out`.
 pub fn reactions(snapshot: &Snapshot, header: &Header, out: &mut Reactions) {
     super::stamp(&mut out.header, header);
     let from = &snapshot.reactions;
-    out.drive_torque = snapshot.applied.drive_torque;
+    out.drive_torque = from.top_torque;
     out.bit_torque = snapshot.bit.torque;
     out.support_force = from.supports;
     out.weight = from.weight;
@@ -23,9 +23,10 @@ pub fn reactions(snapshot: &Snapshot, header: &Header, out: &mut Reactions) {
     copy(&mut out.measured_depth, &from.measured_depth);
     copy(&mut out.inclination, &from.inclination);
     out.body.clear();
-    out.body.extend(from.body.iter().map(|body| match body {
-        Body::Pipe => Reactions::PIPE,
-        Body::Guide => Reactions::GUIDE,
+    out.body.extend(from.holder.iter().map(|holder| match holder {
+        Holder::Support(Body::Pipe) => Reactions::PIPE,
+        Holder::Support(Body::Guide) => Reactions::GUIDE,
+        Holder::String => Reactions::STRING,
     }));
     let forces = [&mut out.force_x, &mut out.force_y, &mut out.force_z];
     let moments = [&mut out.moment_x, &mut out.moment_y, &mut out.moment_z];

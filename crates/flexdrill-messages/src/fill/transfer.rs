@@ -34,6 +34,7 @@ pub fn transfer(snapshot: &Snapshot, header: &Header, out: &mut Transfer) {
     out.hook_load = mean.hook_load;
     out.depth_of_cut = mean.depth_of_cut;
     out.rate_of_penetration = mean.rate_of_penetration;
+    out.drive_at_limit = mean.drive_at_limit;
 
     let power = &from.power;
     out.drive_power = power.drive;

@@ -114,6 +114,7 @@ fn transfer_fills_every_field_with_its_own_figure() {
     from.mean.hook_load = number();
     from.mean.depth_of_cut = number();
     from.mean.rate_of_penetration = number();
+    from.mean.drive_at_limit = number();
     from.torque_efficiency = number();
     let power = &mut from.power;
     for power in [
@@ -155,20 +156,20 @@ fn transfer_fills_every_field_with_its_own_figure() {
 #[test]
 fn reactions_are_vectors_by_axis_and_support() {
     let mut snapshot = snapshot();
-    snapshot.applied.drive_torque = 300.0;
     let reactions = &mut snapshot.reactions;
     reactions.measured_depth = vec![0.0, 5.0];
     reactions.inclination = vec![0.0, 1.5];
-    reactions.body = vec![Body::Pipe, Body::Guide];
+    reactions.holder = vec![Holder::Support(Body::Pipe), Holder::String];
     reactions.force = vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
     reactions.moment = vec![[0.0; 3], [7.0, 8.0, 9.0]];
     reactions.supports = [5.0, 7.0, 9.0];
+    reactions.top_torque = 300.0;
     reactions.unbalance = [0.0, 0.0, 0.1];
     let mut message = Reactions::default();
     fill::reactions(&snapshot, &header(), &mut message);
     // A second time: what was there is gone.
     fill::reactions(&snapshot, &header(), &mut message);
-    assert_eq!(message.body, [Reactions::PIPE, Reactions::GUIDE]);
+    assert_eq!(message.body, [Reactions::PIPE, Reactions::STRING]);
     assert_eq!(
         (message.force_x.as_slice(), message.force_z.as_slice()),
         ([1.0, 4.0].as_slice(), [3.0, 6.0].as_slice())

@@ -10,3 +10,4 @@ mod cdr;
 mod fill;
 mod generated;
 mod page;
+mod states;

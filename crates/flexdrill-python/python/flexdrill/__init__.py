@@ -47,7 +47,7 @@ from ._groups import (
 from ._inputs import Input, Inputs, held
 from ._map import Map, MapAxis, read_map
 from ._native import __version__
-from ._results import BODIES, GROUPS, HAZARDS, SEVERITIES, USUAL_GROUPS, WHIRL_KINDS, Recording, Snapshot
+from ._results import BODIES, GROUPS, HAZARDS, HOLDERS, SEVERITIES, USUAL_GROUPS, WHIRL_KINDS, Recording, Snapshot
 from ._results_file import PRIORITIES, QUANTILES, FlagArray, TextArray
 from ._rollout import rollout
 from ._sweep import Sweep, read_sweep
@@ -57,6 +57,7 @@ __all__ = [
     "BODIES",
     "GROUPS",
     "HAZARDS",
+    "HOLDERS",
     "PRIORITIES",
     "QUANTILES",
     "SEVERITIES",

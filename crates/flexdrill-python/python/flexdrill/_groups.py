@@ -112,12 +112,18 @@ class Contacts:
 
 @dataclass(frozen=True)
 class Bit(Generic[F, N]):
-    """The bit. Accelerations are root mean squares over the time since the sample before."""
+    """The bit. Means and accelerations (root mean squares) cover the time since the sample before, with every step; torque,
+    speed and weight without `mean` are those of the sample's instant, and a mean of them aliases with the rotation."""
 
     torque_nm: F
-    """Torque of the rock against the bit."""
+    """Torque of the rock against the bit; negative in reverse, 0 off bottom."""
     rotary_speed_rad_per_s: F
+    """Negative in reverse."""
     weight_on_bit_n: F
+    """0 off bottom."""
+    mean_torque_nm: F
+    mean_rotary_speed_rad_per_s: F
+    mean_weight_on_bit_n: F
     stick_slip_index: F
     """(max - min) / (2 mean) of the speed over its window; 0 while the drive is near standstill."""
     stick_slip_severity: N
@@ -137,15 +143,15 @@ class Reactions:
     """Forces on the tool from outside, in the world frame. The sums balance but for `unbalance_n`."""
 
     measured_depth_m: FloatArray
-    """Per support; constant."""
+    """Per support, and last the string above where a hoist carries it; constant."""
     inclination_rad: FloatArray
-    """Per support; constant."""
+    """As `measured_depth_m`."""
     body: CodeArray
-    """Per support: index into `BODIES`; constant."""
+    """As `measured_depth_m`: index into `HOLDERS`; constant."""
     force_n: FloatArray
-    """Per support: force on the pipe that is held."""
+    """Force on the pipe that is held; that of the string on the guide. Their sum is `supports_n`."""
     moment_nm: FloatArray
-    """Per support: moment, without the drive's."""
+    """Moment, without the torque of the drive or the string on the top of the pipe."""
     supports_n: FloatArray
     """Sum of the supports' forces."""
     weight_n: FloatArray
@@ -167,7 +173,7 @@ class Reactions:
 @dataclass(frozen=True)
 class Transfer(Generic[F]):
     """Torque and weight from the surface to the bit, means over a sliding window; NaN where the tool has no such
-    figure. Three values stand for surface, kick-off and bit."""
+    figure. Three values stand for surface, kick-off and bit. Torques and losses of torque are negative in reverse."""
 
     window_s: F
     """Time that the window holds."""
@@ -176,15 +182,20 @@ class Transfer(Generic[F]):
     weight_n: FloatArray
     weight_rms_n: FloatArray
     friction_torque_nm: FloatArray
-    """Torque that friction takes between pipe and guide, guide and wall, in the joints, along the string above."""
+    """Torque that friction takes between pipe and guide, guide and wall, in the joints, along the string above. The first
+    three are powers over a speed: NaN while the tool does not turn."""
     axial_drag_n: FloatArray
     """Axial friction on the pipe by the guide, on the guide by the wall, on the string above; up the hole positive."""
     torque_efficiency: F
-    """Torque at the bit over that at the surface, or at the kick-off without a string."""
+    """Torque at the bit over that at the surface, or at the kick-off without a string; NaN while the tool does not turn."""
     hook_load_n: F
+    """String, guide and pipe less what stands on the bottom and on the wall."""
     depth_of_cut_m: F
     """Per turn."""
     rate_of_penetration_m_per_s: F
+    """Rate at which the hole deepens, at least 0: 0 off bottom."""
+    drive_at_limit: F
+    """Share of the time in which the torque of the top drive was at its limit."""
 
 
 @dataclass(frozen=True)

@@ -41,6 +41,8 @@ WHIRL_KINDS: tuple[str, ...] = tuple(_native.names()[2])
 """Names of the kinds of whirl."""
 BODIES = ("pipe", "guide")
 """Names of the bodies."""
+HOLDERS = ("pipe", "guide", "string")
+"""What holds the tool at an entry of `Reactions`: a support of the pipe or of the guide, or the string above."""
 
 _COLUMNS = [(f"{group}.{column}" if group else column, fixed) for group, column, fixed in _native.columns()]
 _FIXED = frozenset(name for name, fixed in _COLUMNS if fixed)

@@ -6,7 +6,7 @@ mod motion;
 mod tool;
 
 use flexdrill_core::tool::Body;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{Holder, Snapshot};
 
 /// How the values of one sample are read.
 #[derive(Clone, Copy)]
@@ -104,6 +104,14 @@ const fn body_code(body: Body) -> u8 {
     match body {
         Body::Pipe => 0,
         Body::Guide => 1,
+    }
+}
+
+/// A support by its pipe, and the string.
+const fn holder_code(holder: Holder) -> u8 {
+    match holder {
+        Holder::Support(body) => body_code(body),
+        Holder::String => 2,
     }
 }
 

@@ -24,6 +24,7 @@ pub(super) const TRANSFER: Group = Group {
             "rate_of_penetration_m_per_s",
             Number(|s| s.transfer.mean.rate_of_penetration),
         ),
+        Column::new("drive_at_limit", Number(|s| s.transfer.mean.drive_at_limit)),
     ],
 };
 

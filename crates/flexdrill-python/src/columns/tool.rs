@@ -1,7 +1,7 @@
 //! The tool: inputs, joints, contacts, bit, reactions, shape.
 
 use super::Read::{Code, Codes, Few, List, Number, Pairs, Triples};
-use super::{Column, Group, body_code};
+use super::{Column, Group, holder_code};
 
 pub(super) const APPLIED: Group = Group {
     name: "applied",
@@ -67,6 +67,9 @@ pub(super) const BIT: Group = Group {
         Column::new("torque_nm", Number(|s| s.bit.torque)),
         Column::new("rotary_speed_rad_per_s", Number(|s| s.bit.rotary_speed)),
         Column::new("weight_on_bit_n", Number(|s| s.bit.weight_on_bit)),
+        Column::new("mean_torque_nm", Number(|s| s.bit.mean_torque)),
+        Column::new("mean_rotary_speed_rad_per_s", Number(|s| s.bit.mean_rotary_speed)),
+        Column::new("mean_weight_on_bit_n", Number(|s| s.bit.mean_weight_on_bit)),
         Column::new("stick_slip_index", Number(|s| s.bit.stick_slip_index)),
         Column::new("stick_slip_severity", Code(|s| s.bit.stick_slip as u8)),
         Column::new(
@@ -90,7 +93,7 @@ pub(super) const REACTIONS: Group = Group {
         Column::fixed("inclination_rad", List(|s| &s.reactions.inclination)),
         Column::fixed(
             "body",
-            Codes(|s, out| out.extend(s.reactions.body.iter().map(|body| body_code(*body)))),
+            Codes(|s, out| out.extend(s.reactions.holder.iter().map(|holder| holder_code(*holder)))),
         ),
         Column::new("force_n", Triples(|s| &s.reactions.force)),
         Column::new("moment_nm", Triples(|s| &s.reactions.moment)),

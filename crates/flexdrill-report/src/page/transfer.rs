@@ -75,6 +75,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                         (rows(&transfer.drag, "kN", n_to_kn(1.0)))
                         (row("depth of cut", "mm per turn", &transfer.depth_of_cut, 1e3))
                         (row("rate of penetration", "m/h", &transfer.rate_of_penetration, m_per_s_to_m_per_h(1.0)))
+                        (row("top drive at its torque limit", "% of the time", &transfer.drive_at_limit, 100.0))
                     }
                 }
                 h3 { "Power put in and taken" }

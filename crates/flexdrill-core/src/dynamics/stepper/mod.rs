@@ -218,12 +218,12 @@ impl Stepper {
     }
 
     /// Torque at the tool's top that the pins of all joints take at the end of the last step (N m): their power over the
-    /// first link's own speed, which the drive prescribes or, below a string, follows from it. Zero below a hundredth of a
-    /// radian per second, where a torque would say nothing.
+    /// first link's own speed, which the drive prescribes or, below a string, follows from it; negative in reverse. NaN
+    /// below a hundredth of a radian per second and below a tenth of the speed asked for, where no rotation takes it.
     pub fn joint_friction_torque(&self) -> f64 {
-        let speed = self.track.state.v[self.places().top_spin].abs();
-        if speed < 1e-2 {
-            0.0
+        let speed = self.track.state.v[self.places().top_spin];
+        if speed.abs() < (0.1 * self.inputs.rotary_speed.abs()).max(1e-2) {
+            f64::NAN
         } else {
             self.joint_friction().iter().sum::<f64>() / speed
         }

@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 
 use super::Stepper;
 use crate::dynamics::stations::turned_by_shortening;
-use crate::elements::string::StringLine;
+use crate::elements::string::{Feed, StringLine};
 use crate::model::HeldNode;
+use crate::tool::Body;
 
 /// Forces on both pipes together, along the axes of the world (N).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -60,6 +61,11 @@ impl Stepper {
         Some(impedance * (2.0 * arriving - v[places.guide_top]))
     }
 
+    /// Force of the string above on the guide's first node (N), along the axes of the world; `None` without a hoist.
+    pub fn string_on_tool(&self) -> Option<Vector3<f64>> {
+        Some(self.model.stations[0].frame.column(0) * self.string_force()?)
+    }
+
     /// Torque on the top of the pipe (N m), positive where it drives: that of the string above, or of the drive.
     pub fn torque_at_kickoff(&self) -> f64 {
         let Some(string) = &self.string else {
@@ -99,6 +105,40 @@ impl Stepper {
         Some(self.track.energy.reactions[index])
     }
 
+    /// The weight (N) that the hoist is asked for where `set` is asked for; `None` where no hoist is fed by a weight.
+    pub fn weight_of_hoist(&self, set: f64) -> Option<f64> {
+        let hoist = self.string.as_ref()?.description().hoist?;
+        (hoist.feed == Feed::Weight).then_some(set)
+    }
+
+    /// Share of an axial force that a rope which slides round the turns of the hole passes on, e^(-mu theta).
+    pub fn arrives_round_the_arc(&self) -> f64 {
+        let description = &self.model.description;
+        let [_, friction] = self.live.outer_friction;
+        libm::exp(-friction * description.wall_friction_factors.arc * description.well.turn())
+    }
+
+    /// Load on the hook (N): the weight of the string in mud and of all that hangs on its end, less what is slacked off.
+    /// `None` without a string.
+    pub fn hook_load(&self) -> Option<f64> {
+        let string = self.string.as_ref()?;
+        // Without a hoist a support stands for the string's axial force on the guide.
+        let held = match string.description().hoist {
+            Some(_) => 0.0,
+            None => self.weight_at_kickoff().unwrap_or(0.0),
+        };
+        Some(string.hook_load() - held - self.held_at_pipe_top())
+    }
+
+    /// Force of the support at the pipe's top (N) along the hole, positive where it pushes the pipe down: the string holds
+    /// that support. 0 where nothing holds the pipe there.
+    fn held_at_pipe_top(&self) -> f64 {
+        let axis = self.model.stations[0].frame.column(0);
+        let at_top = |at: &&HeldNode| at.station == 0 && at.body == Body::Pipe;
+        let held = self.model.held_nodes.iter().filter(at_top);
+        held.map(|at| self.reaction(at)[0].dot(&axis)).sum()
+    }
+
     /// Pressure in the pipe at the tool's top (Pa); 0 without it.
     pub fn pressure_at_top(&self) -> f64 {
         self.track.energy.pressure
@@ -119,7 +159,7 @@ impl Stepper {
     /// The sums of all forces on the tool from outside.
     pub fn outside_forces(&self) -> OutsideForces {
         let (model, energy) = (&self.model, &self.track.energy);
-        let (top, bottom) = (&model.stations[0], &model.stations[model.last()]);
+        let bottom = &model.stations[model.last()];
         let wall = self.interactions.outer.iter().map(|(station, touch)| {
             let [x, y, z, ..] = touch.force();
             model.stations[station].frame * Vector3::new(x, y, z)
@@ -146,7 +186,7 @@ impl Stepper {
                 .iter()
                 .map(|at| self.reaction(at)[0])
                 .sum::<Vector3<f64>>()
-                + top.frame.column(0) * self.string_force().unwrap_or(0.0),
+                + self.string_on_tool().unwrap_or_default(),
             weight: model.total_weight,
             wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
             bit: bottom.frame.column(0) * -energy.weight_on_bit,

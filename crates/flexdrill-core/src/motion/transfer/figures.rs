@@ -6,7 +6,8 @@ use crate::motion::Severity;
 /// The readings of one step. NaN where the tool has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransferSample {
-    /// Torque at surface, kick-off and bit (N m), positive where it drives.
+    /// Torque at surface, kick-off and bit (N m), positive where it turns what is below it in the sense of a positive
+    /// rotary speed: negative in reverse.
     pub torque: [f64; 3],
     /// Weight at surface, kick-off and bit (N), compressing.
     pub weight: [f64; 3],
@@ -14,22 +15,32 @@ pub struct TransferSample {
     pub speed: f64,
     /// Power of the advance against the axial friction of the wall on the guide (W): part of what friction takes there.
     pub feed_power: f64,
-    /// Torque that the friction of the wall takes from the string above (N m).
+    /// Torque that the friction of the wall takes from the string above (N m), with the sign of the rotation.
     pub string_torque: f64,
     /// Axial friction on the pipe by the guide, on the guide by the wall, and on the string above (N), positive where it
     /// pushes up the hole.
     pub axial_drag: [f64; 3],
-    /// Load on the hook (N).
+    /// Load on the hook (N): string and tool less what stands on the bottom and on the wall.
     pub hook_load: f64,
     /// Depth of cut (m per turn).
     pub depth_of_cut: f64,
-    /// Rate of penetration of the bit (m/s).
+    /// Rate at which the hole deepens (m/s, at least 0): 0 off bottom.
     pub rate_of_penetration: f64,
     /// Power that friction takes between pipe and guide, between guide and wall, and in the joints (W).
     pub friction_power: [f64; 3],
+    /// Speed that the drive is asked for (rad/s).
+    pub asked_speed: f64,
+    /// Speed of the bit (rad/s).
+    pub bit_speed: f64,
+    /// 1 while the torque of the top drive is at its limit, 0 while it is below.
+    pub drive_at_limit: f64,
+    /// Weight that the hoist is asked for (N).
+    pub asked_weight: f64,
+    /// Share of a weight at the kick-off that sliding friction of a clean hole lets arrive at the bit, 0 to 1.
+    pub arrives: f64,
 }
 
-pub(super) const VALUES: usize = 18;
+pub(super) const VALUES: usize = 23;
 
 impl TransferSample {
     pub(super) fn values(&self) -> [f64; VALUES] {
@@ -39,10 +50,40 @@ impl TransferSample {
         let [k, l, m] = self.axial_drag;
         let [n, o, p] = self.friction_power;
         let (hook, cut, rate) = (self.hook_load, self.depth_of_cut, self.rate_of_penetration);
-        [a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate]
+        let (asked, turns, limit) = (self.asked_speed, self.bit_speed, self.drive_at_limit);
+        let (weight, arrives) = (self.asked_weight, self.arrives);
+        [
+            a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate, asked, turns, limit, weight, arrives,
+        ]
     }
 
-    pub(super) fn of([a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate]: [f64; VALUES]) -> Self {
+    pub(super) fn of(
+        [
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            h,
+            i,
+            k,
+            l,
+            m,
+            n,
+            o,
+            p,
+            hook,
+            cut,
+            rate,
+            asked,
+            turns,
+            limit,
+            weight,
+            arrives,
+        ]: [f64; VALUES],
+    ) -> Self {
         Self {
             torque: [a, b, c],
             weight: [d, e, f],
@@ -54,6 +95,11 @@ impl TransferSample {
             depth_of_cut: cut,
             rate_of_penetration: rate,
             friction_power: [n, o, p],
+            asked_speed: asked,
+            bit_speed: turns,
+            drive_at_limit: limit,
+            asked_weight: weight,
+            arrives,
         }
     }
 }
@@ -204,18 +250,20 @@ pub(super) fn terms(audit: &EnergyAudit) -> [f64; TERMS] {
 pub struct Transfer {
     /// Time that the window holds (s): up to the window of the settings.
     pub duration: f64,
-    /// Torque (N m), positive where it drives.
+    /// Torque (N m), negative in reverse, as in [`TransferSample::torque`].
     pub torque: Along,
     /// Weight (N), compressing.
     pub weight: Along,
     /// Means of all readings.
     pub mean: TransferSample,
     /// Torque of the rotation (N m) that friction takes between pipe and guide, between guide and wall, in the joints and
-    /// along the string above. For the tool the mean power over the mean speed of the tool's top, which counts the whole
-    /// motion of a whirling pipe; NaN while the tool stands.
+    /// along the string above. A loss opposes the rotation: it is positive while the tool turns forward and negative in
+    /// reverse, so that surface torque less losses is the bit's in both senses. For the tool the mean power over the mean
+    /// speed of the tool's top, which counts the whole motion of a whirling pipe. NaN while the tool does not turn: a
+    /// power over a speed near zero says nothing of a torque.
     pub friction_torque: [f64; 4],
     /// Mean torque at the bit over that at the surface, without a string over that at the kick-off; NaN where that is
-    /// near zero.
+    /// near zero, and while the tool does not turn: a bit that holds a wound string takes more than the drive gives.
     pub torque_efficiency: f64,
     /// Mean powers by the terms of the audit (W).
     pub power: Powers,
@@ -226,8 +274,11 @@ pub struct Transfer {
 pub struct TransferLevel {
     /// Level.
     pub severity: Severity,
-    /// Lost share, 0 to 1: the largest since the level was reached, the newest while the level is OK.
-    pub lost: f64,
+    /// Lost share (0 to 1) or time of the stall (s): the largest since the level was reached, the newest while the level
+    /// is OK.
+    pub value: f64,
+    /// Threshold of the level, of WATCH while the level is OK, in the same unit.
+    pub threshold: f64,
     /// Model time of it (s).
     pub seen: f64,
     /// Model time at which the level was reached (s).

@@ -15,7 +15,7 @@ struct Fed {
 impl Fed {
     fn new() -> Self {
         Self {
-            watch: TransferWatch::new(&TransferSettings::default()),
+            watch: TransferWatch::new(&TransferSettings::default(), 2.0),
             audit: EnergyAudit::default(),
             time: 0.0,
         }
@@ -41,8 +41,211 @@ fn sample(weight: [f64; 2], torque: [f64; 2]) -> TransferSample {
     TransferSample {
         weight: [weight[0], weight[0], weight[1]],
         torque: [torque[0], torque[0], torque[1]],
+        speed: 4.0,
+        asked_speed: 4.0,
+        bit_speed: 4.0,
+        drive_at_limit: 0.0,
         ..TransferSample::default()
     }
+}
+
+/// The same while the tool's top turns at a speed (rad/s) with 4 rad/s asked for, and friction takes 20 W.
+fn turning(speed: f64) -> TransferSample {
+    TransferSample {
+        speed,
+        bit_speed: speed,
+        feed_power: 0.0,
+        friction_power: [12.0, 6.0, 2.0],
+        ..sample([10e3, 8e3], [100.0, 80.0])
+    }
+}
+
+/// A loss is a power over a speed. A tool that is held, that stands, or that swings to and fro has a power and no rotation
+/// that would take it: 2 W over 0.03 rad/s would be 80 N m.
+#[test]
+fn without_rotation_no_loss_of_torque_exists() {
+    for (name, speed, exists) in [
+        ("turning", (|_| 4.0) as fn(f64) -> f64, true),
+        ("a tenth of the speed asked for", |_| 0.41, true),
+        ("below it", |_| 0.39, false),
+        ("stuck", |_| 0.03, false),
+        // 3 rad/s of swing about 0.2: below a tenth of its own root mean square, and of what is asked for.
+        ("swinging", |time| 0.2 + 3.0 * (6.0 * time).sin(), false),
+        ("stick-slip", |time| 4.0 + 4.0 * (6.0 * time).sin(), true),
+        ("reverse", |_| -4.0, true),
+    ] {
+        let mut fed = Fed::new();
+        fed.run(5.0, true, |time| turning(speed(time)));
+        let found = fed.watch.summary();
+        let losses = &found.friction_torque[..3];
+        assert!(
+            losses.iter().all(|loss| loss.is_finite() == exists),
+            "{name}: {losses:?}"
+        );
+        assert_eq!(found.torque_efficiency.is_finite(), exists, "{name}");
+        // The power itself exists in every state.
+        assert!((found.mean.friction_power[0] - 12.0).abs() < 1e-9, "{name}");
+    }
+    // A drive that stands has no rotation, whatever is asked for.
+    let mut fed = Fed::new();
+    fed.run(5.0, false, |time| TransferSample {
+        asked_speed: 0.0,
+        ..turning(0.5 * (6.0 * time).sin())
+    });
+    assert!(fed.watch.summary().friction_torque[0].is_nan());
+}
+
+/// A loss opposes the rotation: in reverse every torque changes its sign and no power does, so that what arrives and what is
+/// lost are what is put in, in both senses.
+#[test]
+fn in_reverse_every_torque_changes_its_sign_and_no_power_does() {
+    let found = [1.0, -1.0].map(|sense| {
+        let mut fed = Fed::new();
+        fed.run(5.0, true, |_| TransferSample {
+            torque: [sense * 100.0, sense * 95.0, sense * 90.0],
+            string_torque: sense * 5.0,
+            asked_speed: sense * 4.0,
+            ..turning(sense * 4.0)
+        });
+        *fed.watch.summary()
+    });
+    for (sense, found) in [1.0, -1.0].into_iter().zip(found) {
+        let [surface, kick_off, bit] = found.torque.mean;
+        let [inner, outer, joints, string] = found.friction_torque;
+        // 20 W over 4 rad/s are 5 N m. Rounding of the sums alone.
+        assert!((kick_off - bit - (inner + outer + joints)).abs() < 1e-9, "{found:?}");
+        assert!((surface - kick_off - string).abs() < 1e-9, "{found:?}");
+        assert!(sense * inner > 0.0 && sense * joints > 0.0, "{found:?}");
+        assert!((found.torque_efficiency - 0.9).abs() < 1e-9, "{found:?}");
+        assert!(found.mean.friction_power.iter().all(|power| *power > 0.0), "{found:?}");
+    }
+}
+
+/// 11 kN asked for and 4.5 on the bottom, with weights that never are steady: sliding friction of 0.2 round a right angle
+/// leaves 73 %, so that 59 % are lost where 27 are expected. It is called once the hoist has had its time; where friction
+/// explains what is lost, where the bit is not down yet and where no weight is asked for, it is not.
+#[test]
+fn weight_that_is_not_on_the_bottom_is_called_beyond_what_friction_takes() {
+    let at = |asked: f64, surface: f64, bit: f64, arrives: f64, drag: f64| {
+        move |time: f64| TransferSample {
+            asked_weight: asked,
+            arrives,
+            axial_drag: [0.0, 0.0, drag],
+            // Swings by half of the mean and more, as with a bit that whips.
+            ..sample([surface * (1.0 + 0.6 * (9.0 * time).sin()), bit], [150.0, 40.0])
+        }
+    };
+    let arrives = (-0.2 * std::f64::consts::FRAC_PI_2).exp();
+    let level = |seconds: f64, sample: &dyn Fn(f64) -> TransferSample| {
+        let mut fed = Fed::new();
+        fed.run(seconds, true, sample);
+        fed.watch.weight(fed.time)
+    };
+    let short = at(11e3, 11e3, 4.5e3, arrives, 0.0);
+    // A window, then two windows and five response times of 2 s.
+    assert_eq!(level(24.0, &short).severity, Severity::Ok);
+    let found = level(27.0, &short);
+    assert_eq!(found.severity, Severity::Warning);
+    assert!((found.value - (1.0 - 4.5 / 11.0)).abs() < 1e-9);
+    assert!(
+        (found.threshold - (1.0 - 0.6 * arrives)).abs() < 1e-9,
+        "{}",
+        found.threshold
+    );
+    // Nothing on the bottom is worse.
+    assert_eq!(
+        level(27.0, &at(11e3, 11e3, 1e3, arrives, 0.0)).severity,
+        Severity::Critical
+    );
+    for (name, sample) in [
+        ("the friction that is expected", at(11e3, 11e3, 8.0e3, arrives, 0.0)),
+        (
+            "a string whose friction takes 4 kN",
+            at(11e3, 11e3, 4.5e3, arrives, 4e3),
+        ),
+        ("a hole with a friction of 0.6", at(11e3, 11e3, 4.3e3, 0.39, 0.0)),
+        ("off bottom", at(11e3, 0.0, 0.0, arrives, 0.0)),
+        ("a light weight", at(2.5e3, 2.5e3, 0.5e3, arrives, 0.0)),
+        ("no hoist", at(f64::NAN, f64::NAN, 4.5e3, arrives, f64::NAN)),
+    ] {
+        assert_eq!(level(60.0, &sample).severity, Severity::Ok, "{name}");
+    }
+    // A driller who asks for more and more gets no alarm on the way.
+    let rising = |time: f64| at(2e3 + 500.0 * time, 2e3 + 500.0 * time, 1e3, arrives, 0.0)(time);
+    assert_eq!(level(40.0, &rising).severity, Severity::Ok);
+}
+
+/// The drive at its limit above a bit that does not turn is a stall by the time that it lasts; a bit that turns, a drive
+/// below its limit, and a tool without a string are none.
+#[test]
+fn a_stall_is_called_by_its_time() {
+    let stuck = TransferSample {
+        bit_speed: 0.1,
+        drive_at_limit: 1.0,
+        ..turning(0.1)
+    };
+    let mut fed = Fed::new();
+    let mut levels = Vec::new();
+    for _ in 0..12 {
+        fed.run(1.0, true, |_| stuck);
+        levels.push(fed.watch.stall(fed.time).severity);
+    }
+    let expected = |level: Severity| levels.iter().filter(|found| **found >= level).count();
+    // From the blocks that end at 2, 5 and 10 s on: in the second that ends there, or by rounding of a block in the next.
+    assert_eq!(
+        [Severity::Watch, Severity::Warning, Severity::Critical]
+            .map(expected)
+            .map(|count| count.clamp(2, 11)),
+        [11, 8, 3],
+        "{levels:?}"
+    );
+    assert!((fed.watch.stall(fed.time).value - 12.0).abs() < 0.11);
+    // The bit is free: after the hold-off the level ends.
+    fed.run(6.0, true, |_| turning(4.0));
+    assert_eq!(fed.watch.stall(fed.time).severity, Severity::Ok);
+    for (name, sample, judged) in [
+        (
+            "a bit that turns",
+            TransferSample {
+                bit_speed: 4.0,
+                ..stuck
+            },
+            true,
+        ),
+        (
+            "below the limit",
+            TransferSample {
+                drive_at_limit: 0.0,
+                ..stuck
+            },
+            true,
+        ),
+        (
+            "no string",
+            TransferSample {
+                drive_at_limit: f64::NAN,
+                ..stuck
+            },
+            true,
+        ),
+        (
+            "no rotation asked for",
+            TransferSample {
+                asked_speed: 0.0,
+                ..stuck
+            },
+            true,
+        ),
+        ("running up", stuck, false),
+    ] {
+        let mut fed = Fed::new();
+        fed.run(20.0, judged, |_| sample);
+        assert_eq!(fed.watch.stall(fed.time).severity, Severity::Ok, "{name}");
+    }
+    // A bit that sticks for 1.5 s and slips for half a second at a drive near its limit is stick-slip.
+    let mut fed = Fed::new();
+    fed.run(20.0, true, |time| if time % 2.0 < 1.5 { stuck } else { turning(16.0) });
+    assert_eq!(fed.watch.stall(fed.time).severity, Severity::Ok);
 }
 
 /// Weight (N) at a time (s).
@@ -98,7 +301,7 @@ fn only_steady_drilling_is_judged() {
     fed.run(6.0, true, |_| sample([10e3, 1e3], [150.0, 10.0]));
     // Without weight at the bit the missing torque is no condition of its own.
     assert_eq!(fed.levels(), [Severity::Warning, Severity::Ok]);
-    assert!((fed.watch.weight(fed.time).lost - 0.9).abs() < 1e-9);
+    assert!((fed.watch.weight(fed.time).value - 0.9).abs() < 1e-9);
     fed.run(15.0, true, |_| sample([10e3, 6.6e3], [900.0, 60.0]));
     assert_eq!(fed.levels(), [Severity::Ok, Severity::Warning]);
 

@@ -2,9 +2,7 @@
 
 use super::Observer;
 use crate::model::Model;
-use crate::motion::{
-    AlarmThresholds, Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel, ended,
-};
+use crate::motion::{Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel, ended};
 use crate::tool::Body;
 
 impl Observer {
@@ -19,10 +17,10 @@ impl Observer {
             })
         };
         let (shock, chaotic) = (self.shock.level(), self.chaotic_whirl.level());
-        let transfer = |kind: HazardKind, level: TransferLevel, thresholds: &AlarmThresholds| Hazard {
+        let transfer = |kind: HazardKind, level: TransferLevel| Hazard {
             severity: level.severity,
-            value: level.lost,
-            threshold: thresholds.of(level.severity),
+            value: level.value,
+            threshold: level.threshold,
             since: level.since,
             seen: level.seen,
             ended: level.ended,
@@ -101,8 +99,9 @@ impl Observer {
                 ended: chaotic.ended,
                 ..Hazard::calm(kind)
             },
-            HazardKind::WeightTransfer => transfer(kind, self.transfer.weight(time), &self.transfer.settings().weight),
-            HazardKind::TorqueTransfer => transfer(kind, self.transfer.torque(time), &self.transfer.settings().torque),
+            HazardKind::WeightTransfer => transfer(kind, self.transfer.weight(time)),
+            HazardKind::TorqueTransfer => transfer(kind, self.transfer.torque(time)),
+            HazardKind::BitStuck => transfer(kind, self.transfer.stall(time)),
             HazardKind::GuidePreload => load(kind, &self.guide_preload, Body::Guide),
             HazardKind::PressureFolding => load(kind, &self.pressure_folding, Body::Pipe),
         });

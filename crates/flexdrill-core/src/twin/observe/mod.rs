@@ -12,11 +12,12 @@ use crate::dynamics::stepper::Stepper;
 use crate::elements::string::StringLine;
 use crate::model::Model;
 use crate::motion::{
-    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, JointLoadWatch, LoadWatch, RootMeanSquare, ShockWatch,
+    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, JointLoadWatch, LoadWatch, Means, RootMeanSquare, ShockWatch,
     StationSample, StickSlip, StickSlipSettings, TransferWatch, WatchedStation, WhirlAnalysis, WhirlSettings,
 };
 use crate::tool::Body;
 use crate::twin::quality::{ModelQuality, QualityWatch};
+use crate::twin::schedule::EndsInterval;
 use crate::twin::settings::SimulationSettings;
 
 /// Statistics between outputs, and the analysis.
@@ -32,8 +33,10 @@ pub(super) struct Observer {
     joint_load: JointLoadWatch,
     chaotic_whirl: ChaoticWhirlWatch,
     transfer: TransferWatch,
-    /// Depth of the bit after the last step (m), with a hoist.
-    bit_depth: Option<f64>,
+    /// Depth of the hole (m), with a hoist: the deepest that the bit has come.
+    hole_depth: Option<f64>,
+    /// Of the bit's torque (N m), speed (rad/s) and weight (N).
+    bit: Means,
     /// Of a preloaded guide with a rating.
     guide_preload: Option<LoadWatch>,
     /// Of a pipe under pressure with a rating.
@@ -81,8 +84,9 @@ impl Observer {
                 model.stations[model.last()].depth,
                 stations,
             ),
-            transfer: TransferWatch::new(&settings.transfer),
-            bit_depth: stepper.bit_depth(),
+            transfer: TransferWatch::new(&settings.transfer, hoist_response(stepper)),
+            hole_depth: stepper.bit_depth(),
+            bit: Means::default(),
             guide_preload: (settings.guide_preload.filter(|_| !model.preload.is_empty()))
                 .map(|load| LoadWatch::new(&load, model.guide.len())),
             pressure_folding: (settings.pressure_folding.filter(|_| model.pressure.is_some()))
@@ -142,13 +146,13 @@ impl Observer {
 
     /// Begins anew with the tool at its start.
     pub(super) fn reset(&mut self, stepper: &Stepper) {
-        self.end_interval();
+        self.end_interval(EndsInterval::ALL);
         self.stick_slip.reset();
         self.shock.reset();
         self.joint_load.reset();
         self.chaotic_whirl.reset();
         self.transfer.reset();
-        self.bit_depth = stepper.bit_depth();
+        self.hole_depth = stepper.bit_depth();
         let loads = [&mut self.guide_preload, &mut self.pressure_folding];
         loads.into_iter().flatten().for_each(LoadWatch::reset);
         self.ageing.reset();
@@ -165,14 +169,25 @@ impl Observer {
         self.transfer.refresh();
     }
 
-    pub(super) fn end_interval(&mut self) {
-        self.inner.restart();
-        self.outer.restart();
-        self.tangential.restart();
-        self.axial.restart();
-        self.lateral.restart();
-        self.shock.restart();
+    pub(super) fn end_interval(&mut self, of: EndsInterval) {
+        if of.contacts {
+            self.inner.restart();
+            self.outer.restart();
+            self.shock.restart();
+        }
+        if of.bit {
+            self.bit.restart();
+            self.tangential.restart();
+            self.axial.restart();
+            self.lateral.restart();
+        }
     }
+}
+
+/// Response time (s) of the hoist; 0 without one.
+fn hoist_response(stepper: &Stepper) -> f64 {
+    let hoist = stepper.string().and_then(|string| string.description().hoist);
+    hoist.map_or(0.0, |hoist| hoist.response_time)
 }
 
 /// The settings with a window that holds two periods of the torsional swing of the string above, 4 L / c each: the window of

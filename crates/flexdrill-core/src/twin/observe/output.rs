@@ -90,10 +90,19 @@ impl Observer {
             out.shape.guide[s] = [guide.y, guide.z];
         }
         let bottom = &model.stations[model.last()];
+        let [torque, rotary_speed, weight_on_bit] = [
+            forces.bit.torque,
+            state.v[bottom.pipe_above + Direction::Psi as usize],
+            forces.bit.weight,
+        ];
+        let means = self.bit.value().unwrap_or([torque, rotary_speed, weight_on_bit]);
         out.bit = Bit {
-            torque: forces.bit.torque,
-            rotary_speed: state.v[bottom.pipe_above + Direction::Psi as usize],
-            weight_on_bit: forces.bit.weight,
+            torque,
+            rotary_speed,
+            weight_on_bit,
+            mean_torque: means[0],
+            mean_rotary_speed: means[1],
+            mean_weight_on_bit: means[2],
             stick_slip_index: self.stick_slip.index(),
             tangential_acceleration: self.tangential.value(),
             axial_acceleration: self.axial.value(),

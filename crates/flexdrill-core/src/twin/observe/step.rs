@@ -49,17 +49,13 @@ impl Observer {
         let (taken, share) = (stepper.audit().contact_damping, self.whirl.chaotic_share());
         self.chaotic_whirl.advance(time, dt, taken, share, judged);
 
-        let mut sample = transfer_sample(stepper, &rubbing);
-        // The rate over the step, not the speed at its end: a bit that chatters on the rock has a mean speed of its path.
-        let depth = stepper.bit_depth();
-        let before = std::mem::replace(&mut self.bit_depth, depth);
-        sample.rate_of_penetration = match (before, depth) {
-            (Some(before), Some(depth)) => (depth - before) / dt,
-            _ => applied.rate_of_penetration,
-        };
+        let mut sample = transfer_sample(stepper, applied, &rubbing);
+        sample.rate_of_penetration = self.hole_deepens(stepper.bit_depth(), applied, dt);
         self.transfer.push(time, dt, &sample, stepper.audit(), judged);
 
         let bottom = stepper.bottom_motion();
+        let bit = &stepper.interactions().bit;
+        self.bit.push(dt, [bit.torque, bottom.spin_rate, bit.weight]);
         let radius = 0.5 * model.description.bit.diameter;
         self.tangential.push(dt, radius * bottom.spin_acceleration);
         self.axial.push(dt, bottom.axial_acceleration);
@@ -105,6 +101,24 @@ impl Observer {
     }
 }
 
+impl Observer {
+    /// Rate (m/s, at least 0) at which the hole deepens in a step of `dt` (s) that ends with the bit at `depth` (m, with a
+    /// hoist). The bottom is as deep as the bit has come: a bit that is lifted makes no hole, nor does one that is lowered
+    /// again until it is where it was, and one that chatters on the rock makes it in the parts of its path that lead
+    /// deeper. Without a hoist the rate is given, and a bit without weight makes none.
+    fn hole_deepens(&mut self, depth: Option<f64>, applied: &Applied, dt: f64) -> f64 {
+        match (self.hole_depth, depth) {
+            (Some(before), Some(depth)) => {
+                let deepest = before.max(depth);
+                self.hole_depth = Some(deepest);
+                (deepest - before) / dt
+            }
+            _ if applied.weight_on_bit > 0.0 => applied.rate_of_penetration.max(0.0),
+            _ => 0.0,
+        }
+    }
+}
+
 /// Sums of a layer's friction: drag (N) up the hole on the inner body, power (W).
 #[derive(Debug, Clone, Copy, Default)]
 struct Rubbing {
@@ -113,7 +127,7 @@ struct Rubbing {
 }
 
 /// What the step that was taken last says about transfer.
-fn transfer_sample(stepper: &Stepper, [inner, outer]: &[Rubbing; 2]) -> TransferSample {
+fn transfer_sample(stepper: &Stepper, applied: &Applied, [inner, outer]: &[Rubbing; 2]) -> TransferSample {
     let (string, bit) = (stepper.string(), &stepper.interactions().bit);
     let hoist = string.and_then(|string| string.hoist());
     let of_string = string.map_or([f64::NAN; 2], |string| string.drag());
@@ -132,10 +146,15 @@ fn transfer_sample(stepper: &Stepper, [inner, outer]: &[Rubbing; 2]) -> Transfer
         feed_power: outer.drag * stepper.advance_of_frame(),
         string_torque: of_string[0],
         axial_drag: [inner.drag, outer.drag, hoist.map_or(f64::NAN, |_| of_string[1])],
-        hook_load: string.map_or(f64::NAN, |string| string.hook_load()),
+        hook_load: stepper.hook_load().unwrap_or(f64::NAN),
         depth_of_cut: if bit.holds() { bit.depth_of_cut } else { f64::NAN },
         rate_of_penetration: f64::NAN,
         friction_power: [inner.power, outer.power, stepper.joint_friction().iter().sum()],
+        asked_speed: applied.rotary_speed,
+        bit_speed: stepper.bottom_motion().spin_rate,
+        drive_at_limit: string.map_or(f64::NAN, |string| f64::from(u8::from(string.is_drive_at_limit()))),
+        asked_weight: stepper.weight_of_hoist(applied.weight_set).unwrap_or(f64::NAN),
+        arrives: stepper.arrives_round_the_arc(),
     }
 }
 

@@ -109,7 +109,7 @@ export function powers(t: Transfer): { putIn: Row[]; taken: Row[] } {
   return { putIn: rows(PUT_IN), taken: rows(TAKEN) };
 }
 
-/** Hook load, rate of penetration and depth of cut. */
+/** Hook load, rate of penetration, depth of cut, and whether the top drive is at its limit. */
 export function facts(t: Transfer, system: System): Row[] {
   const row = (label: string, value: number, kind: Kind, per = ""): Row => ({
     label,
@@ -124,6 +124,8 @@ export function facts(t: Transfer, system: System): Row[] {
       "advance",
     ),
     row("Depth of cut", t.depth_of_cut, "cut", " per turn"),
+    // A drive that is never at its limit has nothing to show.
+    { label: "Top drive at its limit", values: [t.drive_at_limit > 0 ? `${percent(t.drive_at_limit)} of the time` : ""] },
   ]);
 }
 
