@@ -42,7 +42,7 @@ section! {
         sections: Vec<Section> = Vec::new();
         /// Material. The defaults are those of steel.
         material: Material = Material::default(), below;
-        /// Attenuation of waves by the mud's drag: after 1 km the part e^-x is left. The drag also acts on steady rotation.
+        /// Attenuation of torsional and axial waves: after 1 km the part e^-x is left. Steady rotation and advance lose nothing.
         attenuation_per_km: f64 = 0.0, within(0.0, 10.0), "", "10 leaves nothing of a wave after a kilometre";
         /// Friction of the string on the wall, where it is inclined.
         friction: Friction = Friction::default(), below;

@@ -77,16 +77,12 @@ pub(super) fn depth_of_cut() -> Result<Vec<Row>, VerifyError> {
     })?;
     let asked = 1e3 * bench.config.inputs.weight_on_bit.initial_kn;
     let radius = 0.5 * tool.bit.diameter;
-    // The mud's drag on the string that advances takes its part of the weight.
-    let drag = (tool.string.as_ref()).map_or(0.0, |string| string.pieces.iter().map(|piece| piece.axial.drag).sum());
-    let turns = bench.config.inputs.rotary_speed.initial_rpm / 60.0;
     let cutting = cut.cutter_inclination * cut.specific_energy * radius;
-    let depth = (asked - cut.wear_flat_force) / (cutting + drag * turns);
-    let held = asked - drag * turns * depth;
+    let depth = (asked - cut.wear_flat_force) / cutting;
     let expected = 0.5 * cut.specific_energy * radius * radius * depth
         + 0.5 * cut.wear_flat_friction * radius * cut.wear_flat_force;
     Ok(vec![
-        Row::relative(case, "weight on the bit (N)", held, weight, STEADY),
+        Row::relative(case, "weight on the bit (N)", asked, weight, STEADY),
         Row::relative(case, "torque on the bit (N m)", expected, torque, VIBRATING),
     ])
 }

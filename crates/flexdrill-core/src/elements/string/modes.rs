@@ -8,13 +8,14 @@
 //! drive:  s T + (J s^2 + P s + I) w = 0                 or w = 0 for a rigid one
 //! ```
 //!
-//! A drag b at a piece's lower end adds b w to T there. The left side has no poles, so that the change of its phase around a rectangle counts the
+//! A loss b at a piece's lower end adds b w t s / (1 + t s) to T there. Above its pole at - 1 / t, which is real, the left side
+//! has none, so that the change of its phase around a rectangle counts the
 //! roots in it. Rectangles are halved until each holds one root, which Newton's method then finds. Friction, rock and the
 //! damping of the tool's own material are left out: these are the modes of a bit off bottom.
 
 use nalgebra::Complex;
 
-use super::line::{StringDescription, Wave};
+use super::line::{FOLLOWS_WITHIN, StringDescription, Wave};
 use super::top_drive::TopDrive;
 
 type C = Complex<f64>;
@@ -67,8 +68,8 @@ impl Condition<'_> {
         let string = self.string.pieces.iter().map(|piece| piece.torsion);
         let waves = string.chain(self.tool.pieces.iter().copied());
         for wave in waves.rev() {
-            // The mud's drag at the piece's lower end.
-            torque += speed * wave.drag;
+            // The loss at the piece's lower end, on a body that follows.
+            torque += speed * s * (wave.drag * FOLLOWS_WITHIN) / (s * FOLLOWS_WITHIN + 1.0);
             let grows = exp(s * wave.delay);
             let (up, down) = (grows, C::new(1.0, 0.0) / grows);
             let (even, odd) = ((up + down) * 0.5, (up - down) * 0.5);
