@@ -25,7 +25,7 @@ use crate::elements::joint::Joint;
 use crate::model::Model;
 use crate::tool::description::LiveParameters;
 use crate::tool::{
-    AddedMass, Body, DepthOfCut, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
+    AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
     MudDescription, MudFilm, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw,
     Shortening, Support, ToolDescription, WallFrictionFactors, Weakening, WellSection, WobPath,
 };
@@ -160,21 +160,8 @@ fn before(chain: &Chain, state: &State, seed: u64) -> State {
     before
 }
 
-const WEAKENS: Weakening = Weakening { ratio: 1.8, rate: 4.0 };
-
-/// The laws under which a bit sticks.
-const ROCKS: [RockLaw; 2] = [
-    RockLaw::Weakening(WEAKENS),
-    RockLaw::DepthOfCut(DepthOfCut {
-        blades: 3,
-        specific_energy: 30e6,
-        cutter_inclination: 0.6,
-        wear_flat_force: 8e3,
-        wear_flat_friction: 0.1,
-        wear_flat_travel: 1e-4,
-        weakening: WEAKENS,
-    }),
-];
+/// A law under which a bit sticks. The law with depth of cut needs a hoist; `elements/rock/tests.rs` has its derivatives.
+const ROCKS: [RockLaw; 1] = [RockLaw::Weakening(Weakening { ratio: 1.8, rate: 4.0 })];
 
 /// Angle of the bit (rad) that a step has `turned` (rad), and a bottom 0.3 mm above the bit (m): it cuts, and its wear flats
 /// bear fully.
