@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use flexdrill_config::Config;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{Alarm, SafeWindow as Message};
-use flexdrill_sweep::map::{Axis, Cell, Map, MapError, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::map::{Axis, Cell, Map, MapError, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
 
 /// Why a map is not loaded.
 #[derive(Debug, thiserror::Error)]
@@ -60,6 +60,8 @@ pub enum Location<'a> {
     Expected(Expectation<'a>),
     /// In a cell of which a run failed.
     Unknown,
+    /// In a cell that was not run, and of which the runs around it do not say what it is.
+    NotKnown,
     /// Off the map: which axis is left, and where it ends.
     Beyond {
         /// `rotary speed` or `weight on bit`.
@@ -76,9 +78,9 @@ pub enum Location<'a> {
 /// The alarm that a cell has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expectation<'a> {
-    /// Its id; empty where it is inferred only.
+    /// Id of the likeliest one; empty where it is inferred only.
     pub alarm: &'a str,
-    /// Its largest chance over the starts; none where inferred.
+    /// Largest chance of any alarm over the starts; none where inferred.
     pub chance: Option<f64>,
     /// Whether it comes from some starts only.
     pub depends: bool,
@@ -156,18 +158,19 @@ impl SafeWindow {
             return beyond("rotary speed", speeds, rpm, "r/min");
         }
         let Some(cell) = self.cell(nearest(speeds, rpm), nearest(weights, kn)) else {
-            return Location::Unknown;
+            return Location::NotKnown;
         };
         match cell.verdict {
             Verdict::Clear => Location::Inside,
             Verdict::Unknown => Location::Unknown,
+            Verdict::NotKnown => Location::NotKnown,
             Verdict::Alarm => Location::Expected(expectation(cell, false)),
             Verdict::DependsOnStart => Location::Expected(expectation(cell, true)),
         }
     }
 
     /// The cell nearest to a speed (r/min) and a weight (kN) in which no alarm must be expected, measured in the map's
-    /// ranges.
+    /// ranges. Such a cell was run, or is inferred with 95 %.
     pub fn nearest_inside(&self, rpm: f64, kn: f64) -> Option<[f64; 2]> {
         let (speeds, weights) = (&self.speeds().values, &self.weights().values);
         let ranges = [ends(speeds), ends(weights)].map(|[low, high]| high - low);
@@ -185,6 +188,7 @@ impl SafeWindow {
     pub fn message(&self, header: Header) -> Message {
         use flexdrill_alarms::Priority;
         let map = &self.map;
+        let [least_members, most_members] = map.members_ended().unwrap_or_default();
         let mut message = Message {
             header,
             title: map.title.clone(),
@@ -192,6 +196,8 @@ impl SafeWindow {
             motion: map.motion.clone(),
             horizon: map.horizon,
             members: map.members,
+            least_members,
+            most_members,
             limit: map.limit,
             priority: match map.priority {
                 Priority::Low => Alarm::LOW,
@@ -211,10 +217,11 @@ impl SafeWindow {
                     Verdict::Alarm => Message::ALARM,
                     Verdict::DependsOnStart => Message::DEPENDS_ON_START,
                     Verdict::Unknown => Message::UNKNOWN,
+                    Verdict::NotKnown => Message::NOT_KNOWN,
                 });
                 message.chance.push(chance.unwrap_or(f64::NAN));
                 message.alarm.push(alarm.to_owned());
-                let was_run = cell.starts.iter().any(|start| start.state != State::Inferred);
+                let was_run = cell.starts.iter().any(|start| start.state.was_run());
                 message.was_run.push(was_run);
             }
         }
@@ -222,7 +229,7 @@ impl SafeWindow {
     }
 }
 
-/// The alarm of a cell that is most likely, over its starts.
+/// The largest chance of any alarm over a cell's starts, with the likeliest alarm of that start.
 fn expectation(cell: &Cell, depends: bool) -> Expectation<'_> {
     let known = cell
         .starts
@@ -267,7 +274,7 @@ fn beyond(axis: &'static str, values: &[f64], value: f64, unit: &'static str) ->
 mod tests {
     use super::*;
     use flexdrill_alarms::Priority;
-    use flexdrill_sweep::map::{FORMAT, OfStart, Start};
+    use flexdrill_sweep::map::{FORMAT, OfStart, Start, State};
 
     fn config() -> Config {
         Config::from_text("coarse.yaml", include_str!("../config/coarse.yaml")).unwrap()
@@ -296,14 +303,20 @@ mod tests {
     }
 
     /// Speeds of 40, 60 and 80 r/min, weights of 5 and 10 kN: whirl at 80 r/min, from one start at 60 r/min and 10 kN, and a
-    /// failed run at 40 r/min and 10 kN. `turned` has the weight as the first axis.
+    /// failed run at 40 r/min and 10 kN; at 40 r/min and 5 kN a start is inferred. `turned` has the weight as the first axis.
     fn map(config: &Config, turned: bool) -> Map {
         let (speeds, weights) = (
             axis(ROTARY_SPEED, &[40.0, 60.0, 80.0]),
             axis(WEIGHT_ON_BIT, &[5.0, 10.0]),
         );
         let of = |rpm: f64, kn: f64| match (rpm, kn) {
-            (80.0, _) => [known(0.8, "backward_whirl"), known(0.5, "backward_whirl")],
+            (80.0, _) => [
+                known(0.8, "backward_whirl"),
+                OfStart {
+                    members: 6,
+                    ..known(0.5, "backward_whirl")
+                },
+            ],
             (60.0, 10.0) => [known(0.0, ""), known(0.6, "chaotic_whirl")],
             (40.0, 10.0) => [
                 known(0.0, ""),
@@ -314,7 +327,8 @@ mod tests {
                     ..OfStart::inferred(false, 0.5)
                 },
             ],
-            _ => [known(0.0, ""), OfStart::inferred(false, 0.9)],
+            (40.0, _) => [known(0.0, ""), OfStart::inferred(false, 0.96)],
+            _ => [known(0.0, ""), known(0.0, "")],
         };
         let (x, y) = if turned { (weights, speeds) } else { (speeds, weights) };
         let mut cells = Vec::new();
@@ -339,7 +353,8 @@ mod tests {
             x,
             y,
             horizon: 30.0,
-            members: 10,
+            members: 20,
+            run_all: false,
             seed: 1,
             priority: Priority::Medium,
             limit: 0.1,
@@ -380,7 +395,27 @@ mod tests {
             assert_eq!(message.chance[2], 0.8);
             assert_eq!(message.alarm[4], "chaotic_whirl");
             assert_eq!(message.was_run, [true; 6]);
+            let ended = [message.members, message.least_members, message.most_members];
+            assert_eq!(ended, [20, 6, 10]);
         }
+    }
+
+    #[test]
+    fn what_is_not_known_is_outside_and_is_never_advised() {
+        let config = config();
+        let mut map = map(&config, false);
+        // At 60 r/min and 5 kN, the nearest clear point, nothing was run and nothing is known.
+        let cell = &mut map.cells[1];
+        cell.starts[1] = OfStart::not_known(0.9);
+        cell.verdict = Verdict::of(&cell.starts);
+        let window = SafeWindow::new(map, &config, "map.json").unwrap();
+        assert_eq!(window.locate(60.0, 5.0), Location::NotKnown);
+        assert_eq!(window.nearest_inside(85.0, 10.0), Some([40.0, 5.0]));
+        let message = window.message(Header::default());
+        assert_eq!(
+            message.verdict[..3],
+            [Message::CLEAR, Message::NOT_KNOWN, Message::ALARM]
+        );
     }
 
     #[test]

@@ -122,6 +122,8 @@ pub struct CandidateAnswer {
     pub alarms: Vec<AlarmChance>,
     /// Chance that a member saw any alarm of the tool.
     pub any_alarm: Chance,
+    /// Members that saw any alarm of the tool with this priority or a higher one, by [`Priority::ALL`].
+    pub any_by_priority: [u32; 3],
     /// By [`Figure::ALL`].
     pub figures: [Band; Figure::ALL.len()],
     /// Members by the worst quality of their motion: good, degraded, poor.
@@ -400,6 +402,10 @@ fn summed((candidate, gathered): (&Candidate, &Gathered)) -> CandidateAnswer {
         decided: seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
         alarms: alarm_chances(&members),
         any_alarm: any_alarm(&members),
+        any_by_priority: Priority::ALL.map(|least| {
+            let saw = |member: &&&Member| member.alarms.iter().any(|called| called.worst >= Some(least));
+            members.iter().filter(saw).count() as u32
+        }),
         figures: Figure::ALL.map(|figure| Band::of(members.iter().map(|member| member.figures[figure as usize]))),
         quality: [QualityLevel::Good, QualityLevel::Degraded, QualityLevel::Poor].map(of_quality),
     }

@@ -26,21 +26,25 @@ pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot) -> Finding {
         number(rpm, 0).unwrap_or_default(),
         number(kn, 1).unwrap_or_default()
     );
-    let (priority, evidence, consequence) = match location {
+    let (priority, evidence, consequence) = match &location {
         Location::Expected(expected) => {
             let known = AlarmId::ALL.into_iter().find(|id| id.id() == expected.alarm);
             let name = known.map_or("an alarm", AlarmId::name);
             let share = expected.chance.and_then(|chance| number(100.0 * chance, 0));
-            let share = share.map_or(String::new(), |share| format!(" in {share} % of the runs"));
+            // The share is that of any alarm; the name is that of the likeliest.
+            let found = share.map_or_else(
+                || name.to_owned(),
+                |share| format!("alarms in {share} % of the runs, most often {name},"),
+            );
             if expected.depends {
-                let evidence = format!("At {at} the map has {name}{share} from one start, and none from another.");
+                let evidence = format!("At {at} the map has {found} from one start, and none from another.");
                 (
                     Priority::Low,
                     evidence,
                     format!("{} may come and stay.", capitalized(name)),
                 )
             } else {
-                let evidence = format!("At {at} the map has {name}{share}.");
+                let evidence = format!("At {at} the map has {}.", found.trim_end_matches(','));
                 (Priority::Medium, evidence, format!("{} is likely.", capitalized(name)))
             }
         }
@@ -52,8 +56,12 @@ pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot) -> Finding {
             let consequence = "What the tool does here has not been computed.";
             (Priority::Low, evidence, consequence.to_owned())
         }
-        _ => {
-            let evidence = format!("Runs of the map failed at {at}.");
+        Location::NotKnown | Location::Unknown | Location::Inside | Location::OffBottom => {
+            let evidence = if location == Location::NotKnown {
+                format!("The map has no run at {at}, and the runs around it do not say what happens there.")
+            } else {
+                format!("Runs of the map failed at {at}.")
+            };
             let consequence = "What the tool does here is not known.";
             (Priority::Low, evidence, consequence.to_owned())
         }

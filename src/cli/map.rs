@@ -1,6 +1,7 @@
 //! `flexdrill map`: the safe window of speed and weight, or of another pair of keys.
 
-use std::path::PathBuf;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -14,14 +15,15 @@ use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::envelope::Envelope;
-use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, WEIGHT_ON_BIT};
 use flexdrill_sweep::plan::{HORIZONS, MOST_MEMBERS};
 use flexdrill_sweep::spec::evenly;
 
 /// Maps the chance of every alarm over rotary speed and weight on bit, or over another pair of keys.
 ///
 /// Every cell is run from rest and from running; the map says where the two differ. Runs are chosen where they tell most
-/// of the boundary, and the other cells are inferred. A map that was interrupted goes on with the same command.
+/// of the boundary. Other cells are inferred where the runs around them say with 95 % what they are, and are not known
+/// elsewhere. A map that was interrupted goes on with the same command.
 #[derive(Debug, Args)]
 pub struct MapArgs {
     /// The configuration (YAML).
@@ -47,6 +49,9 @@ pub struct MapArgs {
     /// Members per cell and start, at most; a start ends early where they decide every alarm.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_MEMBERS)))]
     members: u32,
+    /// Run all members, also where the first ones decide every alarm (six without any): 20 exclude chances above 16 %.
+    #[arg(long)]
+    run_all: bool,
     /// Model time that each member is judged over (s).
     #[arg(long, default_value_t = 60.0, value_parser = numbers::seconds)]
     horizon: f64,
@@ -117,7 +122,8 @@ fn grid(text: &str) -> Result<[usize; 2], String> {
 ///
 /// # Errors
 /// When the configuration or the axes are refused, the folder has another map, a file cannot be written, or the map was
-/// interrupted. A run that fails is part of the map.
+/// interrupted, or when no member of any run ended: then the map has the causes, and there is no envelope. Otherwise a run
+/// that fails is part of the map.
 pub fn run(args: &MapArgs) -> anyhow::Result<()> {
     let config = Config::load(&args.config)?;
     let config = flexdrill_bench::changed(config, None, &args.set)?;
@@ -138,11 +144,37 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
         say!("{line}");
     }
     say!("{:.0} s; wrote {files}", progress.elapsed());
-    anyhow::ensure!(
-        map.cells.iter().any(|cell| cell.verdict != Verdict::Unknown),
-        "nothing is known: every run failed; map.csv has the causes"
-    );
+    if let Some(why) = nothing(&map) {
+        anyhow::bail!("{why}");
+    }
     Ok(())
+}
+
+/// Why nothing is known, where no member of any run ended.
+fn nothing(map: &Map) -> Option<String> {
+    if map.members_ended().is_some() {
+        return None;
+    }
+    let failed = map.cells.iter().flat_map(|cell| &cell.starts);
+    let mut reasons: Vec<(usize, &str)> = Vec::new();
+    for reason in failed
+        .map(|start| start.failure.as_str())
+        .filter(|reason| !reason.is_empty())
+    {
+        match reasons.iter_mut().find(|(_, known)| *known == reason) {
+            Some((count, _)) => *count += 1,
+            None => reasons.push((1, reason)),
+        }
+    }
+    let most = reasons.iter().rev().max_by_key(|(count, _)| *count);
+    let reason = most.map_or(String::new(), |(count, reason)| {
+        format!(" Reason of {count}: {reason}.")
+    });
+    Some(format!(
+        "all {} runs failed, so that nothing is known of any cell, and there is no envelope.{reason} map.csv has all \
+         reasons. Check the configuration with flexdrill check, or choose another range",
+        map.runs
+    ))
 }
 
 fn question(args: &MapArgs) -> anyhow::Result<Question> {
@@ -166,6 +198,7 @@ fn question(args: &MapArgs) -> anyhow::Result<Question> {
         ],
         horizon: args.horizon,
         members: args.members,
+        run_all: args.run_all,
         seed: args.seed,
         running_rpm: args.running_rpm,
         running_time: flexdrill_sweep::spec::RUNNING_TIME,
@@ -181,18 +214,23 @@ fn question(args: &MapArgs) -> anyhow::Result<Question> {
 
 /// Writes all files, and names them.
 fn write(args: &MapArgs, map: &Map) -> anyhow::Result<String> {
-    let envelope = Envelope::of(map, true);
+    // What is known of no cell bounds nothing. Tables of an earlier map would be taken for those of this one.
+    let envelope = map.members_ended().is_some().then(|| Envelope::of(map, true));
     let svg = flexdrill_plot::svg(&picture::figure(map))?;
     let page = flexdrill_report::map::page(map, &svg);
-    let files = [
+    let mut files = vec![
         ("map.csv", table::csv(map)?),
         ("map.svg", svg.into_bytes()),
         ("map.html", page.into_bytes()),
-        ("envelope_x.csv", table::bounds(map, &envelope, table::Of::X)?),
-        ("envelope_y.csv", table::bounds(map, &envelope, table::Of::Y)?),
-        // Last: who finds it finds the others.
-        ("map.json", map.to_json()?.into_bytes()),
     ];
+    for (name, of) in [("envelope_x.csv", table::Of::X), ("envelope_y.csv", table::Of::Y)] {
+        match &envelope {
+            Some(envelope) => files.push((name, table::bounds(map, envelope, of)?)),
+            None => remove(&args.out.join(name))?,
+        }
+    }
+    // Last: who finds it finds the others.
+    files.push(("map.json", map.to_json()?.into_bytes()));
     let mut names = Vec::new();
     for (name, content) in &files {
         let path = args.out.join(name);
@@ -200,6 +238,16 @@ fn write(args: &MapArgs, map: &Map) -> anyhow::Result<String> {
         names.push(path.display().to_string());
     }
     Ok(names.join(", "))
+}
+
+/// Removes a file that may be there.
+fn remove(path: &Path) -> anyhow::Result<()> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(anyhow::Error::new(error).context(format!("{}: cannot be removed", path.display())))
+        }
+        _ => Ok(()),
+    }
 }
 
 #[cfg(test)]

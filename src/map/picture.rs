@@ -1,15 +1,13 @@
 //! A map drawn: what every cell is, the boundary, how sure it is, and the runs that were made.
 
 use flexdrill_plot::{Figure, Legend, Line, Panel};
-use flexdrill_sweep::map::{Cell, Map, Start, State, Verdict};
+use flexdrill_sweep::map::{Cell, Map, Start, Verdict};
 
 /// Places in the palette, which differ for colour-blind readers and in grey: sky blue, vermilion, orange, dark grey.
 const CLEAR: usize = 5;
 const ALARM: usize = 1;
 const DEPENDS: usize = 4;
 const UNKNOWN: usize = 6;
-/// Confidence below which a cell is drawn pale: what a 95 % interval is.
-const SURE: f64 = 0.95;
 
 /// Above the panels of single starts: all starts together.
 pub fn figure(map: &Map) -> Figure {
@@ -21,12 +19,12 @@ pub fn figure(map: &Map) -> Figure {
         name: "map",
         title: "Safe window".to_owned(),
         caption: format!(
-            "Alarms of at least {} priority over {} and {}, {} s, {} members at most",
+            "Alarms of at least {} priority over {} and {}, {} s. {}",
             map.priority.name(),
             map.x.name,
             map.y.name,
             map.horizon,
-            map.members
+            map.members_in_words()
         ),
         columns: map.starts.len().max(1),
         height: 480,
@@ -61,44 +59,44 @@ fn half(map: &Map) -> [f64; 2] {
     })
 }
 
-/// Cells of one kind: those that are sure, and pale those that are not.
-fn cells(mut panel: Panel, map: &Map, name: &str, color: usize, of: impl Fn(&Cell) -> Option<bool>) -> Panel {
-    let points = |sure: bool| -> Vec<(f64, f64)> {
-        let cells = map.cells.iter().filter(|cell| of(cell) == Some(sure));
+/// The cells by what they are. Those that are not known are pale and crossed out, so that they are told from clear ones in
+/// grey too.
+fn cells(mut panel: Panel, map: &Map, of: impl Fn(&Cell) -> Option<Verdict>) -> Panel {
+    let points = |verdict: Verdict| -> Vec<(f64, f64)> {
+        let cells = map.cells.iter().filter(|cell| of(cell) == Some(verdict));
         cells.map(|cell| (cell.x, cell.y)).collect()
     };
-    let (sure, pale) = (points(true), points(false));
-    let name = if sure.is_empty() && pale.is_empty() { "" } else { name };
-    if sure.is_empty() {
-        return panel.line(Line::new(name, pale).pale_cells(half(map)).color(color));
+    for (verdict, name, color) in [
+        (Verdict::Clear, "clear", CLEAR),
+        (Verdict::Alarm, "alarm", ALARM),
+        (Verdict::DependsOnStart, "depends on the start", DEPENDS),
+        (Verdict::Unknown, "a run failed", UNKNOWN),
+    ] {
+        let points = points(verdict);
+        if !points.is_empty() {
+            panel = panel.line(Line::new(name, points).cells(half(map)).color(color));
+        }
     }
-    panel = panel.line(Line::new(name, sure).cells(half(map)).color(color));
-    if pale.is_empty() {
-        panel
-    } else {
-        panel.line(Line::new("", pale).pale_cells(half(map)).color(color))
+    let points = points(Verdict::NotKnown);
+    if points.is_empty() {
+        return panel;
     }
+    let [across, up] = half(map);
+    for (x, y) in &points {
+        let cross = vec![(x - across, y - up), (x + across, y + up)];
+        panel.lines.push(Line::new("", cross).color(UNKNOWN));
+    }
+    panel.line(Line::new("not known", points).pale_cells(half(map)).color(UNKNOWN))
 }
 
 fn together(map: &Map) -> Panel {
     let title = match map.starts[..] {
         [_] => "Alarms to be expected",
-        _ => "From all starts (pale: not sure at 95 %)",
+        _ => "From all starts",
     };
-    let mut panel = panel(map, title);
-    for (verdict, name, color) in [
-        (Verdict::Clear, "clear", CLEAR),
-        (Verdict::Alarm, "alarm", ALARM),
-        (Verdict::DependsOnStart, "depends on the start", DEPENDS),
-        (Verdict::Unknown, "unknown", UNKNOWN),
-    ] {
-        panel = cells(panel, map, name, color, |cell| {
-            let sure = cell.starts.iter().map(|start| start.confidence).product::<f64>() >= SURE;
-            (cell.verdict == verdict).then_some(sure || verdict == Verdict::Unknown)
-        });
-    }
+    let mut panel = cells(panel(map, title), map, |cell| Some(cell.verdict));
     panel = boundary(panel, map, |cell| cell.verdict == Verdict::Clear);
-    let ran = |cell: &&Cell| cell.starts.iter().all(|start| start.state != State::Inferred);
+    let ran = |cell: &&Cell| cell.starts.iter().all(|start| start.state.was_run());
     runs(panel, map, "run from all", ran)
 }
 
@@ -107,23 +105,10 @@ fn of_start(map: &Map, number: usize, start: Start) -> Panel {
         Start::Rest => "From rest",
         Start::Running => "From running",
     };
-    let mut panel = panel(map, title);
-    for (expected, name, color) in [(false, "clear", CLEAR), (true, "alarm", ALARM)] {
-        panel = cells(panel, map, name, color, |cell| {
-            let of = cell.starts.get(number)?;
-            (of.expected == expected && (expected || !of.is_unknown())).then_some(of.confidence >= SURE)
-        });
-    }
-    panel = cells(panel, map, "unknown", UNKNOWN, |cell| {
-        let of = cell.starts.get(number)?;
-        (of.is_unknown() && !of.expected).then_some(true)
-    });
-    panel = boundary(panel, map, |cell| {
-        cell.starts
-            .get(number)
-            .is_some_and(|of| !of.expected && !of.is_unknown())
-    });
-    let ran = |cell: &&Cell| cell.starts.get(number).is_some_and(|of| of.state != State::Inferred);
+    let verdict = |cell: &Cell| cell.starts.get(number..=number).map(Verdict::of);
+    let mut panel = cells(panel(map, title), map, verdict);
+    panel = boundary(panel, map, |cell| verdict(cell) == Some(Verdict::Clear));
+    let ran = |cell: &&Cell| cell.starts.get(number).is_some_and(|of| of.state.was_run());
     runs(panel, map, "run", ran)
 }
 

@@ -50,7 +50,7 @@ pub fn run(plan: &Plan, base: &Config, point: &Point, stop: &AtomicBool) -> Opti
         candidates: vec![candidate],
         horizon: plan.runs.horizon,
         members: plan.runs.members,
-        run_all: false,
+        run_all: plan.runs.run_all,
         seed: point.seed,
     };
     let answer = look_ahead(&begin, &goal, 1, stop, |_| {});
@@ -134,6 +134,7 @@ fn unknown(plan: &Plan, failure: String) -> Outcome {
         failed: 0,
         failure,
         run_up: None,
+        any_alarm: [0; 3],
         alarms: Vec::new(),
         figures: plan.runs.figures.iter().map(none).collect(),
         quality: [0; 3],
@@ -148,6 +149,7 @@ fn outcome(answer: &CandidateAnswer) -> Outcome {
         failed: answer.failed,
         failure: answer.failure.clone(),
         run_up: finite(answer.run_up),
+        any_alarm: answer.any_by_priority,
         alarms: answer
             .alarms
             .iter()

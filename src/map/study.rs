@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::{point, program};
+use crate::ahead::Chance;
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_sweep::choice::{Choice, Class, Wanted};
@@ -21,6 +22,8 @@ pub struct Question {
     pub horizon: f64,
     /// Members per cell and start, at most.
     pub members: u32,
+    /// Whether all of these run, also where the first ones decide every alarm.
+    pub run_all: bool,
     /// Seed of the disturbances.
     pub seed: u64,
     /// State that the start from running comes from; its speed is the highest of the axes if not given.
@@ -70,6 +73,7 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
             hash: config.hash(),
             horizon: question.horizon,
             members: question.members,
+            run_all: question.run_all,
             running: Running {
                 rpm: question
                     .running_rpm
@@ -162,8 +166,8 @@ fn everything(choice: &Choice, plan: &Plan) -> Vec<Wanted> {
     all.collect()
 }
 
-/// The alarm that is most likely among those that count: its identifier, how often it was seen, and the interval.
-fn worst<'a>(outcome: &'a Outcome, question: &Question) -> Option<(&'a str, u32, [f64; 2])> {
+/// The alarm that most members saw among those that count: its identifier.
+fn worst<'a>(outcome: &'a Outcome, question: &Question) -> Option<&'a str> {
     let counted = outcome
         .alarms
         .iter()
@@ -171,18 +175,20 @@ fn worst<'a>(outcome: &'a Outcome, question: &Question) -> Option<(&'a str, u32,
     counted
         .rev()
         .max_by_key(|count| count.seen)
-        .map(|count| (count.alarm.as_str(), count.seen, count.interval))
+        .map(|count| count.alarm.as_str())
 }
 
-/// Share of the members that ended which saw the alarm that is most likely.
-fn chance(outcome: &Outcome, question: &Question) -> Option<f64> {
-    let seen = worst(outcome, question).map_or(0, |(_, seen, _)| seen);
-    (outcome.ended() > 0).then(|| f64::from(seen) / f64::from(outcome.ended()))
+/// How many of the members that ended saw any alarm that counts. Two alarms of 10 % each may disturb a fifth of all runs, so
+/// that the likeliest alone does not judge a cell.
+fn chance(outcome: &Outcome, question: &Question) -> Option<Chance> {
+    let seen = outcome.any_alarm[question.priority as usize];
+    (outcome.ended() > 0).then(|| Chance::new(seen, outcome.ended()))
 }
 
-fn class(outcome: &Outcome, question: &Question) -> Class {
+/// What a run says of its cell.
+pub fn class(outcome: &Outcome, question: &Question) -> Class {
     match chance(outcome, question) {
-        Some(chance) if chance > question.limit => Class::Expected,
+        Some(chance) if chance.probability > question.limit => Class::Expected,
         Some(_) if outcome.failed == 0 => Class::Clear,
         _ => Class::Unknown,
     }
@@ -200,8 +206,8 @@ fn assemble(
         let starts: Vec<OfStart> = (0..plan.starts.len())
             .map(|start| match (&outcomes[start][cell], inferred[start][cell]) {
                 (Some(outcome), _) => known(outcome, question),
-                (None, Some(surface)) => OfStart::inferred(surface.mean > 0.0, surface.confidence()),
-                (None, None) => OfStart::inferred(false, 0.5),
+                (None, Some(cell)) => cell.of_start(),
+                (None, None) => OfStart::not_known(0.0),
             })
             .collect();
         let value = |at: usize| row.get(at).and_then(Value::as_f64).unwrap_or(f64::NAN);
@@ -226,6 +232,7 @@ fn assemble(
         y: axis(config, &plan.keys[1], along_y),
         horizon: plan.runs.horizon,
         members: plan.runs.members,
+        run_all: plan.runs.run_all,
         seed: question.seed,
         priority: question.priority,
         limit: question.limit,
@@ -237,20 +244,13 @@ fn assemble(
 
 fn known(outcome: &Outcome, question: &Question) -> OfStart {
     let chance = chance(outcome, question);
-    let worst = worst(outcome, question);
-    let none = OfStart::inferred(false, 0.5);
     OfStart {
         state: if chance.is_some() { State::Known } else { State::Unknown },
-        expected: chance.is_some_and(|chance| chance > question.limit),
-        confidence: if chance.is_some() { 1.0 } else { none.confidence },
-        chance,
-        // Without a sighting every alarm has the interval of none in so many.
-        interval: match (worst, chance) {
-            (Some((_, _, interval)), _) => interval,
-            (None, Some(_)) => crate::ahead::Chance::new(0, outcome.ended()).interval,
-            (None, None) => none.interval,
-        },
-        alarm: worst.map_or(String::new(), |(alarm, _, _)| alarm.to_owned()),
+        expected: class(outcome, question) == Class::Expected,
+        confidence: if chance.is_some() { 1.0 } else { 0.0 },
+        chance: chance.map(|chance| chance.probability),
+        interval: Chance::new(chance.map_or(0, |chance| chance.seen), outcome.ended()).interval,
+        alarm: worst(outcome, question).unwrap_or_default().to_owned(),
         members: outcome.members,
         failed: outcome.failed,
         failure: outcome.failure.clone(),
@@ -299,4 +299,71 @@ pub fn configuration(directory: &Directory) -> Result<Config, SweepError> {
         path,
         reason: "its configuration is not the one of its hash".to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_sweep::map::AlarmCount;
+
+    fn question(priority: Priority) -> Question {
+        Question {
+            axes: [ROTARY_SPEED, WEIGHT_ON_BIT].map(|key| (key.to_owned(), vec![1.0, 2.0])),
+            horizon: 30.0,
+            members: 20,
+            run_all: true,
+            seed: 1,
+            running_rpm: None,
+            running_time: 10.0,
+            priority,
+            limit: 0.1,
+            share: 0.4,
+        }
+    }
+
+    /// Twenty members: two alarms, each seen by two of them, which are not the same.
+    fn outcome(failed: u32) -> Outcome {
+        let ended = 20 - failed;
+        let count = |alarm: &str, priority| AlarmCount {
+            alarm: alarm.to_owned(),
+            priority,
+            seen: 2,
+            of: ended,
+            interval: Chance::new(2, ended).interval,
+            first: Some(7.0),
+        };
+        Outcome {
+            members: 20,
+            failed,
+            failure: String::new(),
+            run_up: Some(1.0),
+            any_alarm: [4, 2, 0],
+            alarms: vec![
+                count("backward_whirl", Priority::Low),
+                count("shock", Priority::Low),
+                count("shock", Priority::Medium),
+            ],
+            figures: Vec::new(),
+            quality: [ended, 0, 0],
+        }
+    }
+
+    #[test]
+    fn a_cell_is_judged_by_any_alarm_that_counts() {
+        // Each alarm has a chance of 10 %, which is not above the limit; a fifth of the runs has one of them.
+        let any = known(&outcome(0), &question(Priority::Low));
+        assert_eq!((any.expected, any.chance), (true, Some(0.2)));
+        assert_eq!(any.interval, Chance::new(4, 20).interval);
+        assert_eq!(any.alarm, "backward_whirl");
+        let medium = known(&outcome(0), &question(Priority::Medium));
+        assert_eq!((medium.expected, medium.chance), (false, Some(0.1)));
+        assert_eq!(class(&outcome(0), &question(Priority::High)), Class::Clear);
+        // One member that failed may have had what the limit excludes.
+        assert_eq!(class(&outcome(1), &question(Priority::High)), Class::Unknown);
+        let none = known(&outcome(20), &question(Priority::High));
+        assert_eq!(
+            (none.state, none.interval, none.confidence),
+            (State::Unknown, [0.0, 1.0], 0.0)
+        );
+    }
 }

@@ -4,7 +4,7 @@ use flexdrill_alarms::Priority;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_sweep::SweepError;
 use flexdrill_sweep::envelope::Envelope;
-use flexdrill_sweep::map::{Axis, Map, OfStart, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::map::{Axis, Map, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
 
 /// Whose bounds a table of an envelope has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,7 +84,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
                 cell.y.to_string(),
                 cell.verdict.name().to_owned(),
                 start.name().to_owned(),
-                state(of).to_owned(),
+                of.state.name().to_owned(),
                 of.expected.to_string(),
                 format!("{:.4}", of.confidence),
                 of.chance.map_or(String::new(), |chance| format!("{chance:.4}")),
@@ -131,14 +131,6 @@ fn alarms(map: &Map) -> Vec<String> {
     names.sort_unstable();
     names.dedup();
     names
-}
-
-const fn state(of: &OfStart) -> &'static str {
-    match of.state {
-        State::Known => "known",
-        State::Inferred => "inferred",
-        State::Unknown => "unknown",
-    }
 }
 
 /// Name of a column in SI, and the conversion from the axis's unit.
@@ -204,31 +196,31 @@ pub fn words(map: &Map) -> Vec<String> {
     let count = |verdict| map.cells.iter().filter(|cell| cell.verdict == verdict).count();
     let all = cells * map.starts.len();
     let mut lines = vec![format!(
-        "{cells} cells from {} starts: {} of {all} runs were made ({:.0} %), the others are inferred.",
+        "{cells} cells from {} starts: {} of {all} runs were made ({:.0} %).",
         map.starts.len(),
         map.runs,
         100.0 * f64::from(map.runs) / all as f64
     )];
     lines.push(format!(
-        "{} clear, {} with an alarm, {} that depend on the start, {} unknown.",
+        "{} clear, {} with an alarm, {} that depend on the start, {} in which a run failed, {} not known.",
         count(Verdict::Clear),
         count(Verdict::Alarm),
         count(Verdict::DependsOnStart),
-        count(Verdict::Unknown)
+        count(Verdict::Unknown),
+        count(Verdict::NotKnown)
     ));
     let starts = map.cells.iter().flat_map(|cell| &cell.starts);
-    let doubtful: f64 = starts.map(|start| 1.0 - start.confidence).sum();
-    lines.push(format!(
-        "Of the inferred ones {doubtful:.1} are expected to be wrong, {:.1} % of the map.",
-        100.0 * doubtful / all as f64
-    ));
-    if map.members < 10 {
+    let inferred = starts.filter(|start| start.state == State::Inferred);
+    let (of, doubtful) = inferred.fold((0, 0.0), |(of, doubtful), start| {
+        (of + 1, doubtful + 1.0 - start.confidence)
+    });
+    if of > 0 {
         lines.push(format!(
-            "With {} members a chance of {:.0} % may show no alarm at all.",
-            map.members,
-            100.0 * crate::ahead::Chance::new(0, map.members).interval[1]
+            "{of} of the {all} are inferred from the runs around them with at least 95 %: {doubtful:.1} of these are \
+             expected to be wrong."
         ));
     }
+    lines.push(map.members_in_words());
     let mut leading: Vec<(usize, String)> = alarms(map)
         .into_iter()
         .map(|alarm| {

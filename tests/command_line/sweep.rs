@@ -3,11 +3,15 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
+use flexdrill::map::point;
+use flexdrill::map::study::{self, Question};
+use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::Directory;
-use flexdrill_sweep::map::{Map, State};
+use flexdrill_sweep::map::{Map, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
 
 fn flexdrill(arguments: &[&str], folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
@@ -176,6 +180,104 @@ fn a_map_has_the_same_bytes_with_any_threads_and_interruptions() {
         .count();
     assert_eq!(known, map.runs as usize);
     assert!(map.runs <= 14, "{}", map.runs);
+}
+
+/// One Newton iteration and no smaller step: no run can be computed.
+const FAILING: [&str; 4] = ["--set", "solver.max_iterations=1", "--set", "solver.max_halvings=0"];
+
+#[test]
+fn settings_under_which_every_run_fails_leave_nothing_clear() {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = [
+        &["--wob", "1:9", "--grid", "7x5", "--horizon", "10", "--jobs", "2"],
+        &FAILING[..],
+    ]
+    .concat();
+    let command = || flexdrill(&MAP, folder.path()).args(&grid).output().unwrap();
+    let first = command();
+    assert_eq!(first.status.code(), Some(1), "{}", text(&first));
+    let said = text(&first);
+    let map = Map::load(&folder.path().join("map.json")).unwrap();
+    assert!(said.contains(&format!("all {} runs failed", map.runs)), "{said}");
+    assert!(said.contains("no envelope") && said.contains("a step failed"), "{said}");
+    let verdicts: Vec<Verdict> = map.cells.iter().map(|cell| cell.verdict).collect();
+    assert_eq!(verdicts.len(), 35);
+    let nothing = [Verdict::Unknown, Verdict::NotKnown];
+    assert!(verdicts.iter().all(|verdict| nothing.contains(verdict)), "{verdicts:?}");
+    assert!(nothing.iter().all(|verdict| verdicts.contains(verdict)), "{verdicts:?}");
+    // What an earlier map of the folder has left is not taken for this one's.
+    let envelope = folder.path().join("envelope_x.csv");
+    assert!(!envelope.exists());
+    std::fs::write(&envelope, "a").unwrap();
+    assert_eq!(command().status.code(), Some(1));
+    assert!(!envelope.exists());
+    // The picture has both classes in words, and no clear cell.
+    let picture = std::fs::read_to_string(folder.path().join("map.svg")).unwrap();
+    let has = |words: &str| picture.contains(&format!(">{words}<")) || picture.contains(words);
+    assert!(has("not known") && has("a run failed") && !has("clear"), "the legend");
+    let page = std::fs::read_to_string(folder.path().join("map.html")).unwrap();
+    assert!(page.contains("cells are not known") && page.contains("No member of any run ended."));
+}
+
+/// The members of one run of the short tool in calm drilling, of at most seven, and what the map says of them.
+fn members(run_all: bool) -> (u32, u32) {
+    let config = Config::load("tests/data/small.yaml").unwrap();
+    let question = Question {
+        axes: [
+            (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
+            (WEIGHT_ON_BIT.to_owned(), vec![2.0, 4.0]),
+        ],
+        horizon: 10.0,
+        members: 7,
+        run_all,
+        seed: 1,
+        running_rpm: None,
+        running_time: 1.0,
+        priority: Priority::Low,
+        limit: 0.1,
+        share: 1.0,
+    };
+    let plan = study::plan("small.yaml", &config, &question).unwrap();
+    let point = &plan.points()[0];
+    let outcome = point::run(&plan, &config, point, &AtomicBool::new(false)).unwrap();
+    assert_eq!((outcome.any_alarm, outcome.failed), ([0; 3], 0), "{outcome:?}");
+    (outcome.members, outcome.ended())
+}
+
+#[test]
+fn all_members_run_where_that_is_asked_for() {
+    // Six without any alarm decide: a chance of a tenth or less, against one of a half or more.
+    assert_eq!(members(false), (6, 6));
+    assert_eq!(members(true), (7, 7));
+}
+
+#[test]
+fn the_map_states_the_members_that_ran() {
+    let folder = tempfile::tempdir().unwrap();
+    let small = [
+        "--wob",
+        "2:4",
+        "--grid",
+        "2x2",
+        "--horizon",
+        "10",
+        "--members",
+        "2",
+        "--run-all",
+        "--jobs",
+        "2",
+    ];
+    let words = run(
+        &["map", "tests/data/small.yaml", "--rpm", "40:60", "--out"],
+        folder.path(),
+        &small,
+    );
+    let said = "In each run 2 of at most 2 members ended. No alarm in 2 excludes chances above 66 %";
+    assert!(words.contains(said), "{words}");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("map.html").contains(said) && read("map.json").contains("\"run_all\":true"));
+    let picture = read("map.svg");
+    assert!(picture.contains("2 of at most 2 members"), "{}", &picture[..2000]);
 }
 
 #[test]

@@ -62,6 +62,7 @@ fn result(plan: &Plan) -> Outcome {
         failed: 1,
         failure: "a step failed".to_owned(),
         run_up: Some(2.5),
+        any_alarm: [1, 1, 0],
         alarms: vec![AlarmCount {
             alarm: "shock".to_owned(),
             priority: Priority::Medium,
@@ -196,7 +197,12 @@ fn map_file() {
     };
     let at = [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (2.0, 2.0)];
     let cell = |(x, y): (f64, f64)| {
-        let starts = vec![known.clone(), OfStart::inferred(x > 1.5, 0.75)];
+        let other = if x > 1.5 {
+            OfStart::inferred(true, 0.96)
+        } else {
+            OfStart::not_known(0.75)
+        };
+        let starts = vec![known.clone(), other];
         Cell {
             x,
             y,
@@ -214,6 +220,7 @@ fn map_file() {
         y: axis("b"),
         horizon: 30.0,
         members: 3,
+        run_all: false,
         seed: 1,
         priority: Priority::Low,
         limit: 0.1,

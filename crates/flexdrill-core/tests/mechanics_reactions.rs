@@ -103,7 +103,8 @@ fn at_rest_supports_carry_weight_load_and_weight_on_bit() {
             assert!((supports - Vector3::from(reactions.supports)).norm() < 1e-9);
             assert!(Vector3::from(reactions.bit).norm() > 1e3 && reactions.weight[2] > 1e3);
             assert_eq!(reactions.force.len(), reactions.measured_depth.len());
-            assert!(reactions.body.contains(&Body::Pipe) && reactions.body.contains(&Body::Guide));
+            let held = [Body::Pipe, Body::Guide].map(Holder::Support);
+            assert!(held.iter().all(|holder| reactions.holder.contains(holder)));
         }
     }
 }

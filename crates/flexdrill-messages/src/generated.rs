@@ -1528,12 +1528,15 @@ pub mod flexdrill {
         pub weight_on_bit_kn: Vec<f64>,
         /// What each cell is: row by row of the weight, the speed within a row.
         pub verdict: Vec<u8>,
-        /// Largest chance of the likeliest alarm over the starts; NaN where the cell was not run or is unknown.
+        /// Largest chance of any alarm over the starts; NaN where the cell was not run or is unknown.
         pub chance: Vec<f64>,
-        /// The id of that alarm; empty where none was seen.
+        /// The id of the likeliest alarm of that start; empty where none was seen.
         pub alarm: Vec<std::string::String>,
         /// Whether the cell was run; otherwise its verdict is inferred from those that were.
         pub was_run: Vec<bool>,
+        /// Fewest and most members that ended at a start that was run; 0 where none ended. A chance is known as well as these say.
+        pub least_members: u32,
+        pub most_members: u32,
     }
 
     impl SafeWindow {
@@ -1545,6 +1548,8 @@ pub mod flexdrill {
         pub const DEPENDS_ON_START: u8 = 2;
         /// A run of it failed: it is not safe.
         pub const UNKNOWN: u8 = 3;
+        /// It was not run from some start, and the runs around it do not say with 95 % what it is: it is not safe.
+        pub const NOT_KNOWN: u8 = 4;
     }
 
     impl Message for SafeWindow {
@@ -1552,7 +1557,7 @@ pub mod flexdrill {
         const NAME: &'static str = "SafeWindow";
         const ROS_TYPE: &'static str = "flexdrill/msg/SafeWindow";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::SafeWindow_";
-        const RIHS01: &'static str = "RIHS01_dd560fe118afbe6c1fe94dd42526a2849ac646ac73c97e9fa5f30e1517a845b4";
+        const RIHS01: &'static str = "RIHS01_5d079f88b6544dca13eb5c57c994f12e5da241726d2c98773c0837ee6633252c";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/SafeWindow.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1560,7 +1565,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/SafeWindow", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "title", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "program", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "motion", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "horizon", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_rpm", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "verdict", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "chance", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarm", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "was_run", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/SafeWindow", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "title", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "program", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "motion", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "horizon", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "limit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "priority", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_rpm", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "verdict", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "chance", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarm", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "was_run", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "least_members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "most_members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Configuration and version of a run, so that a recording is self-contained.

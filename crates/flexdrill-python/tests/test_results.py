@@ -77,6 +77,8 @@ def test_a_sweep_has_the_values_of_its_table(swept: Path) -> None:
         assert int(row["seed"]) == sweep.seed[at] and close(row["run_up_s"], sweep.run_up_s[at])
         assert (int(row["members"]), int(row["failed"])) == (sweep.members[at], sweep.failed[at])
         assert [int(row[name]) for name in ("good", "degraded", "poor")] == sweep.quality[at].tolist()
+        any_alarm = [int(row[f"any_alarm_{priority}"]) for priority in flexdrill.PRIORITIES]
+        assert any_alarm == sweep.any_alarm[at].tolist()
         for key, values in sweep.values.items():
             assert float(row[key]) == values[at]
         for alarm, counts in sweep.alarms.items():
@@ -150,6 +152,21 @@ def test_a_map_has_the_values_of_its_table(mapped: Path) -> None:
                 title = f"{column}_{quantile}" + (f" ({unit})" if unit else "")
                 assert close(row[title], read.figures[name][(*at, which)]), title
     assert any(np.isfinite(figure).any() for figure in read.figures.values())
+
+
+def test_what_is_not_known_is_a_class_of_its_own(mapped: Path, tmp_path: Path) -> None:
+    content = json.loads((mapped / "map.json").read_text())
+    cell = content["cells"][0]
+    start = cell["starts"][0]
+    content["runs"] -= start["state"] in ("known", "unknown")
+    nothing = {"alarms": [], "figures": [], "members": 0, "failed": 0, "chance": None, "alarm": "", "failure": ""}
+    start.update(nothing, state="not_known", expected=False, confidence=0.4, interval=[0.0, 1.0])
+    cell["verdict"] = "not_known"
+    (tmp_path / "map.json").write_text(json.dumps(content))
+    read = flexdrill.read_map(tmp_path)
+    assert read.verdict[0, 0] == "not_known" and read.state[0, 0, 0] == "not_known"
+    assert not np.any(read.verdict[read.state[0] == "not_known"] == "clear")
+    assert np.isnan(read.chance[0, 0, 0]) and read.confidence[0, 0, 0] == 0.4
 
 
 def flexdrill_ending(unit: str) -> str:
@@ -230,7 +247,7 @@ def renamed(folder: Path) -> Path:
     [
         (cut, "checksum of its first line: remove it and run flexdrill sweep work"),
         (renamed, "point = .*as the plan and the name of the file say"),
-        (point(lambda line: line.replace(b'"format":1', b'"format":2')), "a result of format 2; .* reads format 1"),
+        (point(lambda line: line.replace(b'"format":2', b'"format":1')), "a result of format 1; .* reads format 2"),
         (point(lambda line: line.replace(b'"program":"flexdrill ', b'"program":"flexdrill 9')), "program = "),
         (
             point(lambda line: line.replace(b'"failed":0', b'"failed":3')),
@@ -245,7 +262,7 @@ def renamed(folder: Path) -> Path:
         (point(lambda line: line.replace(b'"run_up":', b'"run_up":"x","was":')), "run_up = 'x': must be a number"),
         (point(lambda _: b"[" * 100_000), "cut off or no JSON"),
         (point(lambda _: b"\xff\xfe"), "cut off or no JSON"),
-        (plan(lambda text: text.replace(b'"format":1', b'"format":7')), "a plan of format 7; .* reads format 1"),
+        (plan(lambda text: text.replace(b'"format":2', b'"format":7')), "a plan of format 7; .* reads format 2"),
         (plan(lambda text: text[: len(text) // 2]), "cut off or no JSON.*: plan again in a new directory"),
         (plan(lambda text: text.replace(b'"seeds":[', b'"seeds":[-')), "seeds.0 = -1"),
         (plan(lambda text: text.replace(b'"keys":', b'"key":')), "keys = None: must be .*; it is missing"),
@@ -268,7 +285,7 @@ def text(change: Callable[[str], str]) -> Callable[[str], str]:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (text(lambda map: map.replace('"format":1', '"format":2')), "a map of format 2; .* reads format 1"),
+        (text(lambda map: map.replace('"format":2', '"format":1')), "a map of format 1; .* reads format 2"),
         (text(lambda map: map[:-40]), "cut off or no JSON.*run the same flexdrill map command again"),
         (text(lambda map: map.replace('"values":[30', '"values":[130')), "x.values = .*: must be rising"),
         (
@@ -307,4 +324,4 @@ def test_what_is_not_there(tmp_path: Path, swept: Path) -> None:
         flexdrill.read_sweep(tmp_path)
     with pytest.raises(FileNotFoundError, match="flexdrill map CONFIG"):
         flexdrill.read_map(swept)
-    assert json.loads((swept / "sweep.json").read_text())["format"] == 1
+    assert json.loads((swept / "sweep.json").read_text())["format"] == 2

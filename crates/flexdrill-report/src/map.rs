@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use flexdrill_sweep::map::{Axis, Map, OfStart, Start, State, Verdict};
+use flexdrill_sweep::map::{Axis, Map, OfStart, Start, Verdict};
 
 use crate::page::STYLE;
 
@@ -33,9 +33,9 @@ pub fn page(map: &Map, svg: &str) -> String {
                 figure {
                     (PreEscaped(svg))
                     figcaption {
-                        "Every rectangle is a cell. Dots are runs; cells without a dot are inferred from the runs around "
-                        "them, and pale where the inference is less than 95 % sure. The line is the boundary of the clear "
-                        "cells."
+                        "Every rectangle is a cell. Dots are runs; cells without a dot are inferred where the runs around "
+                        "them say with at least 95 % what they are. Elsewhere they are not known: pale and crossed out. The "
+                        "line is the boundary of the clear cells."
                     }
                 }
                 (reading(map))
@@ -73,7 +73,7 @@ fn facts(map: &Map) -> Markup {
             dt { (map.y.name) } dd { (span(&map.y)) }
             dt { "Runs" } dd {
                 (map.runs) " of " (map.cells.len() * map.starts.len()) ", each judged over " (number(map.horizon))
-                " s, at most " (map.members) " members, seed " (map.seed)
+                " s, at most " (map.members) " members" @if map.run_all { ", all of them run" } ", seed " (map.seed)
             }
             dt { "Alarms" } dd {
                 "of " (map.priority.name()) " priority or higher, expected where their chance is above "
@@ -94,7 +94,11 @@ fn tiles(map: &Map) -> Markup {
                 b { (count(Verdict::DependsOnStart)) } "cells depend on the start"
                 small { "clear on one way to the values, an alarm on the other" }
             }
-            div.tile.unknown { b { (count(Verdict::Unknown)) } "cells are unknown" small { "a run failed: not safe" } }
+            div.tile.unknown { b { (count(Verdict::Unknown)) } "cells failed" small { "a run failed: not safe" } }
+            div.tile.unknown {
+                b { (count(Verdict::NotKnown)) } "cells are not known"
+                small { "not run, and the runs around them do not say: not safe" }
+            }
         }
     }
 }
@@ -109,17 +113,10 @@ fn reading(map: &Map) -> Markup {
             "speed decides whether the tool is in trouble there."
         }
         p {
-            "A chance is the share of the members that saw the alarm, with its 95 % interval. With " (map.members)
-            " members an interval is wide: none of " (map.members) " excludes chances above "
-            (percent(excluded(map.members))) " only. A member that failed is unknown, and a cell with one is never clear."
+            "A chance is the share of the members that saw any alarm, with its 95 % interval. " (map.members_in_words())
+            " A member that failed is unknown, and a cell with one is never clear."
         }
     }
-}
-
-/// Upper end of the 95 % interval (Wilson) of no sighting in so many members: z2 / (n + z2).
-fn excluded(members: u32) -> f64 {
-    const Z: f64 = 1.959_963_984_540_054;
-    Z * Z / (f64::from(members) + Z * Z)
 }
 
 fn table(map: &Map) -> Markup {
@@ -129,13 +126,13 @@ fn table(map: &Map) -> Markup {
             thead {
                 tr {
                     th.n { (named(&map.x)) } th.n { (named(&map.y)) }
-                    th { "Start" } th { "Alarm" } th.n { "Chance" } th.n { "95 % interval" } th.n { "Members" }
+                    th { "Start" } th { "Likeliest alarm" } th.n { "Chance of any" } th.n { "95 % interval" } th.n { "Members" }
                 }
             }
             tbody {
                 @for cell in &map.cells {
                     @for (start, of) in map.starts.iter().zip(&cell.starts) {
-                        @if of.state != State::Inferred {
+                        @if of.state.was_run() {
                             tr {
                                 td.n { (number(cell.x)) } td.n { (number(cell.y)) }
                                 td { (way(*start)) }
@@ -204,7 +201,5 @@ mod tests {
             [0.0, 1.0, 0.001, 0.999, 0.5].map(percent),
             ["0 %", "100 %", "0.1 %", "99.9 %", "50 %"]
         );
-        // Wilson's interval of 0 of 20 ends at 0.1611 (Newcombe 1998, table I).
-        assert!((excluded(20) - 0.1611).abs() < 5e-5);
     }
 }

@@ -1,27 +1,87 @@
-//! Which runs of a map to make next, so that few show where the boundary is.
+//! Which runs of a map to make next, so that few show where the boundaries are, and what the others are inferred to be.
 //!
-//! Both starts have a process of their own ([`crate::gauss`]). Runs are chosen in rounds: next to the boundary first, which
-//! is what a map is read for, then where a run tells most of it. Within a round each choice counts as seen for the next, so
-//! that a round does not crowd. The choice depends on the results only, not on who computed them or when.
+//! Every start has processes of its own ([`crate::gauss`]), one per class: a run that failed is a class with its own boundary,
+//! not a gap. Runs are chosen in rounds: next to a failure that stands alone and next to a boundary first, which is what a map
+//! is read for, then where a run tells most of a cell that is not known. Within a round each choice counts as seen for the
+//! next, so that a round does not crowd. The choice depends on the results only, not on who computed them or when.
 
-use crate::gauss::{Process, Surface};
+use crate::cover::{Cover, SIDE};
+use crate::gauss::{CLASSES, Process, Shape, Surface};
+use crate::map::{OfStart, SURE};
 use crate::plan::Grid;
 
-/// The first runs: one cell in this many along each axis, both ends included.
-const FIRST_EVERY: usize = 5;
+/// The shape of the processes is chosen anew after one run more in so many: choosing takes 48 factorisations.
+const FEW: usize = 5;
 /// Share of cells that may be inferred wrongly when the choice ends, by the process's own confidence.
 pub const WRONG: f64 = 0.02;
 
-/// What a run said.
+/// What a run said. The numbers are those of the processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Class {
     /// An alarm must be expected.
     Expected,
     /// None must be expected.
     Clear,
-    /// Unknown.
+    /// Unknown: it failed, so that nothing says what would have come.
     Unknown,
 }
+
+/// What a cell without a run is inferred to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inferred {
+    surface: Surface,
+    /// Probability from which on the cell is clear.
+    sure: f64,
+    /// Whether the runs around it allow to infer that it is clear ([`crate::cover`]).
+    may_be_clear: bool,
+}
+
+impl Inferred {
+    /// Probability that a run would show a class and none of the others.
+    pub fn probability(&self, class: Class) -> f64 {
+        self.surface.probability(class as usize)
+    }
+
+    /// The class that is most likely. Among equal ones the order is unknown, alarm, clear: no knowledge is never clear.
+    pub fn likeliest(&self) -> Class {
+        let probability = |class: &Class| self.probability(*class);
+        let order = [Class::Clear, Class::Expected, Class::Unknown];
+        let likeliest = order
+            .into_iter()
+            .max_by(|a, b| probability(a).total_cmp(&probability(b)));
+        likeliest.unwrap_or(Class::Unknown)
+    }
+
+    /// The class, where it is known: for an alarm and for a failure with a probability of [`SURE`]. A cell is clear only
+    /// where it is clear from all starts, so that each of n starts needs the n-th root of it, and runs around the cell.
+    pub fn class(&self) -> Option<Class> {
+        let class = self.likeliest();
+        let is_sure = match class {
+            Class::Clear => self.may_be_clear && self.probability(class) >= self.sure,
+            Class::Expected | Class::Unknown => self.probability(class) >= SURE,
+        };
+        is_sure.then_some(class)
+    }
+
+    /// The cell's state in a map. A run that would probably fail is not known either: nothing says what would come there.
+    pub fn of_start(&self) -> OfStart {
+        let confidence = self.probability(self.likeliest());
+        match self.class() {
+            Some(Class::Clear) => OfStart::inferred(false, confidence),
+            Some(Class::Expected) => OfStart::inferred(true, confidence),
+            Some(Class::Unknown) | None => OfStart::not_known(confidence),
+        }
+    }
+
+    /// How much a run here tells of a boundary.
+    fn tells(&self) -> f64 {
+        let of = (0..CLASSES).map(|class| self.surface.straddle(class));
+        of.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// What is inferred of every start's cells; nothing where a run was made.
+type Map = Vec<Vec<Option<Inferred>>>;
 
 /// A map that is being made: what is known per start and cell.
 #[derive(Debug, Clone)]
@@ -29,7 +89,8 @@ pub struct Choice {
     grid: Grid,
     /// By start, then by cell.
     known: Vec<Vec<Option<Class>>>,
-    lengths: Vec<Option<[f64; 2]>>,
+    /// The shape of each start's processes, and the runs that it was chosen by.
+    shapes: Vec<Option<(Shape, usize)>>,
 }
 
 /// A run: start and cell, by their numbers.
@@ -48,7 +109,7 @@ impl Choice {
         Self {
             grid,
             known: vec![vec![None; cells]; starts],
-            lengths: vec![None; starts],
+            shapes: vec![None; starts],
         }
     }
 
@@ -72,66 +133,68 @@ impl Choice {
         (self.all() / 40).clamp(4, 64)
     }
 
-    /// The next runs, at most as many as a round has and as `most` allows in all; none when the boundary is known.
+    /// The next runs, at most as many as a round has and as `most` allows in all; none when the boundaries are known.
     pub fn next(&mut self, most: usize) -> Vec<Wanted> {
         let left = most.saturating_sub(self.runs());
         if self.runs() == 0 {
-            let mut first = self.first();
-            first.truncate(left);
-            return first;
+            return self.first(left);
         }
         let mut wanted = Vec::new();
-        let mut surfaces: Vec<Vec<Option<Surface>>> = (0..self.known.len()).map(|start| self.surfaces(start)).collect();
-        let cells = self.all() as f64;
-        let of = |surfaces: &[Vec<Option<Surface>>]| -> f64 {
-            surfaces
-                .iter()
-                .flatten()
-                .flatten()
-                .map(|surface| 1.0 - surface.confidence())
-                .sum()
-        };
-        if of(&surfaces) <= WRONG * cells && self.on_boundary(&surfaces).is_none() {
+        let mut map: Map = (0..self.known.len()).map(|start| self.surfaces(start)).collect();
+        let inferred = || map.iter().flatten().flatten();
+        let doubtful: f64 = inferred().map(|cell| 1.0 - cell.probability(cell.likeliest())).sum();
+        let is_known = doubtful <= WRONG * self.all() as f64 && inferred().all(|cell| cell.class().is_some());
+        if is_known && self.on_boundary(&map, true).is_none() {
             return wanted;
         }
         let mut imagined = self.clone();
         while wanted.len() < self.round().min(left) {
-            let Some(run) = imagined.on_boundary(&surfaces).or_else(|| best(&surfaces)) else {
+            let run = imagined.beside_alone(&map);
+            let run = run.or_else(|| imagined.on_boundary(&map, false));
+            let run = run.or_else(|| imagined.on_boundary(&map, true));
+            let run = run.or_else(|| best(&map, |_, _, cell| cell.class().is_none()));
+            let Some(run) = run.or_else(|| best(&map, |_, _, _| true)) else {
                 break;
             };
             wanted.push(run);
             // What is most likely there: it only takes the uncertainty around it away.
-            let mean = surfaces[run.start][run.cell].map_or(0.0, |surface| surface.mean);
-            imagined.learn(run, if mean > 0.0 { Class::Expected } else { Class::Clear });
-            surfaces[run.start] = imagined.surfaces(run.start);
+            let likeliest = map[run.start][run.cell].map_or(Class::Unknown, |cell| cell.likeliest());
+            imagined.learn(run, likeliest);
+            map[run.start] = imagined.surfaces(run.start);
         }
         wanted.sort_unstable();
         wanted
     }
 
-    /// Of the runs that are missing next to a cell of the other class, the one that tells most: a boundary is known when no
-    /// such run is missing.
-    fn on_boundary(&self, surfaces: &[Vec<Option<Surface>>]) -> Option<Wanted> {
-        let mut beside = surfaces.to_vec();
-        for (known, cells) in self.known.iter().zip(&mut beside) {
-            let expected = |cell: usize| match (known[cell], cells[cell]) {
-                (Some(Class::Expected), _) => Some(true),
-                (Some(Class::Clear), _) => Some(false),
-                (Some(Class::Unknown), _) | (None, None) => None,
-                (None, Some(surface)) => Some(surface.mean > 0.0),
-            };
-            let of = |cell: usize| {
-                let other = |near: usize| expected(near).is_some_and(|near| Some(near) != expected(cell));
-                self.neighbours(cell).any(other)
-            };
-            let at: Vec<bool> = (0..cells.len()).map(of).collect();
-            for (surface, at) in cells.iter_mut().zip(at) {
-                if !at {
-                    *surface = None;
-                }
+    /// Of the missing neighbours of failures that stand alone, the one that tells most.
+    fn beside_alone(&self, map: &Map) -> Option<Wanted> {
+        let beside = self.known.iter().map(|known| {
+            let mut beside = vec![false; known.len()];
+            for cell in Cover::new(self.grid, known).alone() {
+                self.neighbours(cell).for_each(|near| beside[near] = true);
             }
-        }
-        best(&beside)
+            beside
+        });
+        let beside: Vec<Vec<bool>> = beside.collect();
+        best(map, |start, cell, _| beside[start][cell])
+    }
+
+    /// Of the runs that are missing next to a cell of another class, the one that tells most: a boundary is known when no
+    /// such run is missing. Without `any`, only the boundary of the clear cells counts.
+    fn on_boundary(&self, map: &Map, any: bool) -> Option<Wanted> {
+        let classes = self.known.iter().zip(map).map(|(known, cells)| {
+            let of = known.iter().zip(cells);
+            of.map(|(known, cell)| known.or_else(|| cell.map(|cell| cell.likeliest())))
+                .collect()
+        });
+        let classes: Vec<Vec<Option<Class>>> = classes.collect();
+        best(map, |start, cell, _| {
+            let own = classes[start][cell];
+            self.neighbours(cell).any(|near| {
+                let other = classes[start][near];
+                other != own && (any || own == Some(Class::Clear) || other == Some(Class::Clear))
+            })
+        })
     }
 
     /// The cells that share a side with a cell.
@@ -148,24 +211,29 @@ impl Choice {
         .flatten()
     }
 
-    /// A coarse grid, all starts.
-    fn first(&self) -> Vec<Wanted> {
-        let along = |count: usize| {
-            let parts = count.saturating_sub(1).div_ceil(FIRST_EVERY).max(1);
-            (0..=parts)
-                .map(move |part| (part * (count - 1) + parts / 2) / parts)
-                .collect::<Vec<_>>()
-        };
-        let mut first = Vec::new();
-        for start in 0..self.known.len() {
-            for row in along(self.grid.rows) {
-                for column in along(self.grid.columns) {
-                    let cell = row * self.grid.columns + column;
-                    first.push(Wanted { start, cell });
-                }
-            }
+    /// The first runs, of all starts, at most `most`: they hit every block of [`SIDE`] by [`SIDE`] cells, up to the edges of
+    /// the map, and every column where there are enough rows, so that no column of failures (a resonance at one speed) is
+    /// missed.
+    fn first(&self, most: usize) -> Vec<Wanted> {
+        let Grid { columns, rows } = self.grid;
+        let parts = rows.saturating_sub(1).div_ceil(SIDE).max(1);
+        let mut cells = Vec::new();
+        for part in 0..=parts.min(rows - 1) {
+            let row = (part * (rows - 1) + parts / 2) / parts;
+            let of_row = |column: &usize| {
+                let is_end = *column == 0 || column + 1 == columns;
+                is_end || (column + part) % SIDE == 0
+            };
+            cells.extend((0..columns).filter(of_row).map(|column| row * columns + column));
         }
-        first.dedup();
+        // Where not all are allowed, as many as are, all over the map.
+        let count = cells.len().min(most.div_ceil(self.known.len().max(1)));
+        let mut first: Vec<Wanted> = (0..count)
+            .map(|at| cells[at * cells.len() / count])
+            .flat_map(|cell| (0..self.known.len()).map(move |start| Wanted { start, cell }))
+            .collect();
+        first.truncate(most);
+        first.sort_unstable();
         first
     }
 
@@ -176,53 +244,63 @@ impl Choice {
         [share(cell % columns, columns), share(cell / columns, self.grid.rows)]
     }
 
-    /// What the process of a start says of every cell without a result.
-    fn surfaces(&mut self, start: usize) -> Vec<Option<Surface>> {
-        let process = self.process(start);
-        self.lengths[start] = process.as_ref().map(Process::lengths);
+    /// What the processes of a start say of every cell without a result.
+    fn surfaces(&mut self, start: usize) -> Vec<Option<Inferred>> {
+        let runs = self.known[start].iter().flatten().count();
+        // Runs that are imagined within a round are fewer, so that they do not change the shape.
+        let kept = self.shapes[start].filter(|(_, chosen)| runs < chosen + (chosen / FEW).max(self.round() + 1));
+        let process = self.process(start, kept.map(|(shape, _)| shape));
+        self.shapes[start] = process
+            .as_ref()
+            .map(|process| (process.shape(), kept.map_or(runs, |(_, chosen)| chosen)));
+        let known = &self.known[start];
+        // What failed from one start may fail from another: no cell beside it is clear from either.
+        let failed = |cell: usize| self.known.iter().any(|of| of[cell] == Some(Class::Unknown));
+        let of_all = known.iter().enumerate();
+        let of_all = of_all.map(|(cell, own)| if failed(cell) { Some(Class::Unknown) } else { *own });
+        let may_be_clear = Cover::new(self.grid, &of_all.collect::<Vec<_>>()).may_be_clear();
+        let sure = SURE.powf(1.0 / self.known.len() as f64);
         let inferred = |(cell, class): (usize, &Option<Class>)| match class {
             Some(_) => None,
-            None => Some(match &process {
-                Some(process) => process.at(self.place(cell)),
-                None => Surface {
-                    mean: 0.0,
-                    deviation: 1.0,
-                },
+            None => Some(Inferred {
+                surface: process
+                    .as_ref()
+                    .map_or(Surface::NOTHING, |process| process.at(self.place(cell))),
+                sure,
+                may_be_clear: may_be_clear[cell],
             }),
         };
-        self.known[start].iter().enumerate().map(inferred).collect()
+        known.iter().enumerate().map(inferred).collect()
     }
 
-    fn process(&self, start: usize) -> Option<Process> {
-        let (mut points, mut classes) = (Vec::new(), Vec::new());
-        for (cell, class) in self.known[start].iter().enumerate() {
-            // What is unknown says nothing of its neighbours.
-            let class = match class {
-                Some(Class::Expected) => 1.0,
-                Some(Class::Clear) => -1.0,
-                Some(Class::Unknown) | None => continue,
-            };
-            points.push(self.place(cell));
-            classes.push(class);
+    fn process(&self, start: usize, shape: Option<Shape>) -> Option<Process> {
+        let known = self.known[start].iter().enumerate();
+        let (points, classes): (Vec<_>, Vec<_>) = known
+            .filter_map(|(cell, class)| Some((self.place(cell), (*class)? as usize)))
+            .unzip();
+        match shape {
+            Some(shape) => Process::with(&points, &classes, shape),
+            None => Process::new(&points, &classes),
         }
-        Process::new(&points, &classes, self.lengths[start])
     }
 
     /// Every cell of a start: the known ones without, the others with what is inferred.
-    pub fn inferred(&mut self, start: usize) -> Vec<Option<Surface>> {
+    pub fn inferred(&mut self, start: usize) -> Vec<Option<Inferred>> {
+        // By all runs.
+        self.shapes[start] = None;
         self.surfaces(start)
     }
 }
 
-/// The run that tells most.
-fn best(surfaces: &[Vec<Option<Surface>>]) -> Option<Wanted> {
+/// The run that tells most, of those that are `wanted` by start, cell and what is inferred there.
+fn best(map: &Map, wanted: impl Fn(usize, usize, &Inferred) -> bool) -> Option<Wanted> {
     let mut best: Option<(f64, Wanted)> = None;
-    for (start, cells) in surfaces.iter().enumerate() {
-        for (cell, surface) in cells.iter().enumerate() {
-            let Some(surface) = surface else { continue };
-            let value = surface.straddle();
-            if best.is_none_or(|(most, _)| value > most) {
-                best = Some((value, Wanted { start, cell }));
+    for (start, cells) in map.iter().enumerate() {
+        for (cell, inferred) in cells.iter().enumerate() {
+            let Some(inferred) = inferred else { continue };
+            let tells = inferred.tells();
+            if best.is_none_or(|(most, _)| tells > most) && wanted(start, cell, inferred) {
+                best = Some((tells, Wanted { start, cell }));
             }
         }
     }

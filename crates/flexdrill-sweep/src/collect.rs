@@ -62,8 +62,18 @@ impl Directory {
 }
 
 /// Columns that every table has, before those of alarms and figures.
-const OWN: [&str; 8] = [
-    "state", "members", "failed", "run_up_s", "good", "degraded", "poor", "failure",
+const OWN: [&str; 11] = [
+    "state",
+    "members",
+    "failed",
+    "run_up_s",
+    "good",
+    "degraded",
+    "poor",
+    "failure",
+    "any_alarm_low",
+    "any_alarm_medium",
+    "any_alarm_high",
 ];
 /// Names of the quantiles.
 const QUANTILES: [&str; 3] = ["p5", "p50", "p95"];
@@ -116,6 +126,7 @@ fn row(plan: &Plan, point: &Point, outcome: Option<&Outcome>) -> Vec<String> {
     ]);
     cells.extend(outcome.quality.map(|count| count.to_string()));
     cells.push(outcome.failure.clone());
+    cells.extend(outcome.any_alarm.map(|count| count.to_string()));
     for alarm in &plan.runs.alarms {
         for priority in Priority::ALL {
             let of = outcome

@@ -1,5 +1,6 @@
 //! The clear part of a map as a safe operating envelope: for every value of one quantity the least and the most of the
-//! other, and the reverse. Both hold together; their intersection has clear cells only.
+//! other, and the reverse. Both hold together; their intersection has clear cells only: cells that were run, or inferred with
+//! 95 %. What is unknown or not known is in no envelope.
 
 use crate::map::{Map, Verdict};
 

@@ -6,7 +6,8 @@
 //! - [`directory`]: the plan and a file per result. [`outcome`]: that file.
 //! - [`work`]: computes what has no result yet. [`collect`]: all results as one table.
 //! - [`map`]: the map that `flexdrill map` writes (`map.json`), with a reader that bounds it.
-//! - [`choice`]: which runs of a map to make next, by a Gaussian process ([`gauss`]). [`envelope`]: the clear part of a map.
+//! - [`choice`]: which runs of a map to make next, by Gaussian processes ([`gauss`]). [`cover`]: what runs must show before a
+//!   cell between them may be inferred clear. [`envelope`]: the clear part of a map.
 //!
 //! # Choices
 //! - **No broker.** Whatever starts programs on machines that share a directory can share a sweep: a point's file is
@@ -15,6 +16,7 @@
 
 pub mod choice;
 pub mod collect;
+pub mod cover;
 pub mod directory;
 pub mod envelope;
 mod error;

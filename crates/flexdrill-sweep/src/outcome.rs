@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
+use flexdrill_alarms::Priority;
+
 use crate::map::{AlarmCount, Figure, Start};
 use crate::plan::{FORMAT, Plan, Point, hex};
 
@@ -24,6 +26,8 @@ pub struct Outcome {
     pub failure: String,
     /// Model time of the way to the values (s); nothing where it failed.
     pub run_up: Option<f64>,
+    /// Members that saw any alarm of this priority or a higher one, by [`Priority::ALL`].
+    pub any_alarm: [u32; 3],
     /// Alarms that a member saw, by identifier, from the lowest priority.
     pub alarms: Vec<AlarmCount>,
     /// Figures over the members.
@@ -174,6 +178,16 @@ impl Outcome {
             }
             if !count.first.is_none_or(|first| first >= 0.0) {
                 return wrong("first", format!("{:?}", count.first), "0 s or more".to_owned());
+            }
+        }
+        for (priority, any) in Priority::ALL.into_iter().zip(self.any_alarm) {
+            // As many as saw one of them, at most as many as saw them together.
+            let of = self.alarms.iter().filter(|count| count.priority == priority);
+            let least = of.clone().map(|count| count.seen).max().unwrap_or(0);
+            let most = of.map(|count| u64::from(count.seen)).sum::<u64>().min(u64::from(ended));
+            if !(u64::from(least)..=most).contains(&u64::from(any)) {
+                let bound = format!("{least} to {most} with {} priority, as its alarms say", priority.name());
+                return wrong("any_alarm", any.to_string(), bound);
             }
         }
         let named = self.figures.iter().map(|figure| (&figure.name, &figure.unit));

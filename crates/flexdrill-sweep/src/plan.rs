@@ -8,8 +8,9 @@ use sha2::{Digest, Sha256};
 
 use crate::map::Start;
 
-/// The format of plans and points that this build writes and reads.
-pub const FORMAT: u32 = 1;
+/// The format of plans and points that this build writes and reads. Points of format 1 do not count the members that saw
+/// any alarm.
+pub const FORMAT: u32 = 2;
 /// Most points of a plan: 256 folders of them hold fewer than 800 files each.
 pub const MOST_POINTS: usize = 200_000;
 /// Most keys that a plan changes.
@@ -58,6 +59,8 @@ pub struct Runs {
     pub horizon: f64,
     /// Members per point, at most.
     pub members: u32,
+    /// Whether all of these run, also where the first ones decide every alarm.
+    pub run_all: bool,
     /// The state that [`Start::Running`] comes from.
     pub running: Running,
     /// Alarms that a point counts, by identifier.
@@ -125,7 +128,8 @@ impl Plan {
         for text in [&runs.program, &runs.arithmetic, &runs.hash] {
             hash_text(&mut shared, text);
         }
-        hash_text(&mut shared, &format!("{FORMAT} {} {}", runs.horizon, runs.members));
+        let amount = format!("{FORMAT} {} {} {}", runs.horizon, runs.members, runs.run_all);
+        hash_text(&mut shared, &amount);
         let keys: Vec<&String> = self.keys.iter().collect();
         hash_text(&mut shared, &serde_json::to_string(&keys).unwrap_or_default());
         let mut points = Vec::with_capacity(self.len());

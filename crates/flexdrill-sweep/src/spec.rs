@@ -23,6 +23,9 @@ pub struct Spec {
     /// Members per point, at most. Default 3.
     #[serde(default = "members")]
     pub members: u32,
+    /// Whether all members run, also where the first ones decide every alarm. Default false.
+    #[serde(default)]
+    pub run_all: bool,
     /// Ways to the values, `rest` and `running`. Default both.
     #[serde(default = "starts")]
     pub starts: Vec<Start>,
@@ -288,6 +291,7 @@ impl Spec {
                 hash: config.hash(),
                 horizon: self.horizon,
                 members: self.members,
+                run_all: self.run_all,
                 running: Running {
                     rpm: self
                         .running
@@ -389,7 +393,7 @@ impl Plan {
                 a.program == b.program && a.arithmetic == b.arithmetic,
             ),
             ("the configuration", a.hash == b.hash),
-            ("horizon, members, alarms or figures", a == b),
+            ("horizon, members, run_all, alarms or figures", a == b),
             ("the keys", self.keys == other.keys),
             // As text: a number may have been rounded to its last bit when it was read.
             ("the values", same_text(&self.rows, &other.rows)),

@@ -66,6 +66,7 @@ fn made_up(point: &Point) -> Outcome {
         }
         .to_owned(),
         run_up: Some(2.5),
+        any_alarm: [seen, seen, 0],
         alarms: (seen > 0)
             .then(|| AlarmCount {
                 alarm: "shock".to_owned(),
@@ -242,7 +243,7 @@ fn another_plan_and_another_program_are_refused_and_nothing_changes() {
     Directory::create(folder.path(), &plan(GRID)).unwrap();
     for (from, to, said) in [
         ("horizon: 20", "horizon: 21", "horizon, members"),
-        ("to: 120", "to: 110", "horizon, members, alarms or figures"),
+        ("to: 120", "to: 110", "horizon, members, run_all, alarms or figures"),
         ("[0.1, ", "[0.2, ", "the values"),
         ("seeds: [7, 3]", "seeds: [7]", "the seeds"),
         ("horizon: 20", "horizon: 20\nstarts: [rest]", "the starts"),
@@ -365,7 +366,7 @@ fn damaged_plans_are_named() {
     let path = folder.path().join(PLAN);
     let good = serde_json::to_value(plan(GRID)).unwrap();
     for (pointer, value, said) in [
-        ("/format", serde_json::json!(9), "format 9; this program reads format 1"),
+        ("/format", serde_json::json!(9), "format 9; this program reads format 2"),
         (
             "/runs/horizon",
             serde_json::json!(1e9),
@@ -388,7 +389,7 @@ fn damaged_plans_are_named() {
         let error = Directory::open(folder.path()).unwrap_err().to_string();
         assert!(error.contains(PLAN) && error.contains(said), "{pointer}: {error}");
     }
-    for text in ["", "{", "[]", "{\"format\": 1}"] {
+    for text in ["", "{", "[]", "{\"format\": 2}"] {
         std::fs::write(&path, text).unwrap();
         let error = Directory::open(folder.path()).unwrap_err().to_string();
         assert!(error.contains("not the plan of a sweep, or damaged"), "{error}");
@@ -418,6 +419,7 @@ fn a_point_is_named_by_all_that_determines_it() {
         ("configuration", changed(&|plan| plan.runs.hash = "1".repeat(64))),
         ("horizon", changed(&|plan| plan.runs.horizon = 20.000_000_1)),
         ("members", changed(&|plan| plan.runs.members = 4)),
+        ("run_all", changed(&|plan| plan.runs.run_all = true)),
     ] {
         assert!(first.iter().all(|id| !other.contains(id)), "{what}");
     }

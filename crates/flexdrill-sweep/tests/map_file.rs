@@ -61,8 +61,8 @@ fn map() -> Map {
         [known(2, 3), known(3, 3)],
         [known(0, 3), known(2, 3)],
         [unknown, known(0, 3)],
-        [OfStart::inferred(true, 0.9), OfStart::inferred(true, 0.8)],
-        [OfStart::inferred(false, 0.9), OfStart::inferred(false, 0.8)],
+        [OfStart::inferred(true, 0.97), OfStart::inferred(true, 0.96)],
+        [OfStart::inferred(false, 0.98), OfStart::inferred(false, 0.98)],
     ];
     let at = [1.0, 2.0].into_iter().flat_map(|y| [10.0, 20.0, 40.0].map(|x| (x, y)));
     Map {
@@ -75,6 +75,7 @@ fn map() -> Map {
         y: axis("c.d", &[1.0, 2.0]),
         horizon: 30.0,
         members: 3,
+        run_all: false,
         seed: 1,
         priority: Priority::Low,
         limit: 0.1,
@@ -107,6 +108,64 @@ fn a_map_reads_as_it_was_written() {
 }
 
 #[test]
+fn only_what_all_starts_are_sure_of_together_is_clear() {
+    let clear = |confidence: f64| OfStart::inferred(false, confidence);
+    let alarm = OfStart::inferred(true, 0.96);
+    let not_known = OfStart::not_known(0.94);
+    for (starts, verdict) in [
+        (vec![known(0, 3), known(0, 3)], Verdict::Clear),
+        (vec![known(0, 3), clear(0.95)], Verdict::Clear),
+        // 0.96 of both is 0.92 together.
+        (vec![clear(0.96), clear(0.96)], Verdict::NotKnown),
+        (vec![clear(0.98), clear(0.98)], Verdict::Clear),
+        (vec![clear(0.98), not_known.clone()], Verdict::NotKnown),
+        (vec![not_known.clone(), known(3, 3)], Verdict::NotKnown),
+        (vec![alarm.clone(), alarm.clone()], Verdict::Alarm),
+        (vec![alarm, clear(0.96)], Verdict::DependsOnStart),
+        (vec![not_known.clone(), not_known], Verdict::NotKnown),
+    ] {
+        assert_eq!(Verdict::of(&starts), verdict, "{starts:?}");
+    }
+}
+
+#[test]
+fn the_words_say_how_many_members_ran_and_what_these_exclude() {
+    let mut map = map();
+    map.members = 20;
+    for (of, most) in [(0, 6), (1, 9), (2, 6), (3, 7)] {
+        for start in &mut map.cells[of].starts {
+            if start.state == State::Known {
+                start.members = most;
+            }
+        }
+    }
+    // Wilson's interval of 0 of 6 ends at 3.8415 / (6 + 3.8415).
+    let words = map.members_in_words();
+    assert!(
+        words.starts_with("In each run 6 to 9 of at most 20 members ended; a run ends early"),
+        "{words}"
+    );
+    assert!(
+        words.ends_with("No alarm in 6 excludes chances above 39 %: a clear cell may have up to that."),
+        "{words}"
+    );
+    // All ran: 0.1611 is Newcombe's figure for none of 20 (Stat. Med. 17, 1998, 857, table I).
+    map.run_all = true;
+    for start in map.cells.iter_mut().flat_map(|cell| &mut cell.starts) {
+        if start.state == State::Known {
+            start.members = 20;
+        }
+    }
+    let (members, chance) = map.excluded().unwrap();
+    assert!(members == 20 && (chance - 0.1611).abs() < 5e-5, "{members} {chance}");
+    let words = map.members_in_words();
+    assert!(
+        words.starts_with("In each run 20 of at most 20 members ended. No alarm in 20"),
+        "{words}"
+    );
+}
+
+#[test]
 fn the_nearest_cell_is_found_up_to_half_a_cell_beyond_the_axes() {
     let map = map();
     let at = |x, y| map.nearest(x, y).map(|cell| (cell.x, cell.y));
@@ -128,7 +187,11 @@ fn damaged(pointer: &str, value: Value) -> Vec<u8> {
 #[test]
 fn what_is_wrong_is_named() {
     for (pointer, value, said) in [
-        ("/format", json!(2), "a map of format 2; this program reads format 1"),
+        (
+            "/format",
+            json!(1),
+            "a map of format 1; this program reads format 2: make the map again",
+        ),
         (
             "/configuration",
             json!("0"),
@@ -159,6 +222,16 @@ fn what_is_wrong_is_named() {
             "/cells/1/verdict",
             json!("clear"),
             "cells.1.verdict = clear: must be alarm",
+        ),
+        (
+            "/cells/5/starts/0/confidence",
+            json!(0.94),
+            "cells.5.rest.confidence = 0.94: must be 0.95 to 1, as the state is inferred",
+        ),
+        (
+            "/cells/5/verdict",
+            json!("not_known"),
+            "cells.5.verdict = not_known: must be clear",
         ),
         (
             "/cells/1/starts/0/expected",
@@ -205,7 +278,7 @@ fn what_is_wrong_is_named() {
             "{pointer}: {error}"
         );
     }
-    for text in ["", "{", "[]", "\0", "{\"format\": 1}"] {
+    for text in ["", "{", "[]", "\0", "{\"format\": 2}"] {
         let error = Map::from_bytes("m", text.as_bytes()).unwrap_err().to_string();
         assert!(error.contains("not a map of flexdrill"), "{error}");
     }

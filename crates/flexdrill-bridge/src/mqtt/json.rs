@@ -253,6 +253,7 @@ pub fn safe_window(map: &SafeWindow) -> Value {
             SafeWindow::CLEAR => "clear",
             SafeWindow::ALARM => "alarm",
             SafeWindow::DEPENDS_ON_START => "depends on the start",
+            SafeWindow::NOT_KNOWN => "not known",
             _ => "unknown",
         })
         .collect();
@@ -261,6 +262,7 @@ pub fn safe_window(map: &SafeWindow) -> Value {
         "title": map.title,
         "motion": map.motion,
         "horizon": quantity(map.horizon, "s"),
+        "members": {"most_asked": map.members, "least_ended": map.least_members, "most_ended": map.most_members},
         "limit": map.limit,
         "priority": words::alarm_priority(map.priority),
         "rotary_speed": {"values": map.rotary_speed_rpm, "unit": "r/min"},

@@ -374,13 +374,13 @@ fn of_window() -> Vec<Variable> {
         ),
         new(
             "verdict",
-            "Row by row of the weight: 0 clear, 1 alarm, 2 depends on the start, 3 unknown",
+            "Row by row of the weight: 0 clear, 1 alarm, 2 depends on the start, 3 unknown (a run failed), 4 not known",
             Kind::Codes,
             |window| Variant::from(window.verdict.clone()),
         ),
         new(
             "chance",
-            "Row by row of the weight: largest chance of the likeliest alarm",
+            "Row by row of the weight: largest chance of any alarm",
             Kind::Numbers(Unit::One),
             |window| Variant::from(window.chance.clone()),
         ),

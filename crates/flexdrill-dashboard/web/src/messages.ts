@@ -1167,12 +1167,15 @@ export interface SafeWindow {
   weight_on_bit_kn: Float64Array;
   /** What each cell is: row by row of the weight, the speed within a row. */
   verdict: Uint8Array;
-  /** Largest chance of the likeliest alarm over the starts; NaN where the cell was not run or is unknown. */
+  /** Largest chance of any alarm over the starts; NaN where the cell was not run or is unknown. */
   chance: Float64Array;
-  /** The id of that alarm; empty where none was seen. */
+  /** The id of the likeliest alarm of that start; empty where none was seen. */
   alarm: string[];
   /** Whether the cell was run; otherwise its verdict is inferred from those that were. */
   was_run: boolean[];
+  /** Fewest and most members that ended at a start that was run; 0 where none ended. A chance is known as well as these say. */
+  least_members: number;
+  most_members: number;
 }
 export const SafeWindow = {
   /** From no start must an alarm be expected. */
@@ -1183,6 +1186,8 @@ export const SafeWindow = {
   DEPENDS_ON_START: 2,
   /** A run of it failed: it is not safe. */
   UNKNOWN: 3,
+  /** It was not run from some start, and the runs around it do not say with 95 % what it is: it is not safe. */
+  NOT_KNOWN: 4,
 } as const;
 /** Reads a `flexdrill/msg/SafeWindow`. */
 export function decodeSafeWindow(reader: CdrReader): SafeWindow {
@@ -1201,6 +1206,8 @@ export function decodeSafeWindow(reader: CdrReader): SafeWindow {
     chance: reader.float64Array(reader.length()),
     alarm: reader.many(reader.length(), () => reader.string()),
     was_run: reader.many(reader.length(), () => reader.bool()),
+    least_members: reader.uint32(),
+    most_members: reader.uint32(),
   };
 }
 

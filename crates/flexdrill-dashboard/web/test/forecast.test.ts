@@ -25,7 +25,7 @@ import {
   withdrawn,
 } from "../src/views/forecast";
 import { verdict } from "../src/views/what_if";
-import { cellAt, edges, sentence } from "../src/views/window";
+import { cellAt, edges, members, sentence } from "../src/views/window";
 
 function forecast(from: number, values: number[], more: Partial<Forecast> = {}): Forecast {
   const low = Float64Array.from(values);
@@ -242,4 +242,16 @@ test("the map's cells end half-way, and a point has the words of its cell", () =
   assert.match(sentence(map(), 60, 11), /^an alarm comes or not, depending on the way there: chaotic whirl/);
   assert.match(sentence(map(), 45, 9), /^unknown/);
   assert.equal(sentence(map(), 120, 9), "off the map: not known");
+  // What was not run and is not known has its own words, never those of a clear cell.
+  const unsure = { ...map(), verdict: Uint8Array.from([4, 0, 2, 3, 2, 1]) } as SafeWindow;
+  assert.equal(unsure.verdict[0], SafeWindow.NOT_KNOWN);
+  assert.match(sentence(unsure, 45, 5), /^not known: not run here/);
+  assert.match(sentence({ ...map(), verdict: Uint8Array.from([9]) } as SafeWindow, 45, 5), /^unknown/);
+});
+
+test("the map's runs are those that ended", () => {
+  const of = (least_members: number, most_members: number) => ({ ...map(), members: 20, least_members, most_members });
+  assert.match(members(of(6, 8)), /: 6 to 8 runs$/);
+  assert.match(members(of(20, 20)), /: 20 runs$/);
+  assert.match(members(of(0, 0)), /^No run of this map ended/);
 });

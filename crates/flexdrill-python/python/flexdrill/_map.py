@@ -34,8 +34,8 @@ FILE = "map.json"
 MOST_BYTES = 64 << 20
 MOST_VALUES = 200
 STARTS = ("rest", "running")
-STATES = ("known", "inferred", "unknown")
-VERDICTS = ("clear", "alarm", "depends_on_start", "unknown")
+STATES = ("known", "inferred", "unknown", "not_known")
+VERDICTS = ("clear", "alarm", "depends_on_start", "unknown", "not_known")
 REMEDY = "remove it and run the same flexdrill map command again, which keeps the runs that were made"
 
 
@@ -70,7 +70,9 @@ class Map:
     horizon_s: float
     """Model time that each member was judged over."""
     most_members: int
-    """Members per cell and start, at most."""
+    """Members per cell and start, at most; `members` has how many ran."""
+    run_all: bool
+    """Whether all of these ran, also where the first ones decided every alarm."""
     seed: int
     priority: str
     """Priority from which on an alarm counts for `chance` and `verdict`."""
@@ -81,19 +83,21 @@ class Map:
     runs: int
     """Runs that were made."""
     verdict: TextArray
-    """Over y and x: `clear`, `alarm`, `depends_on_start`, or `unknown`, which is never safe."""
+    """Over y and x: `clear`, `alarm`, `depends_on_start`, `unknown` where a run failed, or `not_known` where no run was
+    made from some start and those around do not say with 95 % what the cell is. The last two are never safe."""
     state: TextArray
-    """`known` where it was run, `inferred` where not, `unknown` where no member ended."""
+    """`known` where it was run, `unknown` where no member ended, `inferred` with 95 % from the runs around, `not_known`."""
     expected: FlagArray
-    """Whether an alarm must be expected."""
+    """Whether an alarm must be expected; it says nothing where the state is `unknown` or `not_known`."""
     confidence: FloatArray
-    """Probability that a run would say the same; 1 where it was run."""
+    """Probability that a run would say the same: 1 where a member ended, at least 0.95 where inferred, that of the most
+    likely class where not known."""
     chance: FloatArray
-    """Chance of the most likely alarm that counts; NaN where not known."""
+    """Chance of any alarm that counts; NaN where not run."""
     chance_interval: FloatArray
-    """Its 95 % interval, on a last axis of two; 0 to 1 where not known."""
+    """Its 95 % interval by the members that ended, on a last axis of two; 0 to 1 where not known."""
     alarm: TextArray
-    """Identifier of that alarm; empty where none was seen."""
+    """Identifier of the alarm that most members saw; empty where none was seen."""
     members: CountArray
     """Members that were run."""
     failed: CountArray
@@ -180,7 +184,7 @@ def read_map(path: PathLike) -> Map:
             at = (start, row, column)
             texts["state"][at] = of.text("state", STATES)
             texts["alarm"][at], texts["failure"][at] = of.text("alarm"), of.text("failure")
-            numbers["confidence"][at] = of.number("confidence", 0.5, 1.0)
+            numbers["confidence"][at] = of.number("confidence", 0.0, 1.0)
             numbers["chance"][at] = of.maybe("chance", 0.0, 1.0)
             expected[at] = of.flag("expected")
             interval[at] = of.numbers("interval", 2)
@@ -197,6 +201,7 @@ def read_map(path: PathLike) -> Map:
         y=y,
         horizon_s=whole.number("horizon", 0.0),
         most_members=most_members,
+        run_all=whole.flag("run_all"),
         seed=whole.count("seed", 0, 2**64 - 1),
         priority=whole.text("priority", PRIORITIES),
         limit=whole.number("limit", 0.0, 1.0),

@@ -20,7 +20,7 @@ Array = npt.NDArray[Any]
 TextArray = npt.NDArray[np.str_]
 FlagArray = npt.NDArray[np.bool_]
 
-FORMAT = 1
+FORMAT = 2
 """The format of plans, points and maps that this version reads."""
 PRIORITIES = ("low", "medium", "high")
 """Names of the priorities of alarms, rising: the last axis of counts of alarms."""

@@ -59,7 +59,9 @@ class Sweep:
     horizon_s: float
     """Model time that each member was judged over."""
     most_members: int
-    """Members per point, at most."""
+    """Members per point, at most; `members` has how many ran."""
+    run_all: bool
+    """Whether all of these run, also where the first ones decide every alarm."""
     values: Mapping[str, Array]
     """Values of the keys of the configuration, by key: the inputs of a point."""
     start: TextArray
@@ -79,6 +81,8 @@ class Sweep:
     """Model time of the way to the values; NaN where it failed."""
     quality: CountArray
     """Members by the worst quality of their motion: good, degraded, poor."""
+    any_alarm: CountArray
+    """Members that saw any alarm, over points and `flexdrill.PRIORITIES`: with this priority or a higher one."""
     alarms: Mapping[str, CountArray]
     """Members that saw each alarm, over points and `flexdrill.PRIORITIES`: with this priority or a higher one."""
     figures: Mapping[str, FloatArray]
@@ -115,6 +119,7 @@ class Sweep:
         }
         variables["run_up_s"] = (over, self.run_up_s, {"units": "s"})
         variables["quality"] = ((over, "quality_level"), self.quality)
+        variables["any_alarm"] = ((over, "priority"), self.any_alarm)
         for alarm, counts in self.alarms.items():
             variables[f"alarm.{alarm}"] = ((over, "priority"), counts)
         for name, figure in self.figures.items():
@@ -166,6 +171,7 @@ def read_sweep(path: PathLike, *, partial: bool = False) -> Sweep:
     names, states, failures = [""] * count, ["missing"] * count, [""] * count
     members, failed = np.zeros(count, dtype=np.uint64), np.zeros(count, dtype=np.uint64)
     quality = np.zeros((count, 3), dtype=np.uint64)
+    any_alarm = np.zeros((count, len(PRIORITIES)), dtype=np.uint64)
     run_up = np.full(count, np.nan)
     for point_file in _files(folder / "points"):
         body = _body(point_file, runs)
@@ -186,6 +192,9 @@ def read_sweep(path: PathLike, *, partial: bool = False) -> Sweep:
             quality[number] = outcome.numbers("quality", 3)
             if int(quality[number].sum()) != ended:
                 raise outcome.wrong("quality", quality[number].tolist(), f"{ended} members together")
+            any_alarm[number] = outcome.numbers("any_alarm", len(PRIORITIES))
+            if int(any_alarm[number].max()) > ended:
+                raise outcome.wrong("any_alarm", any_alarm[number].tolist(), f"at most {ended} members each")
             counts.fill((number,), outcome, ended, alarms)
     missing = states.count("missing")
     if missing and not partial:
@@ -202,6 +211,7 @@ def read_sweep(path: PathLike, *, partial: bool = False) -> Sweep:
         configuration_hash=runs.text("hash"),
         horizon_s=runs.number("horizon", 0.0),
         most_members=most_members,
+        run_all=runs.flag("run_all"),
         values={key: _array([rows[row][at] for row, _, _ in wanted]) for at, key in enumerate(keys)},
         start=np.array([start for _, start, _ in wanted]),
         seed=np.array([seed for _, _, seed in wanted], dtype=np.uint64),
@@ -212,6 +222,7 @@ def read_sweep(path: PathLike, *, partial: bool = False) -> Sweep:
         failure=np.array(failures),
         run_up_s=run_up,
         quality=quality,
+        any_alarm=any_alarm,
         alarms=counts.alarms,
         figures=counts.figures,
         units=counts.units,

@@ -1,6 +1,6 @@
 //! Whether a map that was read makes sense.
 
-use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, Start, State, Verdict};
+use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, SURE, Start, State, Verdict};
 
 /// Longest text of a map (bytes).
 const MOST_TEXT: usize = 4096;
@@ -122,7 +122,7 @@ impl Map {
         for (of, start) in cell.starts.iter().zip(&self.starts) {
             let place = format!("{place}.{}", Start::name(*start));
             of.check(&place, self)?;
-            runs += u32::from(of.state != State::Inferred);
+            runs += u32::from(of.state.was_run());
         }
         let said = Verdict::of(&cell.starts);
         let what = format!("{place}.verdict");
@@ -155,17 +155,23 @@ impl OfStart {
         let said = chance > map.limit;
         let judged = match self.state {
             State::Known => self.expected == said,
-            State::Unknown => !self.expected,
+            State::Unknown | State::NotKnown => !self.expected,
             State::Inferred => true,
         };
         ensure(
             judged,
             at("expected"),
             self.expected,
-            "what the chance and `limit` say, false where unknown",
+            "what the chance and `limit` say, false where unknown or not known",
         )?;
-        let confident = (0.5..=1.0).contains(&self.confidence);
-        ensure(confident, at("confidence"), self.confidence, "0.5 to 1")?;
+        let least = if self.state == State::Inferred { SURE } else { 0.0 };
+        let confident = (least..=1.0).contains(&self.confidence);
+        ensure(
+            confident,
+            at("confidence"),
+            self.confidence,
+            format!("{least} to 1, as the state is {}", self.state.name()),
+        )?;
         ensure(
             self.members <= members,
             at("members"),
@@ -179,13 +185,17 @@ impl OfStart {
             format!("at most {}", self.members),
         )?;
         let ran = self.members > 0;
-        let inferred = self.state == State::Inferred;
-        ensure(!(inferred && ran), at("members"), self.members, "0 where inferred")?;
+        ensure(
+            self.state.was_run() || !ran,
+            at("members"),
+            self.members,
+            "0 where no run was made",
+        )?;
         let ended = self.members - self.failed;
         ensure(
             known == (ended > 0),
             at("state"),
-            format!("{:?}", self.state),
+            self.state.name(),
             "known exactly where a member ended",
         )?;
         let entries = self.alarms.len().max(self.figures.len());

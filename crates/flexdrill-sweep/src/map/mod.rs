@@ -14,8 +14,10 @@ use serde::{Deserialize, Serialize};
 
 pub use error::MapError;
 
-/// The format that this build writes and reads.
-pub const FORMAT: u32 = 1;
+/// The format that this build writes and reads. Format 1 drew cells clear that no run had said anything of.
+pub const FORMAT: u32 = 2;
+/// Probability from which on what was not run is inferred: the level of all intervals here. Below, it is not known.
+pub const SURE: f64 = 0.95;
 /// Largest file that is read (bytes): a map of [`MOST_CELLS`] cells with every figure has a third of it.
 pub const MOST_BYTES: u64 = 64 << 20;
 /// Most values of an axis.
@@ -48,8 +50,10 @@ pub struct Map {
     pub y: Axis,
     /// Model time that each member was judged over (s).
     pub horizon: f64,
-    /// Members per cell and start, at most.
+    /// Members per cell and start, at most; [`OfStart::members`] has how many ran.
     pub members: u32,
+    /// Whether all of these ran, also where the first ones decided every alarm.
+    pub run_all: bool,
     /// Seed of the members' disturbances.
     pub seed: u64,
     /// Priority from which on an alarm counts for [`OfStart::chance`] and [`Cell::verdict`].
@@ -127,11 +131,19 @@ pub enum Verdict {
     DependsOnStart,
     /// A run of it failed, so that it is not known to be clear: it is not safe.
     Unknown,
+    /// It was not run from some start, and the runs around it do not say with [`SURE`] what it is: it is not safe.
+    NotKnown,
 }
 
 impl Verdict {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Clear, Self::Alarm, Self::DependsOnStart, Self::Unknown];
+    pub const ALL: [Self; 5] = [
+        Self::Clear,
+        Self::Alarm,
+        Self::DependsOnStart,
+        Self::Unknown,
+        Self::NotKnown,
+    ];
 
     /// Name in files.
     pub const fn name(self) -> &'static str {
@@ -140,16 +152,22 @@ impl Verdict {
             Self::Alarm => "alarm",
             Self::DependsOnStart => "depends_on_start",
             Self::Unknown => "unknown",
+            Self::NotKnown => "not_known",
         }
     }
 
-    /// What the starts of a cell say together.
+    /// What the starts of a cell say together. It is clear only where all starts are, with [`SURE`] together.
     pub fn of(starts: &[OfStart]) -> Self {
         let expected = starts.iter().filter(|start| start.expected).count();
         let unknown = starts.iter().any(|start| !start.expected && start.is_unknown());
+        let not_known = starts.iter().any(|start| start.state == State::NotKnown);
+        // Rounding must not turn what each start alone is sure of.
+        let sure = starts.iter().map(|start| start.confidence).product::<f64>() >= SURE - 1e-12;
         match expected {
             _ if unknown => Self::Unknown,
-            0 => Self::Clear,
+            _ if not_known => Self::NotKnown,
+            0 if sure => Self::Clear,
+            0 => Self::NotKnown,
             all if all == starts.len() => Self::Alarm,
             _ => Self::DependsOnStart,
         }
@@ -162,10 +180,29 @@ impl Verdict {
 pub enum State {
     /// It was run.
     Known,
-    /// It was not run; whether an alarm must be expected is inferred from the cells that were.
+    /// It was not run; whether an alarm must be expected is inferred from the cells that were, with [`SURE`].
     Inferred,
     /// It was run, and no member ended: what is there is unknown.
     Unknown,
+    /// It was not run, and nothing is inferred with [`SURE`].
+    NotKnown,
+}
+
+impl State {
+    /// Name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Known => "known",
+            Self::Inferred => "inferred",
+            Self::Unknown => "unknown",
+            Self::NotKnown => "not_known",
+        }
+    }
+
+    /// Whether a run was made.
+    pub const fn was_run(self) -> bool {
+        matches!(self, Self::Known | Self::Unknown)
+    }
 }
 
 /// A cell from one start.
@@ -174,17 +211,19 @@ pub enum State {
 pub struct OfStart {
     /// Whether it was run.
     pub state: State,
-    /// Whether an alarm must be expected: its chance is above [`Map::limit`], or is inferred to be.
+    /// Whether an alarm must be expected: the chance of any is above [`Map::limit`], or is inferred to be. It says nothing
+    /// where the state is unknown or not known.
     pub expected: bool,
-    /// Probability that a run would say the same of `expected`: 1 where it was run, 0.5 where nothing is known.
+    /// Probability that a run would say the same: 1 where a member ended, 0 where none did, at least [`SURE`] where inferred;
+    /// where not known, that of the class that is most likely.
     pub confidence: f64,
-    /// Chance of the alarm that is most likely among those that count ([`Map::priority`]); nothing where not known.
+    /// Chance of any alarm that counts ([`Map::priority`]): members that saw one, of those that ended; nothing where not run.
     pub chance: Option<f64>,
-    /// The 95 % interval of the chance (Wilson); 0 to 1 where not known.
+    /// The 95 % interval of the chance (Wilson), by the members that ended; 0 to 1 where not known.
     pub interval: [f64; 2],
-    /// Identifier of that alarm; empty where none was seen.
+    /// Identifier of the alarm that most of these members saw; empty where none was seen.
     pub alarm: String,
-    /// Members that were run.
+    /// Members that were run: at most [`Map::members`], fewer where they decided every alarm.
     pub members: u32,
     /// Members of these that failed: they are in no chance.
     pub failed: u32,
@@ -202,7 +241,15 @@ impl OfStart {
         self.state == State::Unknown || self.failed > 0
     }
 
-    /// What was not run.
+    /// What was not run, and is not known: `confidence` is that of the most likely class.
+    pub fn not_known(confidence: f64) -> Self {
+        Self {
+            state: State::NotKnown,
+            ..Self::inferred(false, confidence)
+        }
+    }
+
+    /// What was not run, and is inferred.
     pub fn inferred(expected: bool, confidence: f64) -> Self {
         Self {
             state: State::Inferred,
@@ -303,6 +350,54 @@ impl Map {
     /// When a number is not finite, which a checked map does not have.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         Ok(serde_json::to_string(self)? + "\n")
+    }
+
+    /// Fewest and most members that ended at a start that was run; nothing where none ended.
+    pub fn members_ended(&self) -> Option<[u32; 2]> {
+        let starts = self.cells.iter().flat_map(|cell| &cell.starts);
+        let ended = starts
+            .filter(|start| start.state == State::Known)
+            .map(|start| start.members - start.failed);
+        ended.fold(None, |range: Option<[u32; 2]>, of| {
+            let [least, most] = range.unwrap_or([of, of]);
+            Some([least.min(of), most.max(of)])
+        })
+    }
+
+    /// Fewest members that ended at a start that is known to be clear by its runs, and the chance of an alarm that so many
+    /// without a sighting exclude: the upper end of the 95 % interval (Wilson). Nothing where no start is.
+    pub fn excluded(&self) -> Option<(u32, f64)> {
+        let starts = self.cells.iter().flat_map(|cell| &cell.starts);
+        let clear = starts.filter(|start| start.state == State::Known && !start.expected && start.failed == 0);
+        let least = clear.map(|start| start.members).min()?;
+        const Z: f64 = 1.959_963_984_540_054;
+        Some((least, Z * Z / (f64::from(least) + Z * Z)))
+    }
+
+    /// How many members ended per run, and what so many without an alarm exclude. The numbers are those that ran.
+    pub fn members_in_words(&self) -> String {
+        let Some([least, most]) = self.members_ended() else {
+            return "No member of any run ended.".to_owned();
+        };
+        let ended = if least == most {
+            format!("{least}")
+        } else {
+            format!("{least} to {most}")
+        };
+        let why = match self.run_all {
+            _ if least == self.members => "",
+            true => "; the others failed",
+            false => "; a run ends early once its members decide every alarm",
+        };
+        let mut text = format!("In each run {ended} of at most {} members ended{why}.", self.members);
+        if let Some((least, chance)) = self.excluded() {
+            let excludes = format!(
+                " No alarm in {least} excludes chances above {:.0} %: a clear cell may have up to that.",
+                100.0 * chance
+            );
+            text.push_str(&excludes);
+        }
+        text
     }
 
     /// The cell of a column and a row.

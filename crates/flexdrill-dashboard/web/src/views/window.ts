@@ -50,9 +50,18 @@ export function sentence(map: SafeWindow, rpm: number, kilonewton: number): stri
       return `alarm expected${likely}${how}`;
     case SafeWindow.DEPENDS_ON_START:
       return `an alarm comes or not, depending on the way there${likely}${how}`;
+    case SafeWindow.NOT_KNOWN:
+      return `not known: not run here, and the runs nearby do not say${likely}`;
     default:
       return "unknown: runs of the map failed here";
   }
+}
+
+/** How many runs a cell has per start: what ended, not what was allowed. */
+export function members(map: SafeWindow): string {
+  const { least_members: least, most_members: most } = map;
+  if (most === 0) return "No run of this map ended, each";
+  return `Each start of a cell that was run: ${least === most ? most : `${least} to ${most}`} runs`;
 }
 
 export class WindowView implements View {
@@ -79,7 +88,8 @@ export class WindowView implements View {
       key("clear", "no alarm expected"),
       key("alarm", "alarm expected"),
       key("depends", "depends on the way there"),
-      key("unknown", "unknown"),
+      key("unknown", "a run failed"),
+      key("not-known", "not known"),
       h("span", {}, "● now"),
       h("span", {}, "— last hour"),
       h("span", {}, "◇ asked"),
@@ -131,7 +141,7 @@ export class WindowView implements View {
     }
     setText(
       this.hint,
-      `Each cell: up to ${map.members} runs of ${number(map.horizon, 0)} s per start. A click puts a point into the question.`,
+      `${members(map)} of ${number(map.horizon, 0)} s. A click puts a point into the question.`,
     );
     const moment = store.moment();
     const scalar = (name: "rotary_speed_applied" | "weight_on_bit_applied") =>
@@ -251,10 +261,11 @@ export class WindowView implements View {
     pencil.fillStyle = palette.panel;
     if (verdict === SafeWindow.ALARM) pencil.fillStyle = tint(palette.medium, 0.75);
     if (verdict === SafeWindow.DEPENDS_ON_START) pencil.fillStyle = tint(palette.medium, 0.3);
-    if (verdict === SafeWindow.UNKNOWN) pencil.fillStyle = palette.well;
+    if (verdict === SafeWindow.UNKNOWN || verdict === SafeWindow.NOT_KNOWN) pencil.fillStyle = palette.well;
     pencil.fillRect(left, top, width + 0.5, height + 0.5);
     if (verdict === SafeWindow.CLEAR) return;
-    // Stripes one way for an alarm, dots for what depends, crosses for the unknown: colour never stands alone.
+    // Close stripes for an alarm, wide ones for what depends, crosses where a run failed, one diagonal where nothing is
+    // known: colour never stands alone.
     pencil.save();
     pencil.beginPath();
     pencil.rect(left, top, width, height);
@@ -271,7 +282,12 @@ export class WindowView implements View {
     };
     if (verdict === SafeWindow.ALARM) stripes(7, 1);
     else if (verdict === SafeWindow.DEPENDS_ON_START) stripes(14, 1);
-    else {
+    else if (verdict === SafeWindow.NOT_KNOWN) {
+      pencil.beginPath();
+      pencil.moveTo(left, top);
+      pencil.lineTo(left + width, top + height);
+      pencil.stroke();
+    } else {
       stripes(9, 1);
       stripes(9, -1);
     }
