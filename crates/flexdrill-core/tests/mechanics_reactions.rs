@@ -16,7 +16,7 @@ use flexdrill_core::tool::{
     AddedMass, Body, Direction, FreeCurvature, LoadHistory, Location, MudDamping, MudDescription, MudFilm, PointLoad,
     PointMass, PressureDescription, PressureEnd, PressureSource, ToolDescription,
 };
-use flexdrill_core::twin::{Reactions, Simulation, SimulationSettings};
+use flexdrill_core::twin::{Holder, Reactions, Simulation, SimulationSettings};
 use nalgebra::Vector3;
 
 /// Newton leaves at most 10 mN on a node at rest. The paper's tool has 166 stations of two nodes each.
