@@ -48,7 +48,8 @@ pub(super) fn is_judged_at(id: AlarmId, [rpm, kn]: [f64; 2], settings: &Simulati
             | HazardKind::JointLoad
             | HazardKind::ChaoticWhirl
             | HazardKind::GuidePreload
-            | HazardKind::PressureFolding,
+            | HazardKind::PressureFolding
+            | HazardKind::BitStuck,
         ) => true,
     };
     // Below the gate of whirl the drive counts as standing, and no alarm of the motion is judged.
@@ -199,6 +200,7 @@ impl Measured {
                 HazardKind::PressureFolding,
                 pressure_folding.as_ref().map(|load| &load.thresholds),
             ),
+            (HazardKind::BitStuck, Some(&self.settings.transfer.stall)),
         ]
         .map(|(kind, thresholds)| (kind, load(thresholds, kind)));
         for (kind, severity) in loads {

@@ -1,5 +1,6 @@
 //! `flexdrill check CONFIG`: reads a configuration, and prints a summary or every problem in it.
 
+use std::f64::consts::TAU;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -7,7 +8,7 @@ use clap::Args;
 
 use crate::cli::output::{say, say_text};
 use flexdrill_config::Config;
-use flexdrill_core::tool::JointKind;
+use flexdrill_core::tool::{JointKind, TorsionalMode};
 use flexdrill_core::units::kn_to_n;
 
 /// Checks a configuration file and prints a summary.
@@ -115,6 +116,10 @@ impl fmt::Display for Summary<'_> {
                 kn_to_n(tool.bit.torque_arm())
             ),
         )?;
+        let modes = config.torsional_modes();
+        if !modes.is_empty() {
+            row("torsional modes", modes_in_words(&modes))?;
+        }
         row(
             "step",
             format!("{}, {}", config.solver.step_in_words(), config.solver.scheme_in_words()),
@@ -140,6 +145,25 @@ impl fmt::Display for Summary<'_> {
         }
         Ok(())
     }
+}
+
+/// Decay times (s) beyond this are shown as none.
+const LONGEST_DECAY: f64 = 1000.0;
+
+/// Frequency of each mode, and the time in which its amplitude falls to 37 %.
+fn modes_in_words(modes: &[TorsionalMode]) -> String {
+    let words = modes.iter().map(|mode| {
+        let frequency = mode.frequency / TAU;
+        if mode.decay * LONGEST_DECAY > 1.0 {
+            format!("{frequency:.3} Hz decays in {:.1} s", 1.0 / mode.decay)
+        } else {
+            format!("{frequency:.3} Hz does not decay")
+        }
+    });
+    format!(
+        "{}; of drive, string and tool off bottom",
+        words.collect::<Vec<_>>().join(", ")
+    )
 }
 
 fn joint_name(kind: JointKind) -> &'static str {

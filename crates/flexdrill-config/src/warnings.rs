@@ -2,7 +2,7 @@
 
 use super::solver::{Solver, StepTaken};
 use super::{Config, HardBounds, WallFrictionFactors};
-use flexdrill_core::tool::{AddedMass, HoleInterval, Location};
+use flexdrill_core::tool::{AddedMass, HoleInterval, Location, TorsionalMode};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// Smallest duration of a collision of pipe and guide, in steps. The default tool's lasts 1.5 steps and is accurate; at
@@ -15,10 +15,45 @@ const FEWEST_STEPS: f64 = 1.1;
 /// (`docs/measurements.md`, the rig's tool).
 const LONGEST_WITH_PLAY: f64 = 2.5e-4;
 
+/// Rate of decay (1/s) below which a mode has none: a thousand seconds are longer than a driller waits.
+const LEAST_DECAY: f64 = 1e-3;
+
 /// Strain at which a guide of good steel yields: API 5DP grade S-135 has a yield strength of 931 MPa, at 206 GPa.
 const YIELD_STRAIN: f64 = 931e6 / 206e9;
 
+/// Torsional modes that are shown and judged: higher ones decay as fast, and the joints' ripple is above them.
+const SHOWN_MODES: usize = 4;
+
 impl Config {
+    /// The lowest torsional modes of top drive, string and tool off bottom, by frequency; none without a string.
+    pub fn torsional_modes(&self) -> Vec<TorsionalMode> {
+        self.tool().torsional_modes(SHOWN_MODES)
+    }
+
+    /// Warns of a mode above the first that decays slower than the window of the stick-slip index is long: the index and its
+    /// alarm then outlast their cause, so that the driller lowers the weight against a swing that no weight feeds.
+    fn warn_of_ringing(&self, warnings: &mut Vec<String>) {
+        let (modes, window) = (self.torsional_modes(), self.stick_slip.window);
+        let lasts = |mode: &TorsionalMode| mode.decay * window < 1.0;
+        let Some((index, mode)) = modes.iter().enumerate().skip(1).find(|(_, mode)| lasts(mode)) else {
+            return;
+        };
+        let time = if mode.decay > LEAST_DECAY {
+            format!("decays in {:.0} s, longer than", 1.0 / mode.decay)
+        } else {
+            "does not decay within".to_owned()
+        };
+        let why = if modes[..index].iter().any(lasts) {
+            "neither the drive nor the string damps it"
+        } else {
+            "the drive's tuning damps only the modes below"
+        };
+        warnings.push(format!(
+            "the torsional mode of top drive, string and tool at {:.2} Hz {time} the {window} s of stick_slip.window: {why}. The bit goes on swinging after its cause is gone, and a bit torque that falls with the speed makes it stick; give string.attenuation_per_km, or tune string.top_drive",
+            mode.frequency / std::f64::consts::TAU
+        ));
+    }
+
     /// Warnings as sentences, most important first.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -27,6 +62,7 @@ impl Config {
         self.warn_of_short_contacts(&mut warnings);
         self.warn_of_play(&mut warnings);
         self.warn_of_yield(&mut warnings);
+        self.warn_of_ringing(&mut warnings);
         self.warn_of_mud(&mut warnings);
         self.warn_of_idle_factors(&mut warnings);
         let off_mesh = self.tool.pipe.pieces_off_mesh(self.tool.elements_per_link);

@@ -20,7 +20,7 @@ use flexdrill_config::Config;
 use flexdrill_core::tool::{HoleInterval, SectionProperties};
 use flexdrill_fit::overlay::{self, Provenance};
 use flexdrill_fit::point::{Figures, Load};
-use flexdrill_fit::points::{Cover, Point, design};
+use flexdrill_fit::points::{Cover, design};
 use flexdrill_fit::study::{self, Study};
 use flexdrill_fit::unknowns::Unknowns;
 

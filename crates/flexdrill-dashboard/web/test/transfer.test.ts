@@ -55,7 +55,10 @@ test("a tool below a string has all places, the paper's tool neither surface nor
 
 test("a drive at its torque limit is shown, one below it is not", () => {
   const shown = (share: number) => facts(transfer({ drive_at_limit: share }), "si").map((row) => row.values[0]);
-  assert.deepEqual([shown(0.4), shown(1), shown(0), shown(NaN)], [["40.0 % of the time"], ["100.0 % of the time"], [], []]);
+  assert.deepEqual(
+    [shown(0.4), shown(1), shown(0), shown(NaN)],
+    [["40.0 % of the time"], ["100.0 % of the time"], [], []],
+  );
 });
 
 test("a weight of nothing has no share, whatever the bit has", () => {

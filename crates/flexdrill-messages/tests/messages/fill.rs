@@ -2,7 +2,7 @@
 
 use flexdrill_core::motion::{DriveState, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
-use flexdrill_core::twin::{ContactLayer, Snapshot};
+use flexdrill_core::twin::{ContactLayer, Holder, Snapshot};
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::fill::{self, ShapeStyle};
 use flexdrill_messages::std_msgs::Header;

@@ -2,7 +2,7 @@
 //!
 //! A uniform piece of length L carries torsional and axial waves without dispersion (d'Alembert): with f going down and g
 //! coming up, the speed is f + g and the torque or force that is passed down z (f - g). A wave that enters a piece leaves
-//! it tau = L / c later, scaled by e^(-k L). Every end reads waves from the past only, so that the string adds to the
+//! it tau = L / c later; lumps between pieces attenuate it. Every end reads waves from the past only, so that the string adds to the
 //! tool's equations nothing but a dashpot z and a known force at the first node:
 //!
 //! ```text

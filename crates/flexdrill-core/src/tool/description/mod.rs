@@ -5,6 +5,7 @@
 
 mod joint;
 mod mud_and_pressure;
+mod torsion;
 
 use serde::{Deserialize, Serialize};
 

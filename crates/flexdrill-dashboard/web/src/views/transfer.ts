@@ -125,7 +125,10 @@ export function facts(t: Transfer, system: System): Row[] {
     ),
     row("Depth of cut", t.depth_of_cut, "cut", " per turn"),
     // A drive that is never at its limit has nothing to show.
-    { label: "Top drive at its limit", values: [t.drive_at_limit > 0 ? `${percent(t.drive_at_limit)} of the time` : ""] },
+    {
+      label: "Top drive at its limit",
+      values: [t.drive_at_limit > 0 ? `${percent(t.drive_at_limit)} of the time` : ""],
+    },
   ]);
 }
 

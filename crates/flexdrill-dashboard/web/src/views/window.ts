@@ -139,10 +139,7 @@ export class WindowView implements View {
       setText(this.hint, "No map is loaded (map.file in the configuration of the twin; flexdrill map makes one).");
       return;
     }
-    setText(
-      this.hint,
-      `${members(map)} of ${number(map.horizon, 0)} s. A click puts a point into the question.`,
-    );
+    setText(this.hint, `${members(map)} of ${number(map.horizon, 0)} s. A click puts a point into the question.`);
     const moment = store.moment();
     const scalar = (name: "rotary_speed_applied" | "weight_on_bit_applied") =>
       moment ? moment.layout.scalar(moment.row, name) : NaN;
