@@ -1673,13 +1673,14 @@ pub mod flexdrill {
         pub drive_power: f64,
         /// Of the hoist (W).
         pub hoist_power: f64,
-        /// Of the weight on bit, where the weight is given (W).
+        /// Of the weight on bit (W); below a hoist minus the power that the rock takes along the hole.
         pub weight_on_bit_power: f64,
         /// Of gravity (W).
         pub gravity_power: f64,
         /// Of the point loads (W).
         pub load_power: f64,
-        /// Of the advance of the tool against the friction of the wall (W).
+        /// Of the advance (W): the friction of the wall times the advance; below a hoist with the weight on bit and less the string's
+        /// force times the advance, which the displacements of the tool in its frame do not contain.
         pub feed_power: f64,
         /// Of the pressure in the pipe (W).
         pub pressure_power: f64,

@@ -1319,13 +1319,16 @@ export interface Transfer {
   drive_power: number;
   /** Of the hoist (W). */
   hoist_power: number;
-  /** Of the weight on bit, where the weight is given (W). */
+  /** Of the weight on bit (W); below a hoist minus the power that the rock takes along the hole. */
   weight_on_bit_power: number;
   /** Of gravity (W). */
   gravity_power: number;
   /** Of the point loads (W). */
   load_power: number;
-  /** Of the advance of the tool against the friction of the wall (W). */
+  /**
+   * Of the advance (W): the friction of the wall times the advance; below a hoist with the weight on bit and less the string's
+   * force times the advance, which the displacements of the tool in its frame do not contain.
+   */
   feed_power: number;
   /** Of the pressure in the pipe (W). */
   pressure_power: number;
