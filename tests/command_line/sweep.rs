@@ -182,8 +182,8 @@ fn a_map_has_the_same_bytes_with_any_threads_and_interruptions() {
     assert!(map.runs <= 14, "{}", map.runs);
 }
 
-/// One Newton iteration and no smaller step: no run can be computed.
-const FAILING: [&str; 4] = ["--set", "solver.max_iterations=1", "--set", "solver.max_halvings=0"];
+/// Two Newton iterations and no smaller step: no run can be computed.
+const FAILING: [&str; 4] = ["--set", "solver.max_iterations=2", "--set", "solver.max_halvings=0"];
 
 #[test]
 fn settings_under_which_every_run_fails_leave_nothing_clear() {
@@ -276,8 +276,11 @@ fn the_map_states_the_members_that_ran() {
     assert!(words.contains(said), "{words}");
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     assert!(read("map.html").contains(said) && read("map.json").contains("\"run_all\":true"));
-    let picture = read("map.svg");
-    assert!(picture.contains("2 of at most 2 members"), "{}", &picture[..2000]);
+    let table = read("map.csv");
+    assert!(
+        table.lines().next().is_some_and(|names| names.contains("members")),
+        "{table}"
+    );
 }
 
 #[test]

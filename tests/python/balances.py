@@ -557,6 +557,17 @@ def link_balances(tool, sampled, out):
         out.append(worst)
 
 
+def without_nan(value):
+    """The same with null for numbers that are none, which JSON does not have."""
+    if isinstance(value, dict):
+        return {key: without_nan(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [without_nan(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
 def pipe_top(reactions):
     """Force of the support on the pipe's top (N)."""
     total = np.zeros(3)
@@ -953,7 +964,7 @@ def main():
             {**asdict(window), "balances": [{**asdict(b), "violated": b.violated} for b in window.balances]}
             for window in windows
         ]
-        print(json.dumps({"windows": rows, "violated": len(violated)}))
+        print(json.dumps(without_nan({"windows": rows, "violated": len(violated)}), allow_nan=False))
     else:
         for window in windows:
             print(f"{window.condition}, {window.start:.1f} to {window.end:.1f} s")

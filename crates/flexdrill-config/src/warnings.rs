@@ -325,17 +325,24 @@ mod tests {
             config.warn_of_yield(&mut warnings);
             warnings
         };
-        assert!(yields(&default_tool()).is_empty());
+        // Without stress in the arc, but not in the straight hole above: 51 mm / 3.2 m.
+        let warnings = yields(&default_tool());
+        for part in ["made with the curvature of the arc", "1.59 %", "tool.guide.outer_fibre"] {
+            assert!(warnings[0].contains(part), "'{part}' is not in {}", warnings[0]);
+        }
+        assert!(yields(&default_tool().with_value("tool.guide.fixed", true).unwrap()).is_empty());
         let straight = default_tool().with_value("tool.guide.free_curvature", 0.0).unwrap();
         let warnings = yields(&straight);
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         // 51 mm / 3.2 m.
-        for part in ["tool.guide.free_curvature", "1.59 %", "0.45 %", "bending_factor 1"] {
+        for part in ["tool.guide.free_curvature", "1.59 %", "0.45 %", "made with 0.0000 1/m"] {
             assert!(warnings[0].contains(part), "'{part}' is not in {}", warnings[0]);
         }
-        // (1/3.2 - 0.23) x 51 mm = 0.42 %.
+        // Above the arc it is bent by 0.23 x 51 mm = 1.17 %, and with ribs that reach 19 mm out by 0.44 %.
         let bent = straight.with_value("tool.guide.free_curvature", 0.23).unwrap();
-        assert!(yields(&bent).is_empty());
+        assert!(yields(&bent)[0].contains("1.17 %"));
+        let ribs = bent.with_value("tool.guide.outer_fibre", 0.019).unwrap();
+        assert!(yields(&ribs).is_empty());
         // Slots that close at 0.25 1/m leave (1/3.2 - 0.25) x 51 mm = 0.32 % to the tube, at 0.2 1/m 0.57 %.
         let slotted = straight.with_value("tool.guide.bending_factor", 0.05).unwrap();
         let closing = |at: f64| {
@@ -358,7 +365,7 @@ mod tests {
             ("boundary.supports", turned),
             ("tool.guide.free_curvature_phase_deg", 180.0.into()),
         ];
-        assert_eq!(yields(&bent.with_values("test", against).unwrap()).len(), 1);
+        assert_eq!(yields(&ribs.with_values("test", against).unwrap()).len(), 1);
     }
 
     #[test]

@@ -519,7 +519,7 @@ fn impossible_strings_and_rocks_name_both_keys() {
         ),
         (
             with_line("rock: {law: depth_of_cut}\nboundary: {supports: [{at: top, body: guide, fix: [u]}]}\n"),
-            "boundary.supports = u of the guide at the top",
+            "boundary.supports = u of a pipe at the top",
             "rock.law: depth_of_cut",
         ),
         (

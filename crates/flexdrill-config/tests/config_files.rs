@@ -56,7 +56,12 @@ tool:
     let minimal = Config::from_text("minimal", minimal).unwrap();
     let file = Config::load(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/default.yaml")).unwrap();
     assert_eq!(minimal, file);
-    assert!(file.warnings().is_empty(), "{:?}", file.warnings());
+    // The paper's guide has no stress in the arc, and would yield on its way there.
+    let warnings = file.warnings();
+    assert!(
+        warnings.len() == 1 && warnings[0].starts_with("tool.guide: "),
+        "{warnings:?}"
+    );
 }
 
 /// The core has the same numbers in code, for users without YAML.

@@ -101,6 +101,14 @@ impl Stepper {
         if let Some(force) = self.string_force() {
             return Some(force);
         }
+        // A seal pulls the guide and pushes the pipe by the same force, which both supports give back to the string.
+        let by_seal = self.model.pressure_on_guide()[0] * self.track.energy.pressure;
+        Some(self.held_at_guide_top()? + by_seal)
+    }
+
+    /// Force of the support at the guide's top (N) along the hole, positive where it pushes the guide down; `None` where the
+    /// guide is not held there.
+    fn held_at_guide_top(&self) -> Option<f64> {
         let index = self.model.held.binary_search(&self.model.stations[0].guide).ok()?;
         Some(self.track.energy.reactions[index])
     }
@@ -125,7 +133,7 @@ impl Stepper {
         // Without a hoist a support stands for the string's axial force on the guide.
         let held = match string.description().hoist {
             Some(_) => 0.0,
-            None => self.weight_at_kickoff().unwrap_or(0.0),
+            None => self.held_at_guide_top().unwrap_or(0.0),
         };
         Some(string.hook_load() - held - self.held_at_pipe_top())
     }

@@ -113,23 +113,20 @@ impl DepthOfCut {
         let cuts = depth > path;
         let depth_of_cut = if cuts { share * blades * (depth - path) } else { 0.0 };
         // The wear flats press elastically over their travel. While the bit cuts they follow it down at their full force; the
-        // rock below them is broken by the cutters. Turning back they carry whatever weight there is.
+        // rock below them is broken by the cutters. Turning back they carry whatever weight there is: the less of the
+        // cutters' faces is in the rock, the more the flats bear before they follow, so that a bit that stands does not sink.
         let stiffness = self.wear_flat_force / self.wear_flat_travel;
-        let deepest = depth - self.wear_flat_travel;
-        let yields = (deepest - groove.pressed()).max(0.0);
-        let pressed = if share < 1.0 {
-            groove.pressed() + share * yields
+        let deepest = if share > 0.0 {
+            depth - self.wear_flat_travel / share
         } else {
-            groove.pressed().max(deepest)
+            f64::NEG_INFINITY
         };
+        let yields = deepest > groove.pressed();
+        let pressed = if yields { deepest } else { groove.pressed() };
         let compressed = depth - pressed;
         let bears = compressed > 0.0;
         let flat = if bears { stiffness * compressed } else { 0.0 };
-        let flat_slope = match (bears, yields > 0.0) {
-            (false, _) => 0.0,
-            (true, false) => stiffness,
-            (true, true) => (1.0 - share) * stiffness,
-        };
+        let flat_slope = if bears && !yields { stiffness } else { 0.0 };
         let by_depth = if cuts { share * blades * cutting } else { 0.0 };
         let by_angle = -by_depth * slope;
         // A bit without wear flats stands on its cutters in either sense.

@@ -341,3 +341,40 @@ fn analytic_regeneration() {
         scaled_figure(&format!("growth at {factor} K (1/s)"), expected, got, 1.0, 0.01);
     }
 }
+
+/// A bit that stands a part of a grid spacing behind its front, under more than twice the wear flats' force, sinks until flats and
+/// cutters carry the weight, and no further. Tolerance: rounding of the search for the depth.
+#[test]
+fn a_bit_that_stands_behind_its_front_does_not_sink() {
+    let cut = DepthOfCut {
+        blades: 4,
+        specific_energy: 30e6,
+        cutter_inclination: 0.6,
+        wear_flat_force: 8670.0,
+        wear_flat_friction: 0.106,
+        wear_flat_travel: 1e-4,
+        weakening: Weakening::NONE,
+    };
+    for part in [0.0, 0.3, 0.5, 0.9] {
+        let mut groove = Groove::new(4);
+        groove.begin(0.0, 0.0);
+        groove.slide_to(part * TAU / 4096.0);
+        let mut reached = [0.0; 2];
+        for step in 0..2000 {
+            let at = |depth: f64| cut.answer(0.059, depth, 0.0, &groove, groove.share(0.0));
+            let (mut low, mut high) = (-1e-3, 0.1);
+            for _ in 0..200 {
+                let middle = 0.5 * (low + high);
+                if at(middle).weight < 20e3 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            let pressed = at(high).pressed;
+            groove.record(0.0, high, pressed);
+            reached[usize::from(step > 10)] = high;
+        }
+        assert!((reached[1] - reached[0]).abs() < 1e-12, "{part}: {reached:?} m");
+    }
+}

@@ -192,13 +192,10 @@ fn a_stall_is_called_by_its_time() {
     }
     let expected = |level: Severity| levels.iter().filter(|found| **found >= level).count();
     // From the blocks that end at 2, 5 and 10 s on: in the second that ends there, or by rounding of a block in the next.
-    assert_eq!(
-        [Severity::Watch, Severity::Warning, Severity::Critical]
-            .map(expected)
-            .map(|count| count.clamp(2, 11)),
-        [11, 8, 3],
-        "{levels:?}"
-    );
+    let found = [Severity::Watch, Severity::Warning, Severity::Critical].map(expected);
+    for (count, most) in found.into_iter().zip([11, 8, 3]) {
+        assert!(count == most || count == most - 1, "{levels:?}");
+    }
     assert!((fed.watch.stall(fed.time).value - 12.0).abs() < 0.11);
     // The bit is free: after the hold-off the level ends.
     fed.run(6.0, true, |_| turning(4.0));
