@@ -341,7 +341,16 @@ mod tests {
         // Above the arc it is bent by 0.23 x 51 mm = 1.17 %, and with ribs that reach 19 mm out by 0.44 %.
         let bent = straight.with_value("tool.guide.free_curvature", 0.23).unwrap();
         assert!(yields(&bent)[0].contains("1.17 %"));
-        let ribs = bent.with_value("tool.guide.outer_fibre", 0.019).unwrap();
+        let ribs = r#"
+well: {sections: [{arc: {radius: 3.2, build_angle_deg: 90}}], hole_diameter: 0.118}
+tool:
+  links: 33
+  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
+  guide: {outer_diameter: 0.102, inner_diameter: 0.080, free_curvature: 0.23, outer_fibre: 0.019}
+  joint: {limit_deg: 6}
+  bit: {diameter: 0.118}
+"#;
+        let ribs = Config::from_text("ribs", ribs).unwrap();
         assert!(yields(&ribs).is_empty());
         // Slots that close at 0.25 1/m leave (1/3.2 - 0.25) x 51 mm = 0.32 % to the tube, at 0.2 1/m 0.57 %.
         let slotted = straight.with_value("tool.guide.bending_factor", 0.05).unwrap();
