@@ -62,7 +62,7 @@ fn result(plan: &Plan) -> Outcome {
         failed: 1,
         failure: "a step failed".to_owned(),
         run_up: Some(2.5),
-        any_alarm: [0, 1, 0],
+        any_alarm: [1, 1, 0],
         alarms: vec![AlarmCount {
             alarm: "shock".to_owned(),
             priority: Priority::Medium,

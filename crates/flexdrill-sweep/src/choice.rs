@@ -222,7 +222,7 @@ impl Choice {
             let row = (part * (rows - 1) + parts / 2) / parts;
             let of_row = |column: &usize| {
                 let is_end = *column == 0 || column + 1 == columns;
-                is_end || (column + part) % SIDE == 0
+                is_end || (column + part).is_multiple_of(SIDE)
             };
             cells.extend((0..columns).filter(of_row).map(|column| row * columns + column));
         }

@@ -182,11 +182,14 @@ impl Outcome {
         }
         for (priority, any) in Priority::ALL.into_iter().zip(self.any_alarm) {
             // As many as saw one of them, at most as many as saw them together.
-            let of = self.alarms.iter().filter(|count| count.priority == priority);
+            let of = self.alarms.iter().filter(|count| count.priority >= priority);
             let least = of.clone().map(|count| count.seen).max().unwrap_or(0);
             let most = of.map(|count| u64::from(count.seen)).sum::<u64>().min(u64::from(ended));
             if !(u64::from(least)..=most).contains(&u64::from(any)) {
-                let bound = format!("{least} to {most} with {} priority, as its alarms say", priority.name());
+                let bound = format!(
+                    "{least} to {most} with {} priority or a higher one, as its alarms say",
+                    priority.name()
+                );
                 return wrong("any_alarm", any.to_string(), bound);
             }
         }

@@ -288,7 +288,7 @@ impl Kernel for SpanEnergies<'_> {
 }
 
 impl Chain {
-    /// Sum of the forces by which the spans' tensions act on their tilt against the hole, in the world (N).
+    /// Sum of the forces of the spans' tensions in the geometric stiffness, in the world (N).
     pub(crate) fn turned_with_the_tool(&self, model: &Model, energy: &EnergyPoint) -> Vector3<f64> {
         let forces = energy
             .spans

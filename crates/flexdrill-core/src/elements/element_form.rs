@@ -13,8 +13,6 @@
 //!   phi_z  .   p   .   .    .    d
 //! ```
 //!
-//! In a curved hole the geometric stiffness, of the tilt against the hole, also couples u with w ([`Beam::geometric_along`]).
-//!
 //! A product with a node is then the diagonal times the lanes, plus the paired entries times the lanes in paired order
 //! ([`Vector::paired`]): two fused operations instead of six.
 
@@ -28,9 +26,6 @@ pub type Lanes = [f64; 8];
 
 /// The other unknown of the same bending plane.
 const PAIR: [usize; 6] = [0, 5, 4, 3, 2, 1];
-
-/// The unknowns u and w.
-const CROSSED: [usize; 2] = [0, 2];
 
 /// Loads the node that begins at `first`. The two unused lanes hold the values that follow in the array, which spares a
 /// mask; the matrices have zeros there.
@@ -72,8 +67,6 @@ pub struct ElementForm {
     diagonal: [[Lanes; 2]; 2],
     /// Couplings of a deflection with a slope, by row node and column node.
     paired: [[Lanes; 2]; 2],
-    /// Couplings of u with w, by row node and column node; none where there are none.
-    crossed: Option<Box<[[Lanes; 2]; 2]>>,
 }
 
 impl ElementForm {
@@ -95,18 +88,6 @@ impl ElementForm {
                     matrix[(row + k, column + PAIR[k])]
                 }
             }),
-            crossed: {
-                let of = |row, column, k: usize| {
-                    if CROSSED.contains(&k) {
-                        matrix[(row + k, column + 2 - k)]
-                    } else {
-                        0.0
-                    }
-                };
-                let crossed = filled(&of);
-                let is_there = crossed.as_flattened().as_flattened().iter().any(|&x| x != 0.0);
-                is_there.then(|| Box::new(crossed))
-            },
         }
     }
 
@@ -121,14 +102,6 @@ impl ElementForm {
                 .plus_product(V::load(&p[0]), swapped[0])
                 .plus_product(V::load(&d[1]), x[1])
                 .plus_product(V::load(&p[1]), swapped[1]);
-        }
-        if let Some(crossed) = &self.crossed {
-            let across = [x[0].across(), x[1].across()];
-            for (out, c) in out.iter_mut().zip(&**crossed) {
-                *out = out
-                    .plus_product(V::load(&c[0]), across[0])
-                    .plus_product(V::load(&c[1]), across[1]);
-            }
         }
     }
 
@@ -146,13 +119,7 @@ impl ElementForm {
             let scale = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             a.iter().zip(b).all(|(x, y)| (x - y).abs() <= SAME * scale)
         };
-        close(&self.diagonal, &other.diagonal)
-            && close(&self.paired, &other.paired)
-            && match (&self.crossed, &other.crossed) {
-                (Some(a), Some(b)) => close(a, b),
-                (None, None) => true,
-                _ => false,
-            }
+        close(&self.diagonal, &other.diagonal) && close(&self.paired, &other.paired)
     }
 }
 

@@ -15,7 +15,7 @@ pub struct PipeElement {
     pub beam: Beam,
     /// Curvature of the hole that the link turns with as it slides (1/m).
     pub curvature: f64,
-    /// G, geometric stiffness per unit of tension (Eq. 41), of the tilt against the hole.
+    /// G, geometric stiffness per unit of tension (Eq. 41), see [`Beam::geometric_along`].
     pub geometric: ElementMatrix,
     /// Consistent forces of gravity (N).
     pub weight: ElementVector,
@@ -36,7 +36,7 @@ pub struct GuideElement {
     pub stiffness: ElementMatrix,
     /// Gamma^T M Gamma.
     pub mass: ElementMatrix,
-    /// Gamma^T G Gamma, of the tilt against the hole.
+    /// Gamma^T G Gamma, see [`Beam::geometric_along`].
     pub geometric: ElementMatrix,
     /// Of a guide that is not without stress in the path.
     pub preload: Option<Preload>,

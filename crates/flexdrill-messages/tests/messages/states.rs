@@ -33,7 +33,11 @@ const TABLE: &[(&str, &str, &str)] = &[
         "++++++",
         "a root mean square has no sign",
     ),
-    ("transfer.kickoff_torque", "+.+-++", "as at the surface"),
+    (
+        "transfer.kickoff_torque",
+        "+..-++",
+        "as at the surface; off bottom only what the tool takes, which may be next to nothing",
+    ),
     (
         "transfer.kickoff_torque_rms",
         "++++++",
@@ -130,8 +134,8 @@ const TABLE: &[(&str, &str, &str)] = &[
     ),
     (
         "transfer.weight_on_bit_power",
-        "000000",
-        "the weight is the rock's: nothing puts it in",
+        "-0000-",
+        "minus what the rock takes along the hole, while the bit advances",
     ),
     ("transfer.gravity_power", "......", "of the motion about a mean"),
     ("transfer.load_power", "000000", "the tool has no loads"),

@@ -55,7 +55,7 @@ impl Stretched {
 }
 
 /// Sum of the forces N G q of the pipe's elements in the world (N), under the pressure `at_top` (Pa); zero where they do not
-/// shorten. A tension that acts on the tilt against an arc has a sum.
+/// shorten. Tensions alone have no sum; the wall's part in an arc has.
 pub(crate) fn turned_by_shortening(model: &Model, state: &State, at_top: f64) -> Vector3<f64> {
     let mut sum = Vector3::zeros();
     if !model.shortens() {

@@ -152,8 +152,8 @@ impl Stepper {
         self.track.energy.pressure
     }
 
-    /// Sum of the forces by which a tension acts on the tilt against the hole (N, along the axes of the world). A tension
-    /// that acts on the tilt itself has none: this is how far what pushes across the hole turns as the tool moves along it.
+    /// Sum of the forces of the tensions in the geometric stiffness (N, along the axes of the world). Tensions alone have none:
+    /// this is how far the wall's forces turn as the tool moves along the hole.
     fn turned_with_the_tool(&self) -> Vector3<f64> {
         let (model, energy) = (&self.model, &self.track.energy);
         match &self.chain {
