@@ -94,7 +94,7 @@ fn forces(twin: &mut Simulation, inputs: Inputs) -> [f64; 3] {
 /// bit = - w R for a weight w per length of both pipes, whatever hangs above and however far that is compressed. Nothing
 /// turns. Tolerance 0.5 % of w R: the guide itself is shortened by 0.15 mm, which moves 0.7 N.
 #[test]
-fn analytic_a_smooth_wall_passes_the_weight_by_gravity_alone() {
+fn a_smooth_wall_passes_the_weight_by_gravity_alone() {
     for (length, weight) in [(100.0, 20e3), (1000.0, 20e3), (3000.0, 20e3), (1000.0, 40e3)] {
         let tool = on_a_smooth_wall(length);
         let inputs = Inputs {

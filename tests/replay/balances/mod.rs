@@ -220,6 +220,7 @@ fn conditions(row: &Row) -> Vec<Phase> {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn every_pair_of_switches_balances_in_every_condition() {
     if python::with("rosbags").is_none() {
         return;
@@ -251,6 +252,7 @@ fn every_pair_of_switches_balances_in_every_condition() {
 }
 
 #[test]
+#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn every_shipped_configuration_balances() {
     if python::with("rosbags").is_none() {
         return;

@@ -291,7 +291,7 @@ mod tests {
     /// A top that begins to advance at V = 4 mm/s leaves its frame by x = V t exp(-s / t) with the lag t, most at s = t, and is
     /// back in it afterwards. Tolerance: Euler's rule at h / t = 5e-4.
     #[test]
-    fn analytic_the_frame_follows_the_tools_top() {
+    fn the_frame_follows_the_tools_top() {
         let (h, speed) = (1e-3, 4e-3);
         let (mut state, mut top, mut most) = (HOIST.at_rest(0.0, IMPEDANCE), 0.0, 0.0_f64);
         for _ in 0..(12.0 * FRAME_LAG / h) as usize {
