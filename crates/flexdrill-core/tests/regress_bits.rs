@@ -44,13 +44,13 @@ fn motion(tool: &ToolDescription, steps: u64) -> u64 {
 fn regress_the_papers_tool_keeps_its_bits() {
     assert_eq!(
         format!("{:016x}", motion(&ToolDescription::paper(), 1000)),
-        "8a5ac2ed71044d96"
+        "0d8e5ce73f747f18"
     );
 }
 
 #[test]
 fn regress_a_hinged_tool_keeps_its_bits() {
-    assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "24b7598a48af9b6b");
+    assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "7b9fd37bd8f493eb");
 }
 
 #[test]
@@ -58,5 +58,5 @@ fn regress_a_tied_tool_keeps_its_bits() {
     let tied = ToolDescription::paper().with_mesh(33, 2).with(|tool| {
         tool.wob_path = WobPath::Shared;
     });
-    assert_eq!(format!("{:016x}", motion(&tied, 500)), "3cf3f3bad336b7cb");
+    assert_eq!(format!("{:016x}", motion(&tied, 500)), "729cf6240494b0a5");
 }
