@@ -361,7 +361,7 @@ fn smooth(seed: u64) -> World {
             },
         },
     )];
-    if seed % 2 == 0 {
+    if seed.is_multiple_of(2) {
         let half = Shape::Half {
             through: [between(3, 0.0, 0.4), 0.5],
             direction: std::f64::consts::PI + between(4, -0.5, 0.5),

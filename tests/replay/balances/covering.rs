@@ -1,5 +1,8 @@
 //! A covering array of the switches of the physics: every pair of levels that the validation admits is in one row.
 
+/// Two levels: each a factor's number and the level's.
+type Pair = ((usize, usize), (usize, usize));
+
 /// One switch with its levels; level 0 is off, or the paper's.
 #[derive(Debug)]
 pub struct Factor {
@@ -97,12 +100,12 @@ fn is_excluded(one: (usize, usize), other: (usize, usize)) -> bool {
 }
 
 /// Pairs of levels of different factors, without those that cannot be together.
-fn pairs() -> Vec<((usize, usize), (usize, usize))> {
+fn pairs() -> Vec<Pair> {
     let mut out = Vec::new();
-    for a in 0..FACTORS.len() {
-        for b in a + 1..FACTORS.len() {
-            for x in 0..FACTORS[a].levels.len() {
-                for y in 0..FACTORS[b].levels.len() {
+    for (a, first) in FACTORS.iter().enumerate() {
+        for (b, second) in FACTORS.iter().enumerate().skip(a + 1) {
+            for x in 0..first.levels.len() {
+                for y in 0..second.levels.len() {
                     if !is_excluded((a, x), (b, y)) {
                         out.push(((a, x), (b, y)));
                     }
@@ -114,7 +117,7 @@ fn pairs() -> Vec<((usize, usize), (usize, usize))> {
 }
 
 /// Number of `open` pairs that a partial row has.
-fn gain(open: &[((usize, usize), (usize, usize))], row: &[Option<usize>]) -> usize {
+fn gain(open: &[Pair], row: &[Option<usize>]) -> usize {
     open.iter()
         .filter(|&&((a, x), (b, y))| row[a] == Some(x) && row[b] == Some(y))
         .count()
@@ -122,7 +125,7 @@ fn gain(open: &[((usize, usize), (usize, usize))], row: &[Option<usize>]) -> usi
 
 /// A row that begins with a pair and takes for each further factor, in the order given by `seed`, the admitted level with
 /// the most open pairs. `None` where it runs into a contradiction.
-fn grown(open: &[((usize, usize), (usize, usize))], seed: u64) -> Option<Row> {
+fn grown(open: &[Pair], seed: u64) -> Option<Row> {
     let mut row = [None; FACTORS.len()];
     let ((a, x), (b, y)) = open[seed as usize % open.len().min(7)];
     (row[a], row[b]) = (Some(x), Some(y));

@@ -353,9 +353,9 @@ fn the_lists_have_their_sums() {
             "damping_force",
         ];
         let left = list("unbalanced_force");
-        for axis in 0..3 {
+        for (axis, left) in left.iter().enumerate() {
             let total: f64 = sums.iter().map(|name| list(name)[axis]).sum();
-            assert!((total - left[axis]).abs() < 1e-8, "{state}: {total} N");
+            assert!((total - left).abs() < 1e-8, "{state}: {total} N");
         }
     }
 }
