@@ -27,7 +27,7 @@ pub struct Wave {
     /// Time of travel (s).
     pub delay: f64,
     /// Loss at the piece's lower end: torque over the difference of angular speeds (N m s), or force over that of speeds (N
-    /// s/m), against a body that follows within [`FOLLOWS_WITHIN`]. None at the last piece, where the tool begins.
+    /// s/m), against a body that follows within two seconds. None at the last piece, where the tool begins.
     pub drag: f64,
 }
 
@@ -68,7 +68,7 @@ impl Piece {
 
     /// The same with a loss at its lower end that lets the part e^-loss of a wave pass: 2 z / (2 z + drag). The dashpot
     /// stands on a body that it takes along, so that a steady rotation or advance takes nothing, and a static load does not
-    /// creep: waves alone are attenuated, in full at frequencies well above 1 / [`FOLLOWS_WITHIN`].
+    /// creep: waves alone are attenuated, in full at frequencies well above half a radian per second.
     #[must_use]
     pub fn with_loss(mut self, loss: f64) -> Self {
         for wave in [&mut self.torsion, &mut self.axial] {
