@@ -25,7 +25,9 @@ mod groove;
 #[cfg(test)]
 mod tests;
 
-pub use bit::{BitAt, BitLoad, BitMark, BitState};
+#[cfg(feature = "checkpoints")]
+pub use bit::BitState;
+pub use bit::{BitAt, BitLoad, BitMark};
 pub use bristle::Bristle;
 pub use groove::Groove;
 
