@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::output::{say, say_text};
-use flexdrill_config::Config;
+use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::{JointKind, TorsionalMode};
 use flexdrill_core::units::kn_to_n;
 
@@ -109,13 +109,21 @@ impl fmt::Display for Summary<'_> {
                 count.joint_rows
             ),
         )?;
-        row(
-            "bit torque",
-            format!(
-                "{:.2} N m per kN of weight on bit (Eq. 1)",
-                kn_to_n(tool.bit.torque_arm())
-            ),
-        )?;
+        if tool.joint.kind == JointKind::Universal && tool.links > 1 {
+            row(
+                "chain",
+                folding_in_words(tool.links as usize, tool.joint.cross_phase_step_deg),
+            )?;
+        }
+        if config.rock.law != Law::DepthOfCut {
+            row(
+                "bit torque",
+                format!(
+                    "{:.2} N m per kN of weight on bit (Eq. 1)",
+                    kn_to_n(tool.bit.torque_arm())
+                ),
+            )?;
+        }
         let modes = config.torsional_modes();
         if !modes.is_empty() {
             row("torsional modes", modes_in_words(&modes))?;
@@ -144,6 +152,20 @@ impl fmt::Display for Summary<'_> {
             row("warning", warning)?;
         }
         Ok(())
+    }
+}
+
+/// The torque that folds the chain of links straight in the hole, by the sense in which the tool turns.
+fn folding_in_words(links: usize, phase_step_deg: f64) -> String {
+    // The bit brakes forward rotation by a torque against the axis that points down the hole.
+    let [reverse, forward] = flexdrill_verify::folding_torques(links, phase_step_deg);
+    if (reverse - forward).abs() < 1e-3 {
+        format!("folds by a torque of {forward:.3} times its tension times a link's length, in both senses")
+    } else {
+        format!(
+            "folds by a torque of {forward:.3} times its tension times a link's length when it drills, of {reverse:.3} in \
+             reverse: crosses {phase_step_deg:.0} deg apart tell the senses apart"
+        )
     }
 }
 

@@ -233,16 +233,17 @@ fn a_bit_that_is_pulled_up_turning_raises_nothing() {
     );
 }
 
-/// Off bottom and under a weight below the wear flats' force, which a bit that turns back carries without cutting.
+/// Off bottom, and under a weight below the wear flats' force, which a bit that turns back carries without cutting: their
+/// friction, which falls with the speed, lets it swing, and nothing else is wrong.
 #[test]
-fn a_tool_that_is_turned_back_raises_nothing() {
-    for kn in [0.0, 5.0] {
+fn a_tool_that_is_turned_back_raises_nothing_but_its_swing() {
+    for (kn, raises) in [(0.0, &[] as &[AlarmId]), (4.0, &[AlarmId::StickSlip])] {
         let rig = operate(&Operation {
             set: Vec::new(),
             drilling: DRILLING.0,
             inputs: [-30.0, kn, 0.0, 0.0],
             seconds: [DRILLING.1, 50.0],
-            raises: &[],
+            raises,
             steady: STEADY,
         });
         let bit = &rig.snapshot.bit;
@@ -253,10 +254,9 @@ fn a_tool_that_is_turned_back_raises_nothing() {
 
 /// The drive stalls at its limit: the bit stands though the drive is asked to turn, which is called as stick-slip.
 #[test]
-#[ignore = "the alarm of the model's quality comes at a stall, whose cause is open"]
 fn a_drive_at_its_limit_is_called_as_a_bit_that_stands() {
     let mut rig = operate(&Operation {
-        set: vec![("string.top_drive.torque_limit", json!(120.0))],
+        set: vec![("string.top_drive.torque_limit", json!(170.0))],
         drilling: DRILLING.0,
         inputs: [40.0, 40.0, 0.0, 0.0],
         seconds: [DRILLING.1, 60.0],

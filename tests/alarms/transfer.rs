@@ -103,10 +103,16 @@ const INCLINED: [(&str, &str); 2] = [
 ];
 
 /// A guide that a ring of cuttings holds back: it sticks, and the bit keeps the 7 kN that it began with.
-const HELD_BACK: [(&str, &str); 1] = [(
-    "    friction: bristle ",
-    "    friction_axial: 2.0\n    friction_tangential: 2.0\n    friction: bristle ",
-)];
+const HELD_BACK: [(&str, &str); 2] = [
+    (
+        "    friction: bristle ",
+        "    friction_axial: 2.0\n    friction_tangential: 2.0\n    friction: bristle ",
+    ),
+    (
+        "contact:\n",
+        "contact:\n  wall_friction_factors: {before_arc: 1.5, arc: 1.5, after_arc: 1.5}\n",
+    ),
+];
 
 #[test]
 fn normal_drilling_with_the_rigs_tool_calls_nothing() {
@@ -118,7 +124,7 @@ fn normal_drilling_with_the_rigs_tool_calls_nothing() {
 fn weight_that_does_not_arrive_is_called() {
     let outcome = drill(changed("rig.yaml", &HELD_BACK), 40.0, 45.0, 40.0);
     let (_, _, _, evidence) = outcome.of(AlarmId::WeightTransfer).unwrap();
-    assert!(evidence.starts_with("Weight does not arrive: 8"), "{evidence}");
+    assert!(evidence.starts_with("Weight does not arrive: 9"), "{evidence}");
     assert!(outcome.of(AlarmId::TorqueTransfer).is_none(), "{:?}", outcome.came);
 }
 
@@ -127,7 +133,7 @@ fn torque_that_does_not_arrive_is_called() {
     let outcome = drill(changed("rig.yaml", &INCLINED), 40.0, 20.0, 40.0);
     let (_, _, _, evidence) = outcome.of(AlarmId::TorqueTransfer).unwrap();
     assert!(
-        evidence.starts_with("Torque does not arrive: friction takes 8"),
+        evidence.starts_with("Torque does not arrive: friction takes 9"),
         "{evidence}"
     );
     assert!(outcome.of(AlarmId::WeightTransfer).is_none(), "{:?}", outcome.came);
@@ -140,11 +146,8 @@ fn stick_slip_of_the_string_is_called_from_the_bits_own_speed() {
         "rig.yaml",
         &[
             ("tuning: soft_torque", "tuning: stiff"),
-            (
-                "  law: depth_of_cut\n",
-                "  law: depth_of_cut\n  weakening: {ratio: 2.0, rate_rpm: 60}\n",
-            ),
-            ("wear_flat_friction: 0.106", "wear_flat_friction: 0.6"),
+            ("rate_rpm: 20", "rate_rpm: 60"),
+            ("wear_flat_force: 3200", "wear_flat_force: 8000"),
         ],
     );
     let outcome = drill(config, 30.0, 10.0, 60.0);

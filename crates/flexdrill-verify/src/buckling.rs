@@ -1,5 +1,7 @@
 //! Torque buckling of a hanging chain, by kind of joint. The closed forms are derived in `docs/mechanics.md`.
 
+use nalgebra::DMatrix;
+
 use super::bench::Bench;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction};
@@ -17,7 +19,7 @@ const PART: f64 = 0.25;
 const GROWTH: f64 = 0.1;
 /// Effective tension in the chains (N), as in their configurations.
 const PULL: f64 = 1000.0;
-/// First torque of a search, over pull times length of a link: all chains buckle above 0.5.
+/// First torque of a search, over pull times length of a link: all chains buckle above 0.4.
 const FIRST: f64 = 0.2;
 
 /// A chain of links that hangs under [`PULL`], pinned at both ends.
@@ -28,6 +30,8 @@ struct Chain {
     joints: &'static str,
     /// From cross to cross (degrees).
     phase_step: f64,
+    /// Of the torque on the lower end about the axis that points down the hole: 1 or -1.
+    sense: f64,
 }
 
 impl Chain {
@@ -37,7 +41,7 @@ impl Chain {
                 .with_value("tool.links", self.links)?
                 .with_value("tool.joint.kind", self.joints)?
                 .with_value("tool.joint.cross_phase_step_deg", self.phase_step)?
-                .with_value("loads.0.history.constant", torque)
+                .with_value("loads.0.history.constant", self.sense * torque)
         })
     }
 
@@ -54,8 +58,9 @@ impl Chain {
         Ok(PULL * config.well.length() / f64::from(self.links))
     }
 
-    /// The torque (N m) at which the chain's lateral stiffness vanishes. It is even in the torque, and nearly linear in
-    /// its square: extrapolated so from two torques, and approached from below.
+    /// The torque (N m) at which the chain's lateral stiffness vanishes. For crosses in phase or a quarter turn apart it is
+    /// even in the torque, and nearly linear in its square; for others it is smooth in the square beyond zero. It is
+    /// extrapolated so from two torques, and approached from below.
     fn buckling_torque(&self) -> Result<f64, VerifyError> {
         let stiffness = |square: f64| self.deflection(square.sqrt()).map(|deflection| 1.0 / deflection);
         let mut before = (0.0, stiffness(0.0)?);
@@ -95,6 +100,7 @@ pub(super) fn torque() -> Result<Vec<Row>, VerifyError> {
         links: 3,
         joints,
         phase_step,
+        sense: 1.0,
     };
     Ok(vec![
         chain("ball_cage", 90.0).row("ball cage, sqrt(3) N L (N m)", root)?,
@@ -113,14 +119,31 @@ pub(super) fn folding() -> Result<Vec<Row>, VerifyError> {
         links,
         joints: "universal",
         phase_step,
+        sense: 1.0,
     };
+    let against = |chain| Chain { sense: -1.0, ..chain };
+    let [with_axis, against_axis] = folding_torques(6, 60.0);
     Ok(vec![
-        chain(4, 90.0).row("4 links, crosses at 90 deg, 0.6037 N L (N m)", folding_factor(4, 90.0))?,
+        chain(4, 90.0).row(
+            "4 links, crosses at 90 deg, 0.6037 N L (N m)",
+            folding_torques(4, 90.0)[0],
+        )?,
         chain(4, 0.0).row(
             "4 links, in phase, 4 / (1 + sqrt(39)) N L (N m)",
             4.0 / (1.0 + 39.0_f64.sqrt()),
         )?,
-        chain(8, 90.0).row("8 links, crosses at 90 deg, 0.5301 N L (N m)", folding_factor(8, 90.0))?,
+        chain(8, 90.0).row(
+            "8 links, crosses at 90 deg, 0.5301 N L (N m)",
+            folding_torques(8, 90.0)[0],
+        )?,
+        chain(6, 60.0).row(
+            "6 links, crosses at 60 deg, torque along the axis, 0.7597 N L (N m)",
+            with_axis,
+        )?,
+        against(chain(6, 60.0)).row(
+            "6 links, crosses at 60 deg, torque against the axis, 0.4626 N L (N m)",
+            against_axis,
+        )?,
     ])
 }
 
@@ -131,37 +154,38 @@ pub(super) fn under_pressure() -> Result<Vec<Row>, VerifyError> {
         links: 4,
         joints: "universal",
         phase_step: 90.0,
+        sense: 1.0,
     };
-    Ok(vec![chain.row("0.6037 N_eff L (N m)", folding_factor(4, 90.0))?])
+    Ok(vec![chain.row("0.6037 N_eff L (N m)", folding_torques(4, 90.0)[0])?])
 }
 
-/// Iterations for the largest eigenvalue: its error falls by (3.56 / 3.89)^2 in each, with eight links.
-const POWERS: u32 = 400;
-
-/// Torque at which `links` links with universal joints, each turned against the one before by `phase_step` (degrees),
-/// fold, over pull times length: the inverse of the largest eigenvalue of the symmetric map from slopes to slopes in
-/// `docs/mechanics.md`, found by powers of the map plus 2, which leaves no eigenvalue negative.
-fn folding_factor(links: usize, phase_step: f64) -> f64 {
-    // Slopes that no symmetry excludes, whose sum is 0.
-    let mut slopes: Vec<[f64; 2]> = (0..links).map(|k| [(k as f64).cos(), (2.0 * k as f64).sin()]).collect();
-    let mut largest = 0.0;
-    for _ in 0..POWERS {
+/// Torques at which a chain of links with universal joints folds, over tension times length of a link: where the torque
+/// acts on the lower end about the axis that points down the hole, and where it acts against it, which is how a bit
+/// brakes a tool that turns forward. `phase_step` is the angle from one cross to the next (degrees). Both senses are
+/// alike for crosses in phase or a quarter turn apart, and differ by up to a factor of two between.
+///
+/// They are the inverse of the largest and of the lowest eigenvalue of the symmetric map from slopes to slopes in
+/// `docs/mechanics.md`.
+///
+/// # Panics
+/// For fewer than two links, which have no joint.
+pub fn folding_torques(links: usize, phase_step: f64) -> [f64; 2] {
+    assert!(links > 1, "{links} links have no joint");
+    // Columns of the map, for one slope after the other; the mean over the links is removed on both sides.
+    let mut map = DMatrix::zeros(2 * links, 2 * links);
+    for column in 0..2 * links {
+        let mut slopes = vec![[0.0; 2]; links];
+        slopes[column / 2][column % 2] = 1.0;
         without_mean(&mut slopes);
-        let size: f64 = slopes.iter().flatten().map(|s| s * s).sum::<f64>().sqrt();
-        slopes.iter_mut().flatten().for_each(|s| *s /= size);
         let mut mapped = balance(&slopes, phase_step);
         without_mean(&mut mapped);
-        largest = slopes
-            .iter()
-            .flatten()
+        map.column_mut(column)
+            .iter_mut()
             .zip(mapped.iter().flatten())
-            .map(|(a, b)| a * b)
-            .sum();
-        for (slope, image) in slopes.iter_mut().zip(mapped) {
-            *slope = [image[0] + 2.0 * slope[0], image[1] + 2.0 * slope[1]];
-        }
+            .for_each(|(entry, image)| *entry = *image);
     }
-    1.0 / largest
+    let eigenvalues = map.symmetric_eigenvalues();
+    [eigenvalues.max(), -eigenvalues.min()].map(f64::recip)
 }
 
 /// -i (m_k - m_(k-1)) / T of each link, of the moments m across the chain at both ends of the link.
@@ -197,7 +221,7 @@ fn without_mean(slopes: &mut [[f64; 2]]) {
 
 #[cfg(test)]
 mod tests {
-    use super::folding_factor;
+    use super::folding_torques;
 
     /// Against the chains that are solved by hand in `docs/mechanics.md`.
     #[test]
@@ -210,22 +234,31 @@ mod tests {
             (3, 0.0, (8.0 * root - 6.0) / 13.0),
             (4, 0.0, 4.0 / (1.0 + 39.0_f64.sqrt())),
         ] {
-            let got = folding_factor(links, phase_step);
-            // The powers converge to rounding.
-            assert!(
-                (got - exact).abs() < 1e-12,
-                "{links} links at {phase_step} deg: {got}, {exact}"
-            );
+            // Both senses, to the rounding of the eigenvalues.
+            for got in folding_torques(links, phase_step) {
+                assert!(
+                    (got - exact).abs() < 1e-12,
+                    "{links} links at {phase_step} deg: {got}, {exact}"
+                );
+            }
         }
         // 1 / factor of four links at 90 degrees is a root of a cubic.
-        let inverse = 1.0 / folding_factor(4, 90.0);
+        let inverse = 1.0 / folding_torques(4, 90.0)[0];
         assert!(
             (((16.0 * inverse - 16.0) * inverse - 18.0) * inverse + 1.0).abs() < 1e-9,
             "{inverse}"
         );
         // Figures that the documents quote.
         for (links, phase_step, rounded) in [(4, 90.0, 0.604), (8, 90.0, 0.530), (4, 0.0, 0.552), (33, 90.0, 0.502)] {
-            assert!((folding_factor(links, phase_step) - rounded).abs() < 6e-4);
+            assert!((folding_torques(links, phase_step)[0] - rounded).abs() < 6e-4);
         }
+        // The mirror image of a chain folds under the other sense.
+        let [one, other] = folding_torques(8, 60.0);
+        let [mirrored_other, mirrored_one] = folding_torques(8, -60.0);
+        assert!((one - mirrored_one).abs() < 1e-12 && (other - mirrored_other).abs() < 1e-12);
+        assert!(
+            (one - 0.755).abs() < 6e-4 && (other - 0.445).abs() < 6e-4,
+            "{one} {other}"
+        );
     }
 }

@@ -26,6 +26,7 @@ mod validation;
 use std::fmt;
 
 pub use bench::{Bench, head};
+pub use buckling::folding_torques;
 pub use foreign::{SOFT_STRINGS, SoftString, SoftStringInputs, WELLENG};
 pub use hinged_beam::HingedBeam;
 pub use runs::{CaseRun, with_runs};
@@ -285,7 +286,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "torque_folding",
-        shows: "twisted chains of four and eight links",
+        shows: "twisted chains of four, six and eight links",
         reason: "As torque_buckling.",
         run: buckling::folding,
     },

@@ -7,11 +7,12 @@ mod memory;
 mod parts;
 mod physics;
 mod quality;
+mod rig_map;
 mod scaling;
 mod step_error;
 mod truth;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
 use clap::{Parser, ValueEnum};
@@ -37,7 +38,7 @@ struct Measurements {
     write: Option<PathBuf>,
     /// Model time after the static start (s) [default: 60 real-time, 10 scaling and physics, 3600 memory, 30 step-error and quality,
     /// 86400 rig-faults: the length of a run without a fault,
-    /// 40 truth and rig-truth].
+    /// 40 truth and rig-truth, 60 rig-map].
     #[arg(long)]
     duration: Option<f64>,
     /// Runs per row of truth and rig-truth, which show their mean and its error; logs of calibration.
@@ -53,7 +54,7 @@ struct Measurements {
     /// Only the first so many cases of truth and rig-truth.
     #[arg(long, value_name = "N")]
     first: Option<usize>,
-    /// Runs of truth, rig-truth and calibration at the same time, a thread each. The figures do not depend on it.
+    /// Runs of truth, rig-truth, rig-map and calibration at the same time, a thread each. The figures do not depend on it.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=64))]
     jobs: u8,
     /// Rotary speed (r/min).
@@ -96,6 +97,9 @@ enum Cases {
     RigQuality,
     /// Faults of the rig and the alarm of the comparison with the twin; of config/rig.yaml unless another is named.
     RigFaults,
+    /// Stick-slip index and rate of penetration over speed and weight, with three guides, and their picture; of
+    /// config/rig.yaml unless another is named.
+    RigMap,
     /// How often the bands of a calibration hold the truth of full runs; of config/rig.yaml unless another is named.
     Calibration,
     /// All of them.
@@ -113,6 +117,7 @@ impl Cases {
                 Self::Quality,
                 Self::RigQuality,
                 Self::RigFaults,
+                Self::RigMap,
                 Self::Calibration,
                 Self::Scaling,
                 Self::Physics,
@@ -135,6 +140,7 @@ impl Cases {
             Self::Quality => "quality",
             Self::RigQuality => "rig-quality",
             Self::RigFaults => "rig-faults",
+            Self::RigMap => "rig-map",
             Self::Calibration => "calibration",
             Self::All => "all",
         }
@@ -146,6 +152,7 @@ impl Cases {
             Self::RealTime => 60.0,
             Self::StepError | Self::Quality | Self::RigQuality => 30.0,
             Self::Truth | Self::RigTruth => 40.0,
+            Self::RigMap => 60.0,
             Self::Scaling | Self::Physics => 10.0,
             Self::Memory | Self::All => 3600.0,
             Self::RigFaults => 86_400.0,
@@ -203,7 +210,7 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
     // Sets of the rig's tool have another configuration of their own.
     let of_the_rig = matches!(
         case,
-        Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults | Cases::Calibration
+        Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults | Cases::RigMap | Cases::Calibration
     ) && args.configs.is_empty();
     let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
     let rig = of_the_rig.then(|| load("config/rig.yaml")).transpose()?;
@@ -238,6 +245,13 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
             })?
         }
         Cases::RigFaults => faults::tables(config, duration)?,
+        Cases::RigMap => {
+            let (tables, figure) = rig_map::tables(config, duration, args.jobs.into())?;
+            if let Some(folder) = args.write.as_deref().and_then(Path::parent) {
+                std::fs::write(folder.join("images/rig_map.svg"), flexdrill_plot::svg(&figure)?)?;
+            }
+            tables
+        }
         Cases::Calibration => calibration::tables(&calibration::Plan {
             config,
             logs: args.runs as usize,

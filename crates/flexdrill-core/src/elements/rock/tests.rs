@@ -135,7 +135,7 @@ impl Led {
 ///
 /// Tolerance 0.5 %: the twist of the bit at its turns, 2 mrad of 63 rad, and the first 1.5 mrad of cutters that come to the front.
 #[test]
-fn work_of_cutting_is_that_of_the_rock_removed() {
+fn analytic_work_of_cutting_is_that_of_the_rock_removed() {
     let cut = DepthOfCut {
         weakening: Weakening::NONE,
         ..CUT

@@ -303,7 +303,7 @@ fn the_energy_of_drive_friction_and_rotor_closes() {
 /// drive is rigid, with 15 % of a wave per kilometre, ring down as the exact condition says, and by the loss over twice the time
 /// of travel more than without. Tolerances: rounding after ten times [`FOLLOWS_WITHIN`]; 2 % of the decay, the ten lumps.
 #[test]
-fn losses_attenuate_waves_alone() {
+fn analytic_losses_attenuate_waves_alone() {
     use crate::elements::string::modes::HangingTool;
     let lossy = || {
         let part = Piece::of(&tube(0.0730, 0.0546, STEEL), 100.0).with_loss(0.015);
@@ -476,7 +476,7 @@ fn soft_torque(pieces: &[Piece], inertia: f64, ratio: f64) -> TopDrive {
 /// eigenvalues. Frequencies are held to 3e-4. Decays are held to 4 %: the other program's tool is another one, whose length and
 /// damping it does not print; the last digit of the smallest is 1 % of it.
 #[test]
-fn torsional_modes_under_two_drives() {
+fn val_torsional_modes_under_two_drives() {
     let pieces = pipe_and_collars();
     let drives = [
         ("stiff", controlled(800.0, 3000.0, 2000.0)),
@@ -500,7 +500,7 @@ fn torsional_modes_under_two_drives() {
 /// A rotor on a string that is held at its upper end: x tan(x) = J_string / J, x = omega L / c, for every mode, and no decay.
 /// Tolerance: rounding of the search.
 #[test]
-fn modes_of_a_rotor_on_a_string() {
+fn analytic_modes_of_a_rotor_on_a_string() {
     let (piece, ratio) = (plain(), 0.6);
     let Wave { impedance, delay, .. } = piece.torsion;
     let rotor = HangingTool {
@@ -531,7 +531,7 @@ fn modes_of_a_rotor_on_a_string() {
 ///
 /// Tolerance: of the decay 5 %, what other modes leave after ten periods; of the frequency 0.2 %, crossings of zero.
 #[test]
-fn ring_down_of_the_second_mode() {
+fn analytic_ring_down_of_the_second_mode() {
     let piece = plain();
     let drive = controlled(400.0, 900.0, 2000.0);
     let inertia = 0.5;

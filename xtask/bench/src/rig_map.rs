@@ -1,0 +1,218 @@
+//! `--cases rig-map`: what the rig's tool does over rotary speed and weight, with three guides.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use flexdrill_bench::table::Table;
+use flexdrill_config::{Config, ConfigError};
+use flexdrill_core::dynamics::StepOutcome;
+use flexdrill_core::inputs::Inputs;
+use flexdrill_core::motion::BIT;
+use flexdrill_core::twin::Simulation;
+use flexdrill_core::units::{kn_to_n, m_per_s_to_m_per_h, rpm_to_rad_per_s};
+use flexdrill_plot::{Figure, Line, Panel};
+use serde_json::{Value, json};
+
+/// Rotary speeds (r/min).
+const SPEEDS: [f64; 5] = [15.0, 20.0, 40.0, 60.0, 80.0];
+/// Weights slacked off at the surface (kN).
+const WEIGHTS: [f64; 5] = [5.0, 10.0, 15.0, 20.0, 30.0];
+/// Model time of turning off bottom before the weight is asked for (s).
+const OFF_BOTTOM: f64 = 8.0;
+/// Model time at the end over which the figures are means (s): the window of the stick-slip index.
+const JUDGED: f64 = 10.0;
+/// Model time between two looks (s).
+const LOOK: f64 = 0.1;
+
+/// A guide as values to change.
+struct Guide {
+    name: &'static str,
+    changes: fn() -> Vec<(&'static str, Value)>,
+}
+
+const GUIDES: [Guide; 3] = [
+    Guide {
+        name: "slotted, made with half of the arc's curvature",
+        changes: Vec::new,
+    },
+    Guide {
+        name: "slotted, made straight",
+        changes: || vec![("tool.guide.free_curvature", json!(0.0))],
+    },
+    Guide {
+        name: "plain tube without stress in the arc",
+        changes: || {
+            vec![
+                ("tool.guide.bending_factor", json!(1.0)),
+                ("tool.guide.free_curvature", json!("as_built")),
+            ]
+        },
+    },
+];
+
+/// What a cell came to.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    /// (max - min) / (2 mean) of the bit's speed over the last ten seconds.
+    index: f64,
+    /// Rate of penetration (m/h).
+    rate: f64,
+    /// Weight at the bit (kN).
+    weight: f64,
+    /// Torque at the bit (N m).
+    torque: f64,
+}
+
+/// Runs every cell with every guide, on `jobs` threads; gives the tables and their picture.
+///
+/// # Errors
+/// When a tool cannot be built or a step fails.
+pub(crate) fn tables(config: &Config, duration: f64, jobs: usize) -> anyhow::Result<(String, Figure)> {
+    let tools: Vec<Config> = GUIDES
+        .iter()
+        .map(|guide| config.with_values(guide.name, (guide.changes)()))
+        .collect::<Result<_, ConfigError>>()?;
+    let (of_guide, of_speed) = (SPEEDS.len() * WEIGHTS.len(), WEIGHTS.len());
+    let cells = Mutex::new(vec![None; GUIDES.len() * of_guide]);
+    let next = AtomicUsize::new(0);
+    let work = || -> anyhow::Result<()> {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(tool) = tools.get(number / of_guide) else {
+                return Ok(());
+            };
+            let (rpm, kn) = (SPEEDS[number % of_guide / of_speed], WEIGHTS[number % of_speed]);
+            let cell = run(tool, rpm, kn, duration)?;
+            eprintln!("{}, {rpm} r/min, {kn} kN: {cell:?}", GUIDES[number / of_guide].name);
+            if let Ok(mut cells) = cells.lock() {
+                cells[number] = Some(cell);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
+        threads
+            .into_iter()
+            .try_for_each(|thread| thread.join().unwrap_or_else(|_| Err(anyhow::anyhow!("a run panicked"))))
+    })?;
+    let cells: Vec<Cell> = cells.into_inner().unwrap_or_default().into_iter().flatten().collect();
+    let of = |guide: usize, speed: usize, weight: usize| cells[guide * of_guide + speed * of_speed + weight];
+    let mut text = format!(
+        "{duration} s of model time each, {OFF_BOTTOM} s of them off bottom; stick-slip index and rate of penetration (m/h) over \
+         the last {JUDGED} s, and in brackets weight (kN) and torque (N m) at the bit.\n"
+    );
+    for (guide, Guide { name, .. }) in GUIDES.iter().enumerate() {
+        let speeds = SPEEDS.map(|rpm| format!("{rpm} r/min"));
+        let head: Vec<&str> = std::iter::once("weight (kN)")
+            .chain(speeds.iter().map(String::as_str))
+            .collect();
+        let mut table = Table::with_head(&head);
+        for (weight, kn) in WEIGHTS.iter().enumerate() {
+            let cells = (0..SPEEDS.len()).map(|speed| {
+                let cell = of(guide, speed, weight);
+                format!(
+                    "{:.2}, {:.1} ({:.1}, {:.0})",
+                    cell.index, cell.rate, cell.weight, cell.torque
+                )
+            });
+            table.cells(&std::iter::once(kn.to_string()).chain(cells).collect::<Vec<_>>());
+        }
+        text.push_str(&format!("\n**Guide: {name}.**\n\n{}", table.text()));
+    }
+    let panels = [true, false].into_iter().flat_map(|index| {
+        GUIDES.iter().enumerate().map(move |(guide, Guide { name, .. })| {
+            let quantity = if index {
+                "stick-slip index"
+            } else {
+                "rate of penetration (m/h)"
+            };
+            SPEEDS.iter().enumerate().fold(
+                Panel::new(*name, "weight at the surface (kN)", quantity).from_zero(),
+                |panel, (speed, rpm)| {
+                    let points = WEIGHTS.iter().enumerate().map(|(weight, kn)| {
+                        let cell = of(guide, speed, weight);
+                        (*kn, if index { cell.index } else { cell.rate })
+                    });
+                    panel.line(Line::new(format!("{rpm} r/min"), points.collect()))
+                },
+            )
+        })
+    });
+    let figure = Figure {
+        name: "rig_map",
+        title: "The rig's tool over speed and weight".to_owned(),
+        caption: String::new(),
+        columns: GUIDES.len(),
+        height: 300,
+        panels: panels.collect(),
+    };
+    Ok((text, figure))
+}
+
+/// Turns off bottom, then drills at `rpm` (r/min) under `kn` (kN).
+fn run(config: &Config, rpm: f64, kn: f64, duration: f64) -> anyhow::Result<Cell> {
+    let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+    let mut snapshot = simulation.new_snapshot();
+    let steps = (LOOK / config.solver.time_step).round() as u32;
+    let (mut sums, mut count) = ([0.0; 3], 0.0);
+    let mut speeds = [f64::MAX, f64::MIN, 0.0];
+    while simulation.time() < duration {
+        let inputs = Inputs {
+            rotary_speed: rpm_to_rad_per_s(rpm),
+            weight_on_bit: if simulation.time() < OFF_BOTTOM {
+                0.0
+            } else {
+                kn_to_n(kn)
+            },
+            ..Inputs::ZERO
+        };
+        for _ in 0..steps {
+            let outcome = simulation.advance(&inputs);
+            anyhow::ensure!(
+                matches!(outcome, StepOutcome::Advanced { .. }),
+                "{rpm} r/min, {kn} kN: {outcome:?}"
+            );
+            let speed = simulation.bit().rotary_speed;
+            if simulation.time() > duration - JUDGED {
+                speeds = [speeds[0].min(speed), speeds[1].max(speed), speeds[2] + speed];
+                count += 1.0;
+            }
+        }
+        simulation.snapshot(&mut snapshot, true);
+        // The window of `transfer` is 5 s: two of them.
+        let left = duration - simulation.time();
+        if left < 0.5 * LOOK || (left - 0.5 * JUDGED).abs() < 0.5 * LOOK {
+            let transfer = &snapshot.transfer;
+            for (sum, value) in sums.iter_mut().zip([
+                transfer.mean.rate_of_penetration,
+                transfer.weight.mean[BIT],
+                transfer.torque.mean[BIT],
+            ]) {
+                *sum += 0.5 * value;
+            }
+        }
+    }
+    Ok(Cell {
+        index: (speeds[1] - speeds[0]) / (2.0 * speeds[2] / count),
+        rate: m_per_s_to_m_per_h(sums[0]),
+        weight: 1e-3 * sums[1],
+        torque: sums[2],
+    })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests fail by panicking")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_guide_fits_the_rigs_tool_and_a_run_has_figures() {
+        let rig = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        for guide in &GUIDES {
+            rig.with_values(guide.name, (guide.changes)()).unwrap();
+        }
+        // Long enough for one window of the transfer; off bottom nothing cuts.
+        let cell = run(&rig, 40.0, 10.0, 6.0).unwrap();
+        assert!(cell.rate == 0.0 && cell.weight == 0.0 && cell.index < 0.2, "{cell:?}");
+    }
+}
