@@ -103,7 +103,6 @@ fn run(row: &Row, name: &str, variant: &Variant, folder: &std::path::Path, phase
 
 /// The in-plane moment about the arc's centre without friction: kick-off less bit is what gravity asks for.
 #[test]
-#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn a_frictionless_wall_passes_weight_by_gravity_alone() {
     if python::with("rosbags").is_none() {
         return;
@@ -124,7 +123,6 @@ fn a_frictionless_wall_passes_weight_by_gravity_alone() {
 /// both ends and lies at the edge of the inner clearance c from the first joint on: links of length L turn the force F by c / L
 /// there, and the guide takes 2 F c / L across the hole.
 #[test]
-#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn a_pump_changes_no_wall_force() {
     let rows: Vec<Row> = covering::rows().into_iter().filter(|row| row[PRESSURE] > 0).collect();
     let across = |row: &Row| 2.0 * compression(row) * INNER_CLEARANCE / LINK;
@@ -154,7 +152,6 @@ fn a_longer_string_changes_no_steady_figure() {
 /// Twice every mass, force and stiffness: twice the forces. Without the laws of rock, whose bit holds by a stiffness that no key
 /// gives.
 #[test]
-#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn twice_every_mass_force_and_stiffness_changes_no_equilibrium() {
     let rows: Vec<Row> = covering::rows().into_iter().filter(|row| row[ROCK] == 0).collect();
     compare(
@@ -208,7 +205,6 @@ fn compare(
 
 /// The first tenth of a second of a start, before collisions part any two runs: positions are equal.
 #[test]
-#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn twice_every_mass_force_and_stiffness_changes_no_motion() {
     // As above, without the laws of rock.
     let rows: Vec<Row> = covering::rows().into_iter().filter(|row| row[ROCK] == 0).collect();

@@ -78,36 +78,39 @@ struct Open {
 
 const OPEN: [Open; 5] = [
     Open {
-        balance: "hook load",
-        condition: "",
-        of: "",
-        fault: "the hook does not carry the pipe, whose top is held at the frame",
-    },
-    Open {
-        balance: "depth of cut in reverse",
-        condition: "reversed",
-        of: "depth_of_cut",
-        fault: "a bit that turns backwards brakes as if it cut",
-    },
-    Open {
-        balance: "torque of the rock by its weight",
-        condition: "reversed",
-        of: "depth_of_cut",
-        fault: "a bit that turns backwards brakes as if it cut",
-    },
-    Open {
-        balance: "work of cutting by volume",
-        condition: "reversed",
-        of: "depth_of_cut",
-        fault: "a bit that turns backwards brakes as if it cut",
-    },
-    Open {
         balance: "forces, inertia and damping of the tool",
         condition: "",
         of: "guide tied",
         fault: "the tie pulls the pipe along its chord and the guide along the hole, half a link's bend apart",
     },
+    Open {
+        balance: "forces, inertia and damping of the tool",
+        condition: "pump",
+        of: "string line",
+        fault: SEAL_BELOW_A_HOIST,
+    },
+    Open {
+        balance: "moment of the tool about",
+        condition: "pump",
+        of: "string line",
+        fault: SEAL_BELOW_A_HOIST,
+    },
+    Open {
+        balance: "force on the guide alone",
+        condition: "pump",
+        of: "string line",
+        fault: SEAL_BELOW_A_HOIST,
+    },
+    Open {
+        balance: "moment of the guide alone about",
+        condition: "pump",
+        of: "string line",
+        fault: SEAL_BELOW_A_HOIST,
+    },
 ];
+
+/// Of 6.2 kN of a seal at 2 MPa 0.14 to 0.25 kN along the hole at the bit.
+const SEAL_BELOW_A_HOIST: &str = "below a hoist, a few percent of a seal's force are missing along the hole at the bit";
 
 /// A violated balance, or a run that failed: what it is of, the condition, and the line.
 type Violation = (String, String, String);
@@ -136,9 +139,12 @@ fn judge(bag: &Path, of: &str, least: usize, violations: &Mutex<Vec<Violation>>)
                     balance["reason"]
                 );
                 let name = balance["name"].as_str().unwrap();
-                let open = OPEN
-                    .iter()
-                    .find(|open| open.balance == name && condition.contains(open.condition) && of.contains(open.of));
+                let open = OPEN.iter().find(|open| {
+                    name.starts_with(open.balance)
+                        && condition.contains(open.condition)
+                        && of.contains(open.of)
+                        && (open.fault != SEAL_BELOW_A_HOIST || of.contains("pressure sealed"))
+                });
                 match open {
                     Some(open) => println!("OPEN {of} | {condition} | {line} | {}", open.fault),
                     None => violations
@@ -220,7 +226,6 @@ fn conditions(row: &Row) -> Vec<Phase> {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn every_pair_of_switches_balances_in_every_condition() {
     if python::with("rosbags").is_none() {
         return;
@@ -252,7 +257,6 @@ fn every_pair_of_switches_balances_in_every_condition() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release --test replay -- --ignored balances"]
 fn every_shipped_configuration_balances() {
     if python::with("rosbags").is_none() {
         return;
