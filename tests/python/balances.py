@@ -874,8 +874,8 @@ def rock(tool, transfer, samples, found_factor, out):
     cutting = float((torque * speed).mean()) - rubbing
     volume = math.pi * radius**2 * max(advance, 0.0) if t.bit_weight > 1.0 else 0.0
     error = STANDARD_ERRORS * float(standard_error(torque * speed)) + spread * abs(float(speed.mean()))
-    limit = 0.02 * abs(cutting) + 0.02 * rubbing + e * math.pi * radius**2 * 1e-6 + error + 0.5
-    reason = "2 %, 1 um/s, 0.5 W" + SCATTER
+    limit = 0.02 * abs(cutting) + 0.02 * rubbing + e * math.pi * radius**2 * (1e-6 + cut_by_cut) + error + 0.5
+    reason = "2 %, one blade's cut, 1 um/s, 0.5 W" + SCATTER
     out.append(Balance("work of cutting by volume", "W", cutting - e * volume, abs(cutting), limit, reason))
 
 

@@ -109,8 +109,9 @@ const OPEN: [Open; 5] = [
     },
 ];
 
-/// Of 6.2 kN of a seal at 2 MPa 0.14 to 0.25 kN along the hole at the bit.
-const SEAL_BELOW_A_HOIST: &str = "below a hoist, a few percent of a seal's force are missing along the hole at the bit";
+/// The sine of half a link's bend: 12 N of the rig's pipe, and 137 N more of a seal at 2 MPa.
+const SEAL_BELOW_A_HOIST: &str =
+    "the hanger pulls the pipe along its chord and the guide along the hole, half a link's bend apart";
 
 /// A violated balance, or a run that failed: what it is of, the condition, and the line.
 type Violation = (String, String, String);
