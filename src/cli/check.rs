@@ -110,10 +110,7 @@ impl fmt::Display for Summary<'_> {
             ),
         )?;
         if tool.joint.kind == JointKind::Universal && tool.links > 1 {
-            row(
-                "chain",
-                folding_in_words(tool.links as usize, tool.joint.cross_phase_step_deg),
-            )?;
+            row("chain", folding_in_words(tool.links, tool.joint.cross_phase_step_deg))?;
         }
         if config.rock.law != Law::DepthOfCut {
             row(
