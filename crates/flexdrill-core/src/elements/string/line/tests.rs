@@ -473,8 +473,8 @@ fn soft_torque(pieces: &[Piece], inertia: f64, ratio: f64) -> TopDrive {
 }
 
 /// Torsional modes s of 1400 m of pipe over 150 m of collars and a tool of 5 m under two drives, by another program's exact
-/// eigenvalues. Frequencies are held to 3e-4. Decays are held to 4 %: the other program's tool is another one, whose length and
-/// damping it does not print; the last digit of the smallest is 1 % of it.
+/// eigenvalues. Frequencies are held to 3e-4. Decays are held to 4 %: the other program's tool is another one, whose
+/// length and damping it does not print; the last digit of the smallest is 1 % of it.
 #[test]
 fn val_torsional_modes_under_two_drives() {
     let pieces = pipe_and_collars();
