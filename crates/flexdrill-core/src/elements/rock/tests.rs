@@ -129,11 +129,12 @@ impl Led {
     }
 }
 
-/// Power balance of a bit that drills, turns back, and drills on: the work of cutting is the specific energy times the volume
-/// that the bottom has lost, and the wear flats take mu_g a W_f / 2 per radian in both senses. Turning back the bit removes
-/// nothing, so that its work is that of the wear flats alone.
+/// Power balance of a bit that drills, turns back, and drills on: the work of cutting is the specific energy times the
+/// volume that the bottom has lost, and the wear flats take mu_g a W_f / 2 per radian in both senses. Turning back the
+/// bit removes nothing, so that its work is that of the wear flats alone.
 ///
-/// Tolerance 0.5 %: the twist of the bit at its turns, 2 mrad of 63 rad, and the first 1.5 mrad of cutters that come to the front.
+/// Tolerance 0.5 %: the twist of the bit at its turns, 2 mrad of 63 rad, and the first 1.5 mrad of cutters that come
+/// to the front.
 #[test]
 fn analytic_work_of_cutting_is_that_of_the_rock_removed() {
     let cut = DepthOfCut {

@@ -299,9 +299,10 @@ fn the_energy_of_drive_friction_and_rotor_closes() {
     assert!(error.abs() < 2e-3 * moved, "{error} J of {moved} J");
 }
 
-/// A loss takes nothing from a steady rotation, lets no static load creep, and attenuates: the first two modes of 1000 m whose
-/// drive is rigid, with 15 % of a wave per kilometre, ring down as the exact condition says, and by the loss over twice the time
-/// of travel more than without. Tolerances: rounding after ten times [`FOLLOWS_WITHIN`]; 2 % of the decay, the ten lumps.
+/// A loss takes nothing from a steady rotation, lets no static load creep, and attenuates: the first two modes of 1000
+/// m whose drive is rigid, with 15 % of a wave per kilometre, ring down as the exact condition says, and by the loss
+/// over twice the time of travel more than without. Tolerances: rounding after ten times [`FOLLOWS_WITHIN`]; 2 % of
+/// the decay, the ten lumps.
 #[test]
 fn analytic_losses_attenuate_waves_alone() {
     use crate::elements::string::modes::HangingTool;
@@ -497,8 +498,8 @@ fn val_torsional_modes_under_two_drives() {
     }
 }
 
-/// A rotor on a string that is held at its upper end: x tan(x) = J_string / J, x = omega L / c, for every mode, and no decay.
-/// Tolerance: rounding of the search.
+/// A rotor on a string that is held at its upper end: x tan(x) = J_string / J, x = omega L / c, for every mode, and no
+/// decay. Tolerance: rounding of the search.
 #[test]
 fn analytic_modes_of_a_rotor_on_a_string() {
     let (piece, ratio) = (plain(), 0.6);
