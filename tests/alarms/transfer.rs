@@ -102,7 +102,7 @@ const INCLINED: [(&str, &str); 2] = [
     ("  top_drive:\n", "  friction: {coefficient: 0.4}\n  top_drive:\n"),
 ];
 
-/// A guide that a ring of cuttings holds back: it sticks, and the bit keeps the 7 kN that it began with.
+/// A guide that a ring of cuttings holds back: it sticks, and hardly any weight reaches the bit.
 const HELD_BACK: [(&str, &str); 2] = [
     (
         "    friction: bristle ",

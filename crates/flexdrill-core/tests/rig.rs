@@ -475,8 +475,8 @@ fn a_stuck_bit_holds_a_wound_string_and_breaks_off_at_its_limit() {
         }
     }
     assert!(twin.bit().rotary_speed >= 0.1, "it breaks off");
-    // While the string winds, the twist takes the cutters back by a part of the rock's grid and forward again, and leaves up
-    // to a twentieth of the wear flats' weight on them, which carry five times the torque.
+    // Wear flats that yielded while the cutters were a part of the rock's grid behind their front bear less once these are
+    // back. 4 % of the flats' weight on cutters, which take sixteen times their torque, is a sixth of the limit.
     assert!(
         (0.99..1.2).contains(&(most.torque / limit(most.weight_on_bit))),
         "{most:?}, {}",

@@ -76,7 +76,13 @@ struct Open {
     fault: &'static str,
 }
 
-const OPEN: [Open; 5] = [
+const OPEN: [Open; 6] = [
+    Open {
+        balance: "hook load",
+        condition: "drilling",
+        of: "depth_of_cut",
+        fault: "up to 30 N of 70 kN are left, whose cause is not found",
+    },
     Open {
         balance: "forces, inertia and damping of the tool",
         condition: "",
