@@ -417,7 +417,9 @@ class Sampled:
                 own = slice(0, tool.per)
                 between = self.pipe_on[k, : tool.per + 1].sum(axis=0) @ tool.axis[0]
                 between += tool.pipe_mass[own].sum() * tool.gravity * tool.axis[0][Z]
-                hangs = -(between + effective_tension(tool, self, self.joints[k])[0]) * tool.axis[0]
+                # It acts along the hole, and the supports of the pipe's top take what is across the link.
+                along_link = -(between + effective_tension(tool, self, self.joints[k])[0])
+                hangs = along_link / float(tool.x[0] @ tool.axis[0]) * tool.x[0]
                 forces.add("pipe", k, tool.bore[0], hangs)
                 forces.add("guide", k, tool.bore[0], -hangs)
             else:
@@ -541,9 +543,7 @@ def instant_balances(tool, sampled, moving, out):
     if tool.hoist:
         # The acceleration of the tool's frame is left out: below a thousandth of gravity (docs/rig_tool.md).
         limit += 1e-3 * float(np.linalg.norm(array(sampled.reactions[0].weight)))
-        # The weight of the pipe, which hangs on the guide. A seal's force is not in it.
-        limit += tool.pipe_mass.sum() * tool.gravity * float(np.linalg.norm(tool.axis[0] - tool.x[0]))
-        reason += ", 0.001 g, and the hanger, which pulls pipe and guide along axes half a link's bend apart"
+        reason += ", 0.001 g"
     worst = float(np.linalg.norm(sampled.left, axis=1).max())
     scale = max(np.linalg.norm(array(r.wall_force)) + np.linalg.norm(array(r.support_force)) for r in sampled.reactions)
     out.append(Balance("forces, inertia and damping of the tool", "N", worst, scale, limit, reason))
@@ -720,6 +720,12 @@ def string_weight(tool):
     return weight, mass
 
 
+def string_travel(tool):
+    """Time that an axial wave takes along the string (s)."""
+    e, rho = tool.keys("string.material.youngs_modulus", 206e9), tool.keys("string.material.density", 7850.0)
+    return sum(s["length"] for s in tool.keys("string.sections", [])) / math.sqrt(e / rho)
+
+
 def torques(tool, transfer, sampled, speed, out):
     """Torque from the surface to the bit."""
     t = transfer
@@ -782,8 +788,11 @@ def weights(tool, transfer, sampled, out):
     top = float(np.mean([np.dot(pipe_top(r), tool.x[0]) for r in sampled.reactions]))
     drag = 0.0 if math.isnan(t.string_axial_drag) else t.string_axial_drag
     rest = t.hook_load - (weight - drag - t.kickoff_weight - top)
-    limit = 1e-4 * abs(t.hook_load) + 5.0 + mass * 1e-3
-    reason = "0.01 %, 5 N, and the string's mass at 1 mm/s2, to which the hoist accelerates it"
+    # Waves carry momentum: force times time of travel, of either sign at both ends of the window.
+    swing = math.sqrt(max(t.kickoff_weight_rms**2 - t.kickoff_weight**2, 0.0))
+    waves = 2 * math.sqrt(2) * swing * string_travel(tool) / t.duration
+    limit = 1e-4 * abs(t.hook_load) + 5.0 + mass * 1e-3 + waves
+    reason = "0.01 %, 5 N, the string's mass at 1 mm/s2, to which the hoist accelerates it, and momentum of its waves"
     out.append(Balance("hook load", "N", rest, abs(t.hook_load), limit, reason))
     why = "the force in the string while the tool hangs, from which the surface weight counts, is not published"
     out.append(Balance("weight along the string", why=why))
@@ -814,6 +823,13 @@ def rock(tool, transfer, samples, found_factor, out):
         worst = float(np.abs(torque - own).max())
         limit = 1e-3 * scale + 1e-6
         reason = "Eq. 1 at each sample; 0.1 % for a weight that its limit still changes within a step"
+        if law == "weakening":
+            # Samples are means: the law bends over the speeds in one, and its factors swing together, within a sample up
+            # to twice as far as from one to the next.
+            per_newton = found_factor * 2 * radius / 3
+            bends = 0.5 * abs(ratio - 1.0) / rate**2 * float(np.var(speed))
+            limit += 4 * per_newton * (float(weight.mean()) * bends + float(np.std(weight) * np.std(weakening)))
+            reason += ", and the law's bend over the speeds of a sample"
         out.append(Balance("torque of the rock by its weight", "N m", worst, scale, limit, reason))
         out.append(Balance("rock removed by advance", why="the law has no depth of cut"))
         return

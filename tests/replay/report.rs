@@ -9,7 +9,8 @@ use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::std_msgs::{Float64, Header};
 use flexdrill::messages::topics::{self, TopicInfo};
 use flexdrill::messages::{
-    AlarmEvent, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus, to_cdr,
+    AlarmEvent, AppliedInputs, BitState, ContactForces, JointDeflections, Reactions, SessionInfo, Transfer, TwinStatus,
+    to_cdr,
 };
 use flexdrill_core::inputs::InputKind;
 
@@ -121,6 +122,7 @@ fn a_replay_gives_a_page_with_the_numbers_of_its_bag() {
     for figure in ["inputs", "orbits", "envelopes", "torque"] {
         assert!(page.contains(&format!("<figure id=\"{figure}\">")), "{figure}");
     }
+    assert!(page.contains("Every balance holds.") && page.contains("forces on the tool"));
     // A replay keeps no pace, and says so.
     assert!(
         page.contains("A replay has none") && said.contains("twin/status"),
@@ -142,6 +144,47 @@ fn a_bag_that_was_cut_short_gives_a_page_that_says_so() {
         "{said}"
     );
     assert!(page.contains("largest force, pipe on guide"));
+}
+
+/// Figures that do not balance are found, and named on the page: a force on the wall and a power of the bit that were
+/// changed in the recording.
+#[test]
+fn figures_that_do_not_balance_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = replayed(folder.path());
+    let changed = folder.path().join("changed.mcap");
+    let mut bag = Bag::new(
+        &changed,
+        &[
+            ("/", &topics::SESSION),
+            ("/", &topics::REACTIONS),
+            ("/", &topics::TRANSFER),
+        ],
+    );
+    for message in bag::open(&run).unwrap() {
+        let message = message.unwrap();
+        let name = format!("/{}", message.topic.name.trim_start_matches('/'));
+        let bytes = if message.topic.is("twin/reactions") {
+            let mut reactions: Reactions = message.decode().unwrap();
+            reactions.wall_force[0] += 100.0;
+            to_cdr(&reactions).unwrap()
+        } else if message.topic.is("twin/transfer") {
+            let mut transfer: Transfer = message.decode().unwrap();
+            transfer.bit_power += 1.0;
+            to_cdr(&transfer).unwrap()
+        } else if message.topic.is("twin/session") {
+            to_cdr(&message.decode::<SessionInfo>().unwrap()).unwrap()
+        } else {
+            continue;
+        };
+        let time = (message.log_time - START) as f64 * 1e-9;
+        bag.put(&name, time, &bytes);
+    }
+    bag.recorder.finish().unwrap();
+    let (page, _) = report(&changed, &[]);
+    let named = "Out of balance: forces on the tool, with inertia and damping; power put in, taken and stored.";
+    assert!(page.contains(named), "{page}");
+    assert!(!page.contains("Every balance holds."));
 }
 
 struct Bag {

@@ -6,13 +6,14 @@
 //! # Layout
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
-//!   `transfer` (torque, weight and power from the surface to the bit), `incidents` (alarms), `shares` (of time),
-//!   `locations` (the worst ones and their orbits), `health` (pace, model, recording).
+//!   `transfer` (torque, weight and power from the surface to the bit), `balances` (of the whole tool), `incidents`
+//!   (alarms), `shares` (of time), `locations` (the worst ones and their orbits), `health` (pace, model, recording).
 //! - [`calibration`]: the page of a calibration.
 //! - `compare`: two summaries next to each other, a [`Comparison`].
 //! - [`map`]: a page of another kind, of a safe window.
 //! - `plots`: the figures. `page`: the HTML, with everything in one file.
 
+mod balances;
 pub mod calibration;
 mod compare;
 mod drive;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::ReportError;
+use crate::balances::Balances;
 use crate::drive::Drive;
 use crate::health::Health;
 use crate::incidents::Incidents;
@@ -15,8 +16,8 @@ use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::{Float64, Header};
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{
-    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, RigInputs, SessionInfo,
-    Transfer, TwinStatus, WhirlState,
+    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions, RigInputs,
+    SessionInfo, Transfer, TwinStatus, WhirlState,
 };
 
 /// Largest number of damaged parts listed.
@@ -41,6 +42,7 @@ pub struct Summary {
     pub(crate) config_problem: Option<String>,
     pub(crate) drive: Drive,
     pub(crate) transfer: TransferHistory,
+    pub(crate) balances: Balances,
     pub(crate) incidents: Incidents,
     pub(crate) locations: Locations,
     pub(crate) health: Health,
@@ -128,6 +130,7 @@ impl Reader {
                 config_problem: None,
                 drive: Drive::default(),
                 transfer: TransferHistory::default(),
+                balances: Balances::default(),
                 incidents: Incidents::default(),
                 locations: Locations::default(),
                 health: Health::default(),
@@ -176,18 +179,29 @@ impl Reader {
                     |known: &SessionInfo| known.start == session.start && known.config_hash == session.config_hash;
                 if !summary.session.as_ref().is_some_and(same) {
                     summary.runs += 1;
-                    summary.session.get_or_insert(session);
+                    if summary.session.is_none() {
+                        match Config::from_text("the recorded configuration", &session.configuration) {
+                            Ok(config) => {
+                                summary.balances.tool(&config);
+                                summary.config = Some(config);
+                            }
+                            Err(error) => summary.config_problem = Some(error.to_string()),
+                        }
+                        summary.session = Some(session);
+                    }
                 }
             }
             AppliedInputs::ROS_TYPE => {
                 let inputs: AppliedInputs = message.decode()?;
                 let time = self.stamp(&inputs.header);
                 self.summary.drive.applied(time, &inputs);
+                self.summary.balances.applied(time, &inputs);
             }
             BitState::ROS_TYPE => {
                 let bit: BitState = message.decode()?;
                 let time = self.stamp(&bit.header);
                 self.summary.drive.bit(time, &bit);
+                self.summary.balances.bit(time, &bit);
             }
             JointDeflections::ROS_TYPE => {
                 let joints: JointDeflections = message.decode()?;
@@ -209,6 +223,12 @@ impl Reader {
                 let transfer: Transfer = message.decode()?;
                 let time = self.stamp(&transfer.header);
                 self.summary.transfer.push(time, &transfer);
+                self.summary.balances.transfer(time, &transfer);
+            }
+            Reactions::ROS_TYPE => {
+                let reactions: Reactions = message.decode()?;
+                let time = self.stamp(&reactions.header);
+                self.summary.balances.reactions(time, &reactions);
             }
             AlarmList::ROS_TYPE => {
                 let list: AlarmList = message.decode()?;
@@ -262,12 +282,6 @@ impl Reader {
         summary.end = summary.end.max(summary.start);
         summary.locations.finish();
         summary.incidents.finish(summary.end.saturating_sub(summary.start));
-        if let Some(session) = &summary.session {
-            match Config::from_text("the recorded configuration", &session.configuration) {
-                Ok(config) => summary.config = Some(config),
-                Err(error) => summary.config_problem = Some(error.to_string()),
-            }
-        }
         let missing = &mut summary.missing;
         missing.extend(cuts);
         missing.extend(damaged.iter().take(NAMED).map(|damage| format!("Left out: {damage}.")));
@@ -316,6 +330,7 @@ fn without(known: &TopicInfo) -> &'static str {
         ContactForces::ROS_TYPE => "contact forces are not known",
         WhirlState::ROS_TYPE => "whirl is not known",
         Transfer::ROS_TYPE => "transfer from the surface to the bit is not known (older versions do not publish it)",
+        Reactions::ROS_TYPE => "the balance of forces is not known",
         AlarmList::ROS_TYPE => "alarms that stood before it began are not known",
         AlarmEvent::ROS_TYPE => "alarms and incidents are not known",
         // A replay has no status, because it does not run in real time.

@@ -8,7 +8,7 @@ use flexdrill_bag::{Bag, Topic};
 use flexdrill_messages::topics::{self, TopicInfo};
 
 /// Outputs of the twin that the report uses.
-pub(crate) const OUTPUTS: [&TopicInfo; 10] = [
+pub(crate) const OUTPUTS: [&TopicInfo; 11] = [
     &topics::SESSION,
     &topics::APPLIED_INPUTS,
     &topics::BIT_STATE,
@@ -16,6 +16,7 @@ pub(crate) const OUTPUTS: [&TopicInfo; 10] = [
     &topics::CONTACT_FORCES,
     &topics::WHIRL,
     &topics::TRANSFER,
+    &topics::REACTIONS,
     &topics::ALARMS,
     &topics::ALARM_EVENTS,
     &topics::STATUS,

@@ -22,9 +22,10 @@ const SMOOTH: Variant = Variant {
     scale: 1.0,
 };
 
-/// A hoist needs eight of its response times of 1 s, and the window of the means 6 s; all others begin at rest.
+/// A hoist needs eight of its response times of 1 s, and the window of the means 6 s; all others begin at rest, and leave it
+/// within the first second where the equilibrium in the plane of the hole is unstable.
 fn standing(row: &Row) -> Vec<Phase> {
-    let seconds = if row[ROCK] == 2 { 20 } else { 1 };
+    let seconds = if row[ROCK] == 2 { 20 } else { 3 };
     vec![(seconds, 0.0, WEIGHT / 1e3, 0.0)]
 }
 

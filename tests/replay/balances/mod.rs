@@ -67,60 +67,26 @@ pub fn record(folder: &Path, name: &str, config: &str, phases: &[Phase]) -> Resu
     }
 }
 
-/// Faults of the model that the balances have found and that stand open: name of the balance, condition, what the run must
-/// have, and the fault. A line is removed with the cure of its fault; the run then holds the balance.
-struct Open {
-    balance: &'static str,
-    condition: &'static str,
-    of: &'static str,
-    fault: &'static str,
-}
-
-const OPEN: [Open; 6] = [
-    Open {
-        balance: "hook load",
-        condition: "drilling",
-        of: "depth_of_cut",
-        fault: "up to 30 N of 70 kN are left, whose cause is not found",
-    },
-    Open {
-        balance: "forces, inertia and damping of the tool",
-        condition: "",
-        of: "guide tied",
-        fault: "the tie pulls the pipe along its chord and the guide along the hole, half a link's bend apart",
-    },
-    Open {
-        balance: "forces, inertia and damping of the tool",
-        condition: "pump",
-        of: "string line",
-        fault: SEAL_BELOW_A_HOIST,
-    },
-    Open {
-        balance: "moment of the tool about",
-        condition: "pump",
-        of: "string line",
-        fault: SEAL_BELOW_A_HOIST,
-    },
-    Open {
-        balance: "force on the guide alone",
-        condition: "pump",
-        of: "string line",
-        fault: SEAL_BELOW_A_HOIST,
-    },
-    Open {
-        balance: "moment of the guide alone about",
-        condition: "pump",
-        of: "string line",
-        fault: SEAL_BELOW_A_HOIST,
-    },
-];
-
-/// The sine of half a link's bend: 12 N of the rig's pipe, and 137 N more of a seal at 2 MPa.
-const SEAL_BELOW_A_HOIST: &str =
-    "the hanger pulls the pipe along its chord and the guide along the hole, half a link's bend apart";
-
 /// A violated balance, or a run that failed: what it is of, the condition, and the line.
 type Violation = (String, String, String);
+
+/// What the report of a bag says about its balances, where it finds one violated.
+fn reported(bag: &Path) -> Option<String> {
+    let out = bag.with_extension("report");
+    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(["report".as_ref(), bag, "--out".as_ref(), &out])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let found = page.split("Out of balance: ").nth(1);
+    assert!(
+        found.is_some() || page.contains("Every balance holds."),
+        "{}",
+        bag.display()
+    );
+    Some(found?.split("</b>").next()?.to_owned())
+}
 
 /// The balances of a bag; violated ones into `violations`. `None` without Python.
 fn judge(bag: &Path, of: &str, least: usize, violations: &Mutex<Vec<Violation>>) -> Option<Value> {
@@ -132,6 +98,12 @@ fn judge(bag: &Path, of: &str, least: usize, violations: &Mutex<Vec<Violation>>)
         "{of}: {} of {least} conditions were judged",
         windows.len()
     );
+    if let Some(line) = reported(bag) {
+        violations
+            .lock()
+            .unwrap()
+            .push((of.to_owned(), "report".to_owned(), line));
+    }
     for window in windows {
         let condition = window["condition"].as_str().unwrap();
         for balance in window["balances"].as_array().unwrap() {
@@ -145,20 +117,10 @@ fn judge(bag: &Path, of: &str, least: usize, violations: &Mutex<Vec<Violation>>)
                     balance["limit"],
                     balance["reason"]
                 );
-                let name = balance["name"].as_str().unwrap();
-                let open = OPEN.iter().find(|open| {
-                    name.starts_with(open.balance)
-                        && condition.contains(open.condition)
-                        && of.contains(open.of)
-                        && (open.fault != SEAL_BELOW_A_HOIST || of.contains("pressure sealed"))
-                });
-                match open {
-                    Some(open) => println!("OPEN {of} | {condition} | {line} | {}", open.fault),
-                    None => violations
-                        .lock()
-                        .unwrap()
-                        .push((of.to_owned(), condition.to_owned(), line)),
-                }
+                violations
+                    .lock()
+                    .unwrap()
+                    .push((of.to_owned(), condition.to_owned(), line));
             }
         }
     }

@@ -26,6 +26,7 @@ use super::tangent::AddedCoupling;
 use super::{BOTTOM, Chain, NODE, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
+use crate::dynamics::numbered::along_the_hole;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -158,7 +159,8 @@ impl Operator {
                 }
             }
         }
-        // Point masses, and the tie: u_pipe - u_guide = 0 with its multiplier. A node without a tie has a one for it.
+        // Point masses, and the tie, which holds both ends together along the hole, with its multiplier. A node without a tie
+        // has a one for it.
         for (point, places) in model.masses.iter().zip(&chain.model.places.masses) {
             for (&place, mass) in places.iter().zip(point.body.diagonal()) {
                 let (node, at) = (place / NODE, place % NODE);
@@ -169,9 +171,9 @@ impl Operator {
         if chain.model.places.tie.is_some() {
             nodes[chain.spans()][TIE][TIE] = 0.0;
             let (last, scale) = (chain.spans(), model.force_scale);
-            for (place, sign) in [(U, scale), (super::GUIDE, -scale)] {
-                nodes[last][TIE][place] += sign;
-                nodes[last][place][TIE] += sign;
+            for (place, share) in along_the_hole(model.ends_along[1], U, super::GUIDE) {
+                nodes[last][TIE][place] += scale * share;
+                nodes[last][place][TIE] += scale * share;
             }
         }
         let couplings = spans

@@ -43,9 +43,12 @@ impl<'a> Numbered<'a> {
         let Self { model, places, .. } = *self;
         if let Some(tie) = places.tie.filter(|&tie| wanted(tie)) {
             let scale = model.force_scale;
-            residual[places.pipe_end] += scale * state.q[tie];
-            residual[places.guide_end] -= scale * state.q[tie];
-            residual[tie] = scale * (state.q[places.pipe_end] - state.q[places.guide_end]);
+            let mut apart = 0.0;
+            for (unknown, share) in along_the_hole(model.ends_along[1], places.pipe_end, places.guide_end) {
+                residual[unknown] += scale * share * state.q[tie];
+                apart += share * state.q[unknown];
+            }
+            residual[tie] = scale * apart;
         }
         for (unknown, [impedance, arriving, stiffness]) in self.top_ends(conditions) {
             if wanted(unknown) {
@@ -54,10 +57,11 @@ impl<'a> Numbered<'a> {
             }
         }
         if let Some(stiffness) = model.hanger.filter(|_| wanted(places.pipe_top)) {
-            // The first node has both.
+            // The first node has both bodies.
             let force = stiffness * self.hanger_stretch(state);
-            residual[places.pipe_top] += force;
-            residual[places.guide_top] -= force;
+            for (unknown, share) in self.hanger_shares() {
+                residual[unknown] += share * force;
+            }
         }
         if !self.pressure.is_empty() {
             let at_top = model.pressure_at_top(conditions);
@@ -89,9 +93,17 @@ impl<'a> Numbered<'a> {
         }
     }
 
-    /// How far the pipe's top has moved down past the guide's (m).
+    /// Unknowns that stretch the hanger, and how much each does.
+    fn hanger_shares(&self) -> [(usize, f64); 4] {
+        along_the_hole(self.model.ends_along[0], self.places.pipe_top, self.places.guide_top)
+    }
+
+    /// How far the pipe's top has moved down the hole past the guide's (m).
     fn hanger_stretch(&self, state: &State) -> f64 {
-        state.q[self.places.pipe_top] - state.q[self.places.guide_top]
+        self.hanger_shares()
+            .into_iter()
+            .map(|(unknown, share)| share * state.q[unknown])
+            .sum()
     }
 
     /// Energy in the connector by which the pipe hangs on the guide (J).
@@ -128,14 +140,10 @@ impl<'a> Numbered<'a> {
             add(depth, spin, stiffness * bit.weight_by[1]);
         }
         if let Some(hanger) = self.model.hanger {
-            let (pipe, guide) = (self.places.pipe_top, self.places.guide_top);
-            for (force, motion, sign) in [
-                (pipe, pipe, 1.0),
-                (pipe, guide, -1.0),
-                (guide, pipe, -1.0),
-                (guide, guide, 1.0),
-            ] {
-                add(force, motion, sign * factors.stiffness * hanger);
+            for (force, by) in self.hanger_shares() {
+                for (motion, to) in self.hanger_shares() {
+                    add(force, motion, by * to * factors.stiffness * hanger);
+                }
             }
         }
         for (unknown, [impedance, _, stiffness]) in self.top_ends(conditions) {
@@ -170,4 +178,11 @@ impl<'a> Numbered<'a> {
             }
         }
     }
+}
+
+/// Displacement of the pipe past the guide along the hole's axis, which is `along` in the pipe's frame: the pipe's three
+/// displacements from unknown `pipe` on and the guide's u, with their shares.
+pub(crate) fn along_the_hole(along: [f64; 3], pipe: usize, guide: usize) -> [(usize, f64); 4] {
+    let [u, v, w] = along;
+    [(pipe, u), (pipe + 1, v), (pipe + 2, w), (guide, -1.0)]
 }

@@ -80,6 +80,10 @@ pub struct Model {
     /// Stiffness of the connector by which the pipe's top hangs on the guide's, below a hoist (N/m): that of one element of
     /// the pipe, which adds micrometres to what the tool itself yields.
     pub hanger: Option<f64>,
+    /// The hole's axis in the pipe's frame at the first and at the last station, (u, v, w). Hanger and tie act along it: along
+    /// the chord of the pipe's link, half a link's bend away, pipe and guide would not pull each other in opposite
+    /// directions.
+    pub ends_along: [[f64; 3]; 2],
     /// The unknowns that loads, joints, drive and bit act on.
     pub places: Places,
     /// Numbering of the linear system.
@@ -170,6 +174,7 @@ impl Model {
             tied,
             tie,
             hanger: d.string.as_ref().and_then(|string| string.hoist).map(|_| stiffest),
+            ends_along: [0, last].map(|s| stations[s].pipe_to_station.row(0).into_owned().into()),
             places: Places::default(),
             layout,
             force_scale: stiffest,

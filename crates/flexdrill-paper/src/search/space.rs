@@ -109,9 +109,9 @@ pub const DIMENSIONS: &[Dimension] = &[
     linear("inner_clearance", 0.002, 0.012, "m, tight to loose"),
     linear(
         "outer_clearance",
-        0.002,
+        0.001,
         0.010,
-        "m, tight to loose in the hole of 118 mm",
+        "m, a guide that just passes the hole of 118 mm to a loose one",
     ),
     whole(
         "links",
@@ -147,6 +147,11 @@ pub const DIMENSIONS: &[Dimension] = &[
         "crosses turned by a quarter, or in line",
     ),
     log("beta", 1e-5, 1e-3, "s, stiffness-proportional damping"),
+    choice(
+        "guide_top",
+        &["free", "held"],
+        "whether the guide's top may turn: Table 1 does not list what the guide hangs on",
+    ),
 ];
 
 /// Thinnest wall of the guide (m); where the clearances leave less, the pipe is made thinner.
@@ -190,6 +195,20 @@ const CROOKED: Values = &[
     ("phase_deg", 147.0),
     ("beta", 2.62e-5),
 ];
+/// What a guide whose top cannot turn changes.
+const HELD: Values = &[
+    ("wob_kn", 7.0),
+    ("inner_clearance", 0.002),
+    ("outer_clearance", 0.001),
+    ("guide_bending", 0.012),
+    ("inner_stiffness", 1.95e7),
+    ("outer_stiffness", 3.5e8),
+    ("inner_friction", 0.33),
+    ("inner_axial", 0.33),
+    ("phase_deg", 118.0),
+    ("beta", 9.9e-4),
+    ("guide_top", 1.0),
+];
 /// What starts change, and of which values.
 const STARTS: &[(Values, Values)] = &[
     (&[("joint", 0.0)], USUAL),
@@ -232,6 +251,9 @@ const STARTS: &[(Values, Values)] = &[
         ],
         CROOKED,
     ),
+    // By hand from the one before the last: the guide's top held against turning, a softer guide that fills the hole, and a
+    // harder wall.
+    (HELD, CROOKED),
 ];
 
 /// Points to begin with.
@@ -328,10 +350,21 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         .into_iter()
         .map(|(key, value)| (key, json!(value)))
         .chain(words.into_iter().map(|(key, value)| (key, json!(value))))
-        .chain([("tool.links", json!(number("links") as u64))]);
+        .chain([
+            ("tool.links", json!(number("links") as u64)),
+            ("boundary.supports", supports(&word("guide_top"))),
+        ]);
     let mut case = Case::new(base.with_values("parameter", values)?);
     case.weight_on_bit_kn = number("wob_kn");
     case.settling_turns = 1.0;
     case.impatient = true;
     Ok(case)
+}
+
+/// Supports beside those of Table 1.
+fn supports(guide_top: &str) -> serde_json::Value {
+    match guide_top {
+        "held" => json!([{"at": "top", "body": "guide", "fix": ["psi"]}]),
+        _ => json!([]),
+    }
 }

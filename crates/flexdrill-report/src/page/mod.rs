@@ -1,6 +1,7 @@
 //! The page: one HTML file that contains its figures and style.
 
 mod alarms;
+mod balances;
 pub(crate) mod comparison;
 mod drive;
 mod health;
@@ -45,6 +46,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
         (locations::envelopes(summary)?)
         (drive::torque(summary)?)
         (transfer::section(summary)?)
+        (balances::section(summary))
         (health::section(summary)?)
         (limits())
         (configuration(summary))

@@ -7,7 +7,7 @@ use super::slots::add_slots_tangent;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::numbered::Numbered;
+use crate::dynamics::numbered::{Numbered, along_the_hole};
 use crate::dynamics::state::{State, motion};
 use crate::elements::beam::ElementMatrix;
 use crate::linear::{BlockSystem, ContactBlock, Touching, add_columns};
@@ -171,8 +171,9 @@ impl Assembler {
         }
         if model.tied {
             let (last, scale) = (model.last(), model.force_scale);
-            for (row, column, sign) in [(0, 18, 1.0), (6, 18, -1.0), (18, 0, 1.0), (18, 6, -1.0)] {
-                self.step_constant.add(last, row, column, sign * scale);
+            for (unknown, share) in along_the_hole(model.ends_along[1], 0, 6) {
+                self.step_constant.add(last, unknown, 18, scale * share);
+                self.step_constant.add(last, 18, unknown, scale * share);
             }
         }
     }

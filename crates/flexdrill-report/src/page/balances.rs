@@ -1,0 +1,55 @@
+//! Balances of the whole tool.
+
+use maud::{Markup, html};
+
+use super::text::number;
+use crate::balances::Balance;
+use crate::reading::Summary;
+
+/// The section.
+pub(super) fn section(summary: &Summary) -> Markup {
+    let judged: Vec<&Balance> = summary.balances.judged().collect();
+    let beyond: Vec<&str> = judged.iter().filter(|of| of.beyond > 0).map(|of| of.name).collect();
+    html! {
+        section {
+            h2 { "Balances" }
+            @if judged.is_empty() {
+                p { "Not in the bag." }
+            } @else {
+                p {
+                    @if beyond.is_empty() {
+                        "Every balance holds. "
+                    } @else {
+                        b.warning { "Out of balance: " (beyond.join("; ")) ". " }
+                        "Do not rely on figures of these times, and report it. "
+                    }
+                    "Each row is computed from the recorded figures alone and shows the message that comes nearest to the \
+                     limit. Torque, hook load and rock are judged while the inputs stay within 5 %."
+                }
+                table {
+                    thead { tr {
+                        th { "balance" } th.n { "left over" } th.n { "of" } th.n { "limit" } th { "unit" } th.n { "at (s)" }
+                        th.n { "beyond" } th { "reason for the limit" }
+                    } }
+                    tbody { @for balance in judged { (row(balance)) } }
+                }
+            }
+        }
+    }
+}
+
+fn row(balance: &Balance) -> Markup {
+    html! {
+        @if let Some(worst) = &balance.worst {
+            tr {
+                td { (balance.name) }
+                td.n.warning[worst.is_beyond()] { (number(worst.rest)) }
+                @for value in [worst.size, worst.limit] { td.n { (number(value)) } }
+                td { (balance.unit) }
+                td.n { (format!("{:.1}", worst.time)) }
+                td.n { (balance.beyond) " of " (balance.judged) }
+                td { small { (balance.reason) } }
+            }
+        }
+    }
+}
