@@ -297,7 +297,7 @@ impl Balances {
 
     /// Means from the surface to the bit.
     pub(crate) fn transfer(&mut self, time: f64, m: &Transfer) {
-        if !(m.duration > 0.0) {
+        if m.duration.is_nan() || m.duration <= 0.0 {
             return;
         }
         let put_in = [
