@@ -2,7 +2,8 @@
 // input.
 //
 // It answers as tests/python/peer.py does, to as much as the tests ask of it: subscribe, take, listen (one topic),
-// publish (Float64), call (services without arguments that answer success and a message), matched, quit. Of a message
+// publish (Float64), call (with a request of zeros; it tells how long the reply is and whether it begins with true), matched,
+// quit. Of a message
 // it decodes, with Fast CDR, the header and, of TwinStatus, the fields behind it. Nothing of the Rust code is used.
 // FAST_KEYS names the folder of an enclave of SROS2 that it is to use.
 
@@ -117,7 +118,9 @@ public:
         if (what == "subscribe") return subscribe(topic, text(line, "type"), text(line, "kind"));
         if (what == "publish") return publish(topic, text(line, "type"), number(line, "data", 0));
         if (what == "take") return take(topic, number(line, "seconds", 0), number(line, "count", 1));
-        if (what == "call") return call(text(line, "service"), text(line, "type"));
+        if (what == "call") {
+            return call(text(line, "service"), text(line, "type"), static_cast<size_t>(number(line, "zeros", 4)));
+        }
         if (what == "matched") {
             SubscriptionMatchedStatus status;
             reader(topic)->get_subscription_matched_status(status);
@@ -175,8 +178,8 @@ private:
         DataReader* replies;
     };
 
-    // Asks as rmw_fastrtps does: the request's identity is that of its sample.
-    std::string call(const std::string& service, const std::string& type) {
+    // Asks as rmw_fastrtps does: the request's identity is that of its sample, and a reply that names another is not taken.
+    std::string call(const std::string& service, const std::string& type, size_t zeros) {
         auto& client = clients_[service];
         if (client.requests == nullptr) {
             DataWriterQos writing = DATAWRITER_QOS_DEFAULT;
@@ -200,14 +203,19 @@ private:
             client.requests->get_publication_matched_status(server);
             client.replies->get_subscription_matched_status(back);
         } while ((server.current_count == 0 || back.current_count == 0) && Clock::now() < deadline);
-        Payload request{0, 1, 0, 0, 0, 0, 0, 0};
-        if (!client.requests->write(&request)) throw std::runtime_error("the request was not written");
+        Payload request(4 + zeros, 0);
+        request[1] = 1;
+        eprosima::fastrtps::rtps::WriteParams asked;
+        if (!client.requests->write(&request, asked)) throw std::runtime_error("the request was not written");
         Payload reply;
         SampleInfo info;
         while (Clock::now() < deadline) {
             while (client.replies->take_next_sample(&reply, &info) == ReturnCode_t::RETCODE_OK) {
                 if (!info.valid_data || reply.size() < 5) continue;
-                return std::string("{\"reply\": {\"success\": ") + (reply[4] ? "true" : "false") + "}}";
+                const auto& answered = info.related_sample_identity.sequence_number();
+                if (answered != asked.sample_identity().sequence_number()) continue;
+                return std::string("{\"reply\": {\"success\": ") + (reply[4] ? "true" : "false") +
+                       ", \"bytes\": " + std::to_string(reply.size()) + "}}";
             }
             std::this_thread::sleep_for(pause);
         }

@@ -9,7 +9,9 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod cable;
 mod faults;
 mod others;
 mod outsider;
 mod peers;
+mod replies;

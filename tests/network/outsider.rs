@@ -5,33 +5,13 @@
 
 use std::time::Duration;
 
+use crate::cable::{INSIDE, OUTSIDE, two_machines};
 use crate::common::{Network, Peer, Program, skipped};
 use serde_json::json;
 
 const STATUS: (&str, &str) = ("/twin/status", "flexdrill/msg/TwinStatus");
-const INSIDE: &str = "10.77.0.1";
-const OUTSIDE: &str = "10.77.0.2";
 /// Longer than a participant needs to be discovered and heard (s): Cyclone DDS calls its peers every second at first.
 const LISTEN: f64 = 8.0;
-
-/// Two networks with a cable between them.
-fn two_machines() -> Option<(Network, Network)> {
-    let (inside, outside) = (Network::new()?, Network::new()?);
-    let other = outside.id().to_string();
-    let cable = [
-        "ip", "link", "add", "rig0", "type", "veth", "peer", "name", "rig1", "netns", &other,
-    ];
-    if !inside.done(&cable) {
-        return skipped("no cable between two network namespaces can be made (needs root)");
-    }
-    for (network, device, address) in [(&inside, "rig0", INSIDE), (&outside, "rig1", OUTSIDE)] {
-        let address = format!("{address}/24");
-        assert!(network.done(&["ip", "address", "add", &address, "dev", device]));
-        assert!(network.done(&["ip", "link", "set", device, "up"]));
-        assert!(network.done(&["ip", "route", "replace", "224.0.0.0/4", "dev", device]));
-    }
-    Some((inside, outside))
-}
 
 /// The outsider, who knows the address of the twin's machine.
 fn outsider(outside: &Network) -> Option<Peer> {

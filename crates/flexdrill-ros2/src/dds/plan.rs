@@ -8,7 +8,7 @@ use crate::dds::network::Network;
 /// reader.
 const STALL_TIME: f64 = 15.0;
 
-/// Longest reply of a service (bytes): the library corrupts replies of more than one datagram.
+/// Longest reply of a service (bytes): a client may ask for any number of parameters at once.
 pub const MOST_REPLY: usize = 60_000;
 
 /// Bytes of the prefix that all endpoints of a participant share.
