@@ -479,8 +479,11 @@ mod tests {
         eprintln!("{names:?}\n{counts:#?}");
         assert!(trials.iter().filter(|trial| trial.straddles).count() >= 6);
         for (name, count) in names.iter().zip(&counts) {
-            // Of eight bands that hold nine of ten truths, fewer than six do once in 26 times (binomial).
-            assert!(count.holds >= 6, "{name}: {count:?}");
+            // Of eight independent bands that hold nine of ten truths, fewer than six do once in 26 times (binomial). The logs
+            // share one surrogate. Of an unknown that they bound and do not identify, its error is a large part of the band and
+            // the same in all logs: half must hold.
+            let least = if count.identified == LOGS { 6 } else { LOGS / 2 };
+            assert!(count.holds >= least, "{name}: {count:?}");
         }
         let holds: usize = counts.iter().map(|count| count.holds).sum();
         assert!(10 * holds >= 8 * LOGS * names.len(), "{holds}");
