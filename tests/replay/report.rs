@@ -123,6 +123,9 @@ fn a_replay_gives_a_page_with_the_numbers_of_its_bag() {
         assert!(page.contains(&format!("<figure id=\"{figure}\">")), "{figure}");
     }
     assert!(page.contains("Every balance holds.") && page.contains("forces on the tool"));
+    // The small tool has no string.
+    let left = page.split("Not judged: ").nth(1).unwrap();
+    assert!(left.split('.').next().unwrap().contains("hook load"), "{left}");
     // A replay keeps no pace, and says so.
     assert!(
         page.contains("A replay has none") && said.contains("twin/status"),

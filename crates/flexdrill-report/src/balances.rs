@@ -221,17 +221,16 @@ impl Balances {
         self.tool = Some(Tool::of(config));
     }
 
-    /// The balances that something was judged for.
-    pub(crate) fn judged(&self) -> impl Iterator<Item = &Balance> {
-        let all = [
+    /// All balances.
+    pub(crate) fn all(&self) -> [&Balance; 6] {
+        [
             &self.forces,
             &self.power,
             &self.audit,
             &self.torque,
             &self.hook,
             &self.rock,
-        ];
-        all.into_iter().filter(|balance| balance.judged > 0)
+        ]
     }
 
     /// Takes inputs, from which on the tool has to follow.

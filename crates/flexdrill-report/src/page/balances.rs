@@ -8,7 +8,8 @@ use crate::reading::Summary;
 
 /// The section.
 pub(super) fn section(summary: &Summary) -> Markup {
-    let judged: Vec<&Balance> = summary.balances.judged().collect();
+    let all = summary.balances.all();
+    let (judged, left): (Vec<&Balance>, Vec<&Balance>) = all.into_iter().partition(|of| of.judged > 0);
     let beyond: Vec<&str> = judged.iter().filter(|of| of.beyond > 0).map(|of| of.name).collect();
     html! {
         section {
@@ -32,6 +33,12 @@ pub(super) fn section(summary: &Summary) -> Markup {
                         th.n { "beyond" } th { "reason for the limit" }
                     } }
                     tbody { @for balance in judged { (row(balance)) } }
+                }
+                @if !left.is_empty() {
+                    p.note {
+                        "Not judged: " (left.iter().map(|of| of.name).collect::<Vec<_>>().join("; ")) ". The tool does not have \
+                         these figures, or the inputs did not stay for as long as the tool takes to follow them."
+                    }
                 }
             }
         }
