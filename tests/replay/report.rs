@@ -122,7 +122,7 @@ fn a_replay_gives_a_page_with_the_numbers_of_its_bag() {
     for figure in ["inputs", "orbits", "envelopes", "torque"] {
         assert!(page.contains(&format!("<figure id=\"{figure}\">")), "{figure}");
     }
-    assert!(page.contains("Every balance holds.") && page.contains("forces on the tool"));
+    assert!(page.contains("Every balance that was judged holds.") && page.contains("forces on the tool"));
     // The small tool has no string.
     let left = page.split("Not judged: ").nth(1).unwrap();
     assert!(left.split('.').next().unwrap().contains("hook load"), "{left}");
@@ -187,7 +187,7 @@ fn figures_that_do_not_balance_are_named() {
     let (page, _) = report(&changed, &[]);
     let named = "Out of balance: forces on the tool, with inertia and damping; power put in, taken and stored.";
     assert!(page.contains(named), "{page}");
-    assert!(!page.contains("Every balance holds."));
+    assert!(!page.contains("Every balance that was judged holds."));
 }
 
 struct Bag {

@@ -16,6 +16,8 @@ use flexdrill_messages::{AppliedInputs, BitState, Reactions, Transfer};
 const STAYS: f64 = 0.05;
 /// Time that a tool takes to follow an input (s), and the same in response times of the hoist.
 const FOLLOWS: (f64, f64) = (2.0, 8.0);
+/// Stick-slip index up to which a bit turns evenly: its speed stays within half of its mean.
+const EVEN: f64 = 0.5;
 /// Samples that are kept to compare with a mean: more than a minute at 50 Hz.
 const KEPT: usize = 4096;
 
@@ -33,7 +35,7 @@ pub(crate) struct Balance {
     pub worst: Option<Rest>,
 }
 
-/// What is left of a balance at one time.
+/// The remainder of a balance at one time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rest {
     /// s from the beginning.
@@ -169,8 +171,8 @@ pub(crate) struct Balances {
     /// Inputs that stay, and from when on the tool has followed them (s).
     inputs: Option<[f64; 4]>,
     followed: f64,
-    /// Speed (rad/s) and weight (N) of the bit.
-    bit: Recent<2>,
+    /// Speed (rad/s), weight (N) and stick-slip index of the bit.
+    bit: Recent<3>,
     /// Force of the support of the pipe's top down the hole (N).
     pipe_top: Recent<1>,
 }
@@ -264,7 +266,8 @@ impl Balances {
     }
 
     pub(crate) fn bit(&mut self, time: f64, m: &BitState) {
-        self.bit.push(time, [m.rotary_speed, m.weight_on_bit]);
+        self.bit
+            .push(time, [m.rotary_speed, m.weight_on_bit, m.stick_slip_index]);
     }
 
     /// Forces on the tool at an instant.
@@ -366,7 +369,9 @@ impl Balances {
             self.hook.judge(time, rest, m.hook_load.abs(), limit);
         }
         if let (Some((rock, radius)), Some(([speed, swing], [_, pressed]))) = (tool.rock, bit) {
-            if m.bit_weight < 1.0 || speed <= 0.0 {
+            // A bit that chatters cuts while it is fast: the advance is not the product of the means.
+            let even = self.bit.since(from, 2).is_some_and(|[index, _]| index < EVEN);
+            if m.bit_weight < 1.0 || speed <= 0.0 || !even {
                 return;
             }
             let removed = speed / TAU * m.depth_of_cut;

@@ -361,7 +361,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
     Ok(case)
 }
 
-/// Supports beside those of Table 1.
+/// Supports in addition to those of Table 1.
 fn supports(guide_top: &str) -> serde_json::Value {
     match guide_top {
         "held" => json!([{"at": "top", "body": "guide", "fix": ["psi"]}]),

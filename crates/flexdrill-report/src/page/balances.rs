@@ -19,13 +19,13 @@ pub(super) fn section(summary: &Summary) -> Markup {
             } @else {
                 p {
                     @if beyond.is_empty() {
-                        "Every balance holds. "
+                        "Every balance that was judged holds. "
                     } @else {
                         b.warning { "Out of balance: " (beyond.join("; ")) ". " }
                         "Do not rely on figures of these times, and report it. "
                     }
                     "Each row is computed from the recorded figures alone and shows the message that comes nearest to the \
-                     limit. Torque, hook load and rock are judged while the inputs stay within 5 %."
+                     limit. Torque, hook load and rock are judged while the inputs stay within 5 %, rock while the bit turns evenly."
                 }
                 table {
                     thead { tr {
@@ -37,7 +37,7 @@ pub(super) fn section(summary: &Summary) -> Markup {
                 @if !left.is_empty() {
                     p.note {
                         "Not judged: " (left.iter().map(|of| of.name).collect::<Vec<_>>().join("; ")) ". The tool does not have \
-                         these figures, or the inputs did not stay for as long as the tool takes to follow them."
+                         these figures, or the inputs did not stay for as long as the tool takes to follow them, or the bit did not turn evenly."
                     }
                 }
             }
