@@ -97,6 +97,12 @@ impl Held {
         &self.calibration
     }
 
+    /// Whether speed (rad/s) and weight (N) are close enough to those of a forecast for it to speak of them.
+    pub fn is_for(&self, targets: &[f64; 2], asked: [f64; 2]) -> bool {
+        let mut all = asked.iter().zip(targets).zip(&self.same);
+        all.all(|((now, then), same)| (now - then).abs() <= same.max(SAME * then.abs()))
+    }
+
     /// Nothing that follows a reset of the model was forecast.
     fn follow_reset(&mut self, snapshot: &Snapshot) {
         if snapshot.step < self.step {

@@ -3,9 +3,10 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::what_if_messages::of_alarm;
-use crate::ahead::{Forecast, Held, Signal, widened};
+use crate::ahead::{Forecast, HORIZON, Held, Signal, widened};
 use flexdrill_config::Config;
-use flexdrill_core::twin::{Frame, Output};
+use flexdrill_core::twin::{Frame, Output, RunInputs};
+use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{self as messages, ForecastBand};
@@ -43,6 +44,23 @@ pub struct ForecastDesk {
     forecasts: Arc<Forecasts>,
     time_step: f64,
     held: Held,
+    /// Time (s of the run) and step of the newest frame.
+    now: (f64, u64),
+    /// Speed (rad/s) and weight (N) that are asked for.
+    asked: Option<[f64; 2]>,
+    /// What the published forecast is of, until it is given up.
+    standing: Option<Minute>,
+}
+
+/// The minute that a forecast is of.
+#[derive(Debug, Clone, Copy)]
+struct Minute {
+    /// Ticks and model step of the state that it begins from.
+    from: (u64, u64),
+    /// Its end (s of the run).
+    end: f64,
+    /// Speed (rad/s) and weight (N) that it assumes.
+    targets: [f64; 2],
 }
 
 impl ForecastDesk {
@@ -52,12 +70,21 @@ impl ForecastDesk {
             forecasts,
             time_step: config.solver.time_step,
             held: Held::new(&config.inputs),
+            now: (0.0, 0),
+            asked: None,
+            standing: None,
         }
+    }
+
+    /// Takes what is asked for from now on.
+    pub fn ask(&mut self, inputs: &RunInputs) {
+        self.asked = Some([inputs.inputs.rotary_speed, inputs.inputs.weight_on_bit]);
     }
 
     /// Takes what came.
     pub fn observe(&mut self, frame: &Frame) {
         let time = frame.ticks as f64 * self.time_step;
+        self.now = (time, frame.snapshot.step);
         if frame.ends_interval.contacts {
             self.held.peaks(time, &frame.snapshot);
         }
@@ -66,28 +93,35 @@ impl ForecastDesk {
         }
     }
 
-    /// The forecast that has arrived, as a message; `instant` gives the time of a tick (ns).
+    /// What is to be published, as a message: the forecast that has arrived, or why the published one is given up. `instant`
+    /// gives the time of a tick (ns).
     pub fn take(&mut self, frame_id: &str, instant: impl Fn(u64) -> i64) -> Option<messages::Forecast> {
-        let issued = self.forecasts.take()?;
-        let header = Header {
-            stamp: Time::from_nanoseconds(instant(issued.ticks)),
-            frame_id: frame_id.to_owned(),
+        let Some(issued) = self.forecasts.take() else {
+            let minute = self.standing?;
+            let why = self.gone(&minute)?;
+            self.standing = None;
+            return Some(messages::Forecast {
+                failure: why,
+                ..unknown(minute.from, minute.targets, frame_id, &instant)
+            });
         };
-        let [rotary_speed, weight_on_bit] = issued.targets;
-        let mut message = messages::Forecast {
-            header,
-            from_step: issued.step,
-            rotary_speed,
-            weight_on_bit,
-            interval: 1.0,
-            any_alarm: f64::NAN,
-            any_alarm_lower: 0.0,
-            any_alarm_upper: 1.0,
-            ..messages::Forecast::default()
-        };
+        let from = (issued.ticks, issued.step);
+        let mut message = unknown(from, issued.targets, frame_id, &instant);
+        self.standing = None;
         match issued.forecast {
             Err(why) => message.failure = why,
             Ok(forecast) => {
+                let minute = Minute {
+                    from,
+                    end: (forecast.first + HORIZON) as f64,
+                    targets: issued.targets,
+                };
+                // Its runs took so long on a busy machine, or the rig went on to other values meanwhile.
+                if let Some(why) = self.gone(&minute) {
+                    message.failure = why;
+                    return Some(message);
+                }
+                self.standing = Some(minute);
                 let first = (forecast.first as f64 / self.time_step).round() as u64;
                 message.bands_from = Time::from_nanoseconds(instant(first));
                 (message.members, message.failed) = (forecast.members, forecast.failed);
@@ -100,6 +134,31 @@ impl ForecastDesk {
             }
         }
         Some(message)
+    }
+
+    /// Why a forecast is not one of the next minute at the speed and weight that are asked for; `None` where it is.
+    fn gone(&self, minute: &Minute) -> Option<String> {
+        let (time, step) = self.now;
+        let words =
+            |[speed, weight]: [f64; 2]| format!("{:.1} r/min and {:.1} kN", rad_per_s_to_rpm(speed), n_to_kn(weight));
+        let made_for = words(minute.targets);
+        let asked = self.asked.filter(|asked| !self.held.is_for(&minute.targets, *asked));
+        if step < minute.from.1 {
+            Some(format!("the model was reset since the forecast for {made_for} began"))
+        } else if let Some(asked) = asked {
+            Some(format!(
+                "the forecast was made for {made_for}, and {} are asked for now; the next one follows",
+                words(asked)
+            ))
+        } else if time >= minute.end {
+            let age = time - minute.from.0 as f64 * self.time_step;
+            Some(format!(
+                "the forecast for {made_for} began {age:.0} s ago and its minute is over; a newer one was not ready, because \
+                 the machine was busy or other look-aheads came first"
+            ))
+        } else {
+            None
+        }
     }
 
     fn band(&self, signal: Signal, forecast: &Forecast) -> ForecastBand {
@@ -122,5 +181,143 @@ impl ForecastDesk {
             inside: of.inside,
             inside_members: of.inside_members,
         }
+    }
+}
+
+/// A forecast that says nothing yet, from the state at these ticks and this step.
+fn unknown(
+    (ticks, from_step): (u64, u64),
+    [rotary_speed, weight_on_bit]: [f64; 2],
+    frame_id: &str,
+    instant: impl Fn(u64) -> i64,
+) -> messages::Forecast {
+    messages::Forecast {
+        header: Header {
+            stamp: Time::from_nanoseconds(instant(ticks)),
+            frame_id: frame_id.to_owned(),
+        },
+        from_step,
+        rotary_speed,
+        weight_on_bit,
+        interval: 1.0,
+        any_alarm: f64::NAN,
+        any_alarm_lower: 0.0,
+        any_alarm_upper: 1.0,
+        ..messages::Forecast::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ahead::Chance;
+    use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+
+    const TARGETS: (f64, f64) = (40.0, 8.0);
+
+    fn targets((rpm, kn): (f64, f64)) -> [f64; 2] {
+        [rpm_to_rad_per_s(rpm), kn_to_n(kn)]
+    }
+
+    fn desk() -> (ForecastDesk, Arc<Forecasts>) {
+        let forecasts = Arc::<Forecasts>::default();
+        let text = include_str!("../../config/default.yaml");
+        let config = Config::from_text("default.yaml", text).unwrap();
+        let mut desk = ForecastDesk::new(Arc::clone(&forecasts), &config);
+        desk.asked = Some(targets(TARGETS));
+        (desk, forecasts)
+    }
+
+    /// A forecast from the state after so many seconds.
+    fn issued(desk: &ForecastDesk, second: u64) -> Issued {
+        let steps = (second as f64 / desk.time_step) as u64;
+        Issued {
+            ticks: steps,
+            step: steps,
+            targets: targets(TARGETS),
+            forecast: Ok(Forecast {
+                first: second + 1,
+                seconds: Vec::new(),
+                members: 4,
+                failed: 0,
+                failure: String::new(),
+                alarms: Vec::new(),
+                any_alarm: Chance::new(0, 4),
+            }),
+        }
+    }
+
+    fn at(desk: &mut ForecastDesk, second: f64) {
+        let steps = (second / desk.time_step) as u64;
+        let mut frame = Frame {
+            ticks: steps,
+            ..Frame::default()
+        };
+        frame.snapshot.step = steps;
+        desk.observe(&frame);
+    }
+
+    fn taken(desk: &mut ForecastDesk) -> Option<(u32, String)> {
+        let message = desk.take("tool", |ticks| ticks as i64)?;
+        Some((message.members, message.failure))
+    }
+
+    #[test]
+    fn a_forecast_stands_for_its_minute_and_is_given_up_once() {
+        let (mut desk, forecasts) = desk();
+        forecasts.put(issued(&desk, 100));
+        at(&mut desk, 104.0);
+        assert_eq!(taken(&mut desk), Some((4, String::new())));
+        at(&mut desk, 160.0);
+        assert_eq!(taken(&mut desk), None);
+        at(&mut desk, 161.0);
+        let (members, why) = taken(&mut desk).unwrap();
+        assert_eq!(members, 0);
+        assert!(
+            why.contains("40.0 r/min and 8.0 kN began 61 s ago and its minute is over"),
+            "{why}"
+        );
+        assert_eq!(taken(&mut desk), None);
+    }
+
+    #[test]
+    fn a_forecast_that_comes_too_late_is_not_shown() {
+        let (mut desk, forecasts) = desk();
+        at(&mut desk, 197.0);
+        forecasts.put(issued(&desk, 100));
+        let (members, why) = taken(&mut desk).unwrap();
+        assert!(members == 0 && why.contains("began 97 s ago"), "{why}");
+        assert_eq!(taken(&mut desk), None);
+    }
+
+    #[test]
+    fn a_forecast_for_other_targets_is_given_up() {
+        let (mut desk, forecasts) = desk();
+        forecasts.put(issued(&desk, 100));
+        at(&mut desk, 104.0);
+        assert_eq!(taken(&mut desk).unwrap().0, 4);
+        // A rig's values waver within the bounds of the comparison.
+        desk.asked = Some(targets((40.9, 8.2)));
+        assert_eq!(taken(&mut desk), None);
+        desk.asked = Some(targets((60.0, 8.2)));
+        let (members, why) = taken(&mut desk).unwrap();
+        assert!(
+            members == 0 && why.contains("60.0 r/min and 8.2 kN are asked for now"),
+            "{why}"
+        );
+        // One that is made before the change and arrives after it is not shown.
+        forecasts.put(issued(&desk, 103));
+        let (members, why) = taken(&mut desk).unwrap();
+        assert!(members == 0 && why.contains("are asked for now"), "{why}");
+    }
+
+    #[test]
+    fn a_reset_ends_a_forecast() {
+        let (mut desk, forecasts) = desk();
+        forecasts.put(issued(&desk, 100));
+        at(&mut desk, 104.0);
+        assert_eq!(taken(&mut desk).unwrap().0, 4);
+        at(&mut desk, 1.0);
+        assert!(taken(&mut desk).unwrap().1.contains("was reset"));
     }
 }

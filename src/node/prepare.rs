@@ -122,7 +122,7 @@ impl PreparedNode {
         let (request_sender, alarm_requests) = channel();
         tasks.extend(alarms::serve(&mut port, mapping, &request_sender, service_name)?);
         let advisor = Arc::default();
-        let (what_if, answering) = what_if::serve(&mut port, mapping, &clocks, &advisor, service_name)?;
+        let (what_if, answering) = what_if::serve(&mut port, mapping, &clocks, &control, &advisor, service_name)?;
         tasks.extend(answering);
         let answering = Answering {
             what_if,

@@ -306,6 +306,9 @@ impl Publisher {
         if inputs.reset {
             self.failure = None;
         }
+        if let Some(desk) = &mut self.parts.forecasts {
+            desk.ask(inputs);
+        }
         self.pending.extend(self.parts.parameter_updates.try_iter());
         let (acting, pending): (Vec<_>, Vec<_>) = std::mem::take(&mut self.pending)
             .into_iter()
@@ -408,7 +411,7 @@ impl Publisher {
         }
     }
 
-    /// Publishes the forecast that has arrived.
+    /// Publishes the forecast that has arrived, or gives up the one that stands.
     fn send_forecast(&mut self) {
         let (Some(desk), Some(outputs)) = (&mut self.parts.forecasts, &self.outputs) else {
             return;

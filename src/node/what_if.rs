@@ -1,8 +1,9 @@
 //! The action `~/what_if`: what the tool would do under other speeds and weights, from the present state of the live run.
 //!
 //! One goal runs at a time, on threads of low priority; up to [`MOST_WAITING`] wait. ROS 2 has no words for a goal that is
-//! not accepted, so that one that cannot be answered is accepted and ends at once as aborted, with the reason in its result.
+//! not accepted: the reason is in the log, and in the answer to a client that asks for the result nevertheless.
 
+use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -39,8 +40,16 @@ const MOST_CLIENTS: usize = 32;
 const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Interval at which the node publishes the states of its goals again while one is open. Looking ahead is idle work: on a
-/// busy machine a client would otherwise hear nothing of the node for minutes.
-const SIGN_OF_LIFE: Duration = Duration::from_secs(5);
+/// busy machine a client would otherwise hear nothing of the node for minutes. A client that ends before it has heard a
+/// state of its goal takes it for not running, and does not cancel it.
+const SIGN_OF_LIFE: Duration = Duration::from_secs(1);
+/// The same after a goal was accepted: a state that arrives before the reply is not taken by the client, and the reply waits
+/// until the client's reader is known.
+const FIRST_SIGNS: Duration = Duration::from_millis(200);
+/// Time for which these go on: the longest wait for a client's reader.
+const FIRST_SIGNS_FOR: Duration = Duration::from_secs(4);
+/// Reasons of refused goals that are kept for clients that ask for them.
+const KEPT_REFUSALS: usize = 32;
 /// Longest wait for a goal before advice is looked for.
 const IDLE: Duration = Duration::from_millis(200);
 /// Seed of the look-aheads for advice.
@@ -68,9 +77,14 @@ pub struct WhatIf {
     /// Counts changes of the goals, for those who wait for a result.
     changed: watch::Sender<u64>,
     ending: Mutex<bool>,
+    /// When the newest goal was accepted.
+    accepted: Mutex<Option<Instant>>,
+    /// Why the latest refused goals were refused.
+    refused: Mutex<VecDeque<(GoalId, String)>>,
     feedback: TopicPublisher,
     status: TopicPublisher,
     clocks: Clocks,
+    control: Arc<Control>,
     advisor: Arc<Advisor>,
 }
 
@@ -94,33 +108,70 @@ impl WhatIf {
     fn accept(&self, request: WhatIfSendGoalRequest) -> WhatIfSendGoalResponse {
         let stamp = Time::from_nanoseconds(self.clocks.rig_time());
         let id = request.goal_id.uuid;
+        let refusal = match self.take(id, stamp.clone(), request.goal) {
+            Ok(before) => {
+                tracing::info!("what if: a goal is accepted, {before} before it{}", asked_by());
+                None
+            }
+            Err(why) => {
+                tracing::warn!("what if: a goal is refused: {why}{}", asked_by());
+                Some(why)
+            }
+        };
+        let accepted = refusal.is_none();
+        if let Some(why) = refusal {
+            let mut refused = self.refused.lock().unwrap_or_else(PoisonError::into_inner);
+            refused.truncate(KEPT_REFUSALS - 1);
+            refused.push_front((id, why));
+        }
+        WhatIfSendGoalResponse { accepted, stamp }
+    }
+
+    /// Takes a goal; the number of those before it, or why it is refused.
+    fn take(&self, id: GoalId, stamp: Time, asked: WhatIfGoal) -> Result<usize, String> {
+        goal(&asked)
+            .check(&self.control.config())
+            .map_err(|error| error.to_string())?;
         // A question of a person comes before the search for advice.
         self.advisor.interrupt();
-        let accepted = self.change(|goals| goals.accept(id, stamp.clone(), request.goal));
-        match accepted {
+        match self.change(|goals| goals.accept(id, stamp, asked)) {
             Accepted::Waits(before) => {
-                tracing::info!("what if: a goal is accepted, {before} before it{}", asked_by());
+                *self.accepted.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+                Ok(before)
             }
-            Accepted::Full => tracing::warn!(
-                "what if: a goal is refused, since one runs and {MOST_WAITING} wait; cancel one or try again later{}",
-                asked_by()
-            ),
-            Accepted::Known => tracing::warn!(
-                "what if: a goal is refused, since its identifier is in use{}",
-                asked_by()
-            ),
-        }
-        WhatIfSendGoalResponse {
-            accepted: matches!(accepted, Accepted::Waits(_)),
-            stamp,
+            Accepted::Full => Err(format!(
+                "one runs and {MOST_WAITING} wait; cancel one or try again later"
+            )),
+            Accepted::Known => Err("its identifier is in use".to_owned()),
         }
     }
 
-    /// Publishes the states of the goals at [`SIGN_OF_LIFE`] while one is open.
+    /// What a client hears that asks for the result of a goal that is not known.
+    fn no_such(&self, id: GoalId) -> WhatIfResult {
+        let refused = self.refused.lock().unwrap_or_else(PoisonError::into_inner);
+        let why = refused.iter().find(|(refused, _)| *refused == id);
+        let message = why.map_or_else(
+            || "no such goal; results are kept for 15 min".to_owned(),
+            |(_, why)| format!("the goal was not accepted: {why}"),
+        );
+        WhatIfResult {
+            message,
+            ..WhatIfResult::default()
+        }
+    }
+
+    /// Publishes the states of the goals while one is open.
     async fn shows_life(self: Arc<Self>) {
-        let mut ticks = tokio::time::interval(SIGN_OF_LIFE);
+        let mut ticks = tokio::time::interval(FIRST_SIGNS);
+        let mut shown = tokio::time::Instant::now();
         loop {
-            ticks.tick().await;
+            let now = ticks.tick().await;
+            let accepted = *self.accepted.lock().unwrap_or_else(PoisonError::into_inner);
+            let is_new = accepted.is_some_and(|at| at.elapsed() < FIRST_SIGNS_FOR);
+            if !is_new && now.duration_since(shown) < SIGN_OF_LIFE {
+                continue;
+            }
+            shown = now;
             let open = {
                 let goals = self.goals();
                 goals.is_open().then(|| goals.states())
@@ -138,10 +189,7 @@ impl WhatIf {
             if let Some((status, result)) = result {
                 return WhatIfGetResultResponse {
                     status,
-                    result: result.unwrap_or_else(|| WhatIfResult {
-                        message: "no such goal; results are kept for 15 min".to_owned(),
-                        ..WhatIfResult::default()
-                    }),
+                    result: result.unwrap_or_else(|| self.no_such(id)),
                 };
             }
             if changed.changed().await.is_err() {
@@ -154,7 +202,7 @@ impl WhatIf {
     pub fn end(&self) {
         *self.ending.lock().unwrap_or_else(PoisonError::into_inner) = true;
         self.advisor.interrupt();
-        self.change(Goals::cancel_all);
+        self.change(|goals| goals.cancel_all(unbegun));
     }
 
     fn is_ending(&self) -> bool {
@@ -183,6 +231,14 @@ impl WhatIf {
     }
 }
 
+/// The result of a goal that was cancelled before it began.
+fn unbegun() -> WhatIfResult {
+    WhatIfResult {
+        message: "cancelled before it began".to_owned(),
+        ..WhatIfResult::default()
+    }
+}
+
 fn publish(to: &TopicPublisher, message: &impl serde::Serialize) {
     match to_cdr_body(message) {
         Ok(body) => to.publish(body),
@@ -198,6 +254,7 @@ pub fn serve(
     port: &mut PortBuilder,
     mapping: ServiceMapping,
     clocks: &Clocks,
+    control: &Arc<Control>,
     advisor: &Arc<Advisor>,
     name: impl Fn(&str) -> Result<String, ArgsError>,
 ) -> Result<(Arc<WhatIf>, Vec<Task>), NodeError> {
@@ -207,9 +264,12 @@ pub fn serve(
         work: Condvar::new(),
         changed: watch::Sender::new(0),
         ending: Mutex::new(false),
+        accepted: Mutex::default(),
+        refused: Mutex::default(),
         feedback: ends.feedback,
         status: ends.status,
         clocks: clocks.clone(),
+        control: Arc::clone(control),
         advisor: Arc::clone(advisor),
     });
     let (accepting, cancelling, asking) = (Arc::clone(&what_if), Arc::clone(&what_if), Arc::clone(&what_if));
@@ -221,7 +281,7 @@ pub fn serve(
         ),
         Box::pin(ends.cancel_goal.serve(at_once(move |request: CancelGoalRequest| {
             tracing::info!("what if: goals are cancelled{}", asked_by());
-            cancelling.change(|goals| goals.cancel(&request))
+            cancelling.change(|goals| goals.cancel(&request, unbegun))
         }))),
         Box::pin(
             ends.get_result
@@ -288,7 +348,9 @@ impl Answering {
     fn answer(&self, begun: &Begun<WhatIfGoal>, tool: &mut Option<Simulation>) -> Result<WhatIfResult, String> {
         let config = self.control.config();
         let goal = goal(&begun.goal);
+        // The limits may have changed since it was accepted.
         goal.check(&config).map_err(|error| error.to_string())?;
+        let standing = self.control.stands_still();
         let (start, applied, ticks) = self.start(&config, tool)?;
         let mut told = Instant::now();
         let mut first = true;
@@ -303,7 +365,10 @@ impl Answering {
             from_stamp: self.stamp(ticks, &config),
             from_step: applied.step,
             complete: !answer.stopped,
-            message: sentence(&answer),
+            message: match standing {
+                Some(why) => format!("{why}; these runs begin at its present state. {}", sentence(&answer)),
+                None => sentence(&answer),
+            },
             answers: answer.candidates.iter().map(of_candidate).collect(),
         })
     }

@@ -31,7 +31,13 @@ impl Peer {
         peer
     }
 
-    fn answer(&self) -> Value {
+    /// Gives a command whose answer is taken later, by [`Self::answer`].
+    pub fn ask(&mut self, command: &Value) {
+        writeln!(self.child.stdin.as_mut().unwrap(), "{command}").unwrap();
+    }
+
+    /// The answer to what was asked.
+    pub fn answer(&self) -> Value {
         let line = self
             .answers
             .recv_timeout(Duration::from_secs(60))
@@ -41,7 +47,7 @@ impl Peer {
 
     /// Has a command carried out; its answer.
     pub fn command(&mut self, command: Value) -> Value {
-        writeln!(self.child.stdin.as_mut().unwrap(), "{command}").unwrap();
+        self.ask(&command);
         let answer = self.answer();
         assert!(answer.get("error").is_none(), "{command}: {answer}");
         answer

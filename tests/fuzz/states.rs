@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use flexdrill::alarms::{AlarmBook, state_file};
-use flexdrill::dds::frames::{self, Beat, FromSide, LogLevel, Peer, Peers, Stall, ToSide};
+use flexdrill::dds::frames::{self, Beat, FromSide, LogLevel, Peer, Peers, RequestId, Stall, ToSide};
 use flexdrill::dds::network::{Network, Reach};
 use flexdrill::dds::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan};
 use flexdrill::messages::std_msgs::Header;
@@ -237,6 +237,10 @@ fn frames() {
         }],
         former: vec![[1; 12]],
     };
+    let id = RequestId {
+        writer: [5; 16],
+        number: 1 << 40,
+    };
     let to = stream(&[
         ToSide::Begin(plan),
         ToSide::Publish {
@@ -245,7 +249,7 @@ fn frames() {
         },
         ToSide::Reply {
             service: 2,
-            ticket: 1 << 40,
+            to: id,
             body: vec![1; 5],
         },
         ToSide::End,
@@ -264,7 +268,7 @@ fn frames() {
         },
         FromSide::Request {
             service: 1,
-            ticket: 7,
+            id,
             client: Peer {
                 id: [3; 16],
                 node: Some("/rqt".into()),
@@ -274,6 +278,7 @@ fn frames() {
             sent: Some(1_700_000_000_000_000_000),
             body: vec![1; 20],
         },
+        FromSide::Replied { service: 1, to: id },
         FromSide::Beat(Beat {
             written: vec![(1, 2), (3, 4)],
             memory: 18 << 20,

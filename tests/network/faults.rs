@@ -153,6 +153,70 @@ fn requests_are_carried_out_once_whatever_restarts() {
     );
 }
 
+/// A request that is open when the DDS process is replaced is answered through the next one: the result of a goal, which
+/// comes after a while, and the reply to a goal that is sent at the moment.
+#[test]
+fn requests_that_are_open_when_dds_restarts_are_answered() {
+    const ACTION: &str = "/flexdrill/what_if/_action";
+    const TYPE: &str = "flexdrill/action/WhatIf";
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    back_after(&mut peer, 0);
+    let id = |number: u8| json!({"uuid": vec![number; 16]});
+    // It takes minutes, and ends when it is cancelled.
+    let goal = json!({"candidates": [{"rotary_speed": 60.0, "weight_on_bit": 5.0}], "horizon": 300.0, "members": 200,
+        "run_all": true, "seed": 5});
+    let send = |number: u8| {
+        json!({"do": "call", "service": format!("{ACTION}/send_goal"), "type": format!("{TYPE}_SendGoal"),
+            "request": {"goal_id": id(number), "goal": goal}, "seconds": 20.0})
+    };
+    let result = |number: u8| {
+        json!({"do": "call", "service": format!("{ACTION}/get_result"), "type": format!("{TYPE}_GetResult"),
+            "request": {"goal_id": id(number)}, "seconds": 50.0})
+    };
+    let cancel_all = json!({"do": "call", "service": format!("{ACTION}/cancel_goal"), "type": "action_msgs/srv/CancelGoal",
+        "request": {"goal_info": {}}, "seconds": 20.0});
+    // The first calls make the clients known, so that the next requests are under way at once.
+    assert_eq!(peer.command(send(1))["reply"]["accepted"], true);
+    assert_eq!(peer.command(cancel_all.clone())["reply"]["return_code"], 0);
+    assert_eq!(peer.command(result(1))["reply"]["status"], 5);
+    let mut restarts = 0;
+    for (number, after_ms) in [(2, 0), (3, 5), (4, 20), (5, 80)] {
+        peer.ask(&send(number));
+        std::thread::sleep(Duration::from_millis(after_ms));
+        signal_id(twin.dds_process(), "KILL");
+        let reply = peer.answer();
+        assert_eq!(
+            reply["reply"]["accepted"], true,
+            "goal {number}, {after_ms} ms: {reply}"
+        );
+        restarts += 1;
+        back_after(&mut peer, restarts);
+        assert_eq!(peer.command(cancel_all.clone())["reply"]["return_code"], 0);
+    }
+    assert_eq!(peer.command(send(9))["reply"]["accepted"], true);
+    peer.ask(&result(9));
+    std::thread::sleep(Duration::from_millis(300));
+    signal_id(twin.dds_process(), "KILL");
+    back_after_elsewhere(&network, restarts + 1);
+    let mut other = network.peer().unwrap();
+    assert_eq!(other.command(cancel_all)["reply"]["return_code"], 0);
+    let reply = peer.answer();
+    assert_eq!(reply["reply"]["status"], 5, "{reply}");
+    twin.signal("INT");
+    assert_eq!(twin.end(), Some(0));
+}
+
+/// As [`back_after`], while the peer waits for an answer.
+fn back_after_elsewhere(network: &Network, restarts: u64) {
+    let mut other = network.peer().unwrap();
+    other.subscribe(STATUS.0, STATUS.1, "reliable");
+    back_after(&mut other, restarts);
+}
+
 #[test]
 fn the_whole_program_stopped_for_a_while_goes_on() {
     let Some(network) = Network::new() else { return };

@@ -27,8 +27,8 @@ use flexdrill_ros2::dds::port::{Inbox, Monitor, PortBuilder, Sample};
 const MOST_CANDIDATES: usize = 16;
 /// Least time between two questions: a page that asks without end costs the server and the node nothing.
 const INTERVAL: Duration = Duration::from_secs(1);
-/// After this time without feedback or states of goals the twin counts as gone. It tells the states of open goals every
-/// 5 s, even when a busy machine has no time for the look-ahead.
+/// After this time without feedback or states of goals the twin counts as gone. It publishes the states of open goals every
+/// second, even when a busy machine has no time for the look-ahead.
 const SILENCE: Duration = Duration::from_secs(30);
 /// How often a silent twin is looked for.
 const LOOK: Duration = Duration::from_secs(1);
@@ -190,9 +190,13 @@ impl WhatIf {
                 tokio::spawn(Arc::clone(self).follow(number, id));
                 return Ok("the twin looks ahead".into());
             }
-            Ok(_) => {
-                Refused::Conflict("the twin answers other questions, and no more may wait; ask again later".into())
-            }
+            // The twin keeps the reason under the goal's identifier.
+            Ok(_) => match self.result(id).await {
+                Ok(WhatIfGetResultResponse { result, .. }) => Refused::Conflict(result.message),
+                Err(error) => Refused::Conflict(format!(
+                    "the twin did not accept the question, and the reason is unknown: {error}"
+                )),
+            },
             Err(error) => Refused::Away(error.to_string()),
         };
         self.end(number, true, refused.to_string(), None);
@@ -247,18 +251,20 @@ impl WhatIf {
                 }
             }
         }
-        let request = WhatIfGetResultRequest {
-            goal_id: UUID { uuid: id },
-        };
-        let result: Result<WhatIfGetResultResponse, CallError> =
-            self.parts.get_result.call(&self.monitor, &request).await;
-        match result {
+        match self.result(id).await {
             Ok(WhatIfGetResultResponse { status, result }) => {
                 let failed = status != GoalStatus::STATUS_SUCCEEDED && status != GoalStatus::STATUS_CANCELED;
                 self.end(number, failed, result.message, Some(result.answers));
             }
             Err(error) => self.end(number, true, error.to_string(), None),
         }
+    }
+
+    async fn result(&self, id: [u8; 16]) -> Result<WhatIfGetResultResponse, CallError> {
+        let request = WhatIfGetResultRequest {
+            goal_id: UUID { uuid: id },
+        };
+        self.parts.get_result.call(&self.monitor, &request).await
     }
 
     /// Whether the states of the twin's goals have this one as ended.

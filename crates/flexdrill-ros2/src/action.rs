@@ -177,8 +177,9 @@ impl<G, R: Clone> Goals<G, R> {
     }
 
     /// Asks for the end of goals, as ROS 2 defines it: all where identifier and stamp are zero; the one of the identifier
-    /// and, where the stamp is not zero, those accepted at the stamp or before.
-    pub fn cancel(&mut self, request: &CancelGoalRequest) -> CancelGoalResponse {
+    /// and, where the stamp is not zero, those accepted at the stamp or before. A goal that waits ends at once, with
+    /// `unbegun` as its result; one that runs ends when [its flag](Begun::stop) is seen.
+    pub fn cancel(&mut self, request: &CancelGoalRequest, unbegun: impl Fn() -> R) -> CancelGoalResponse {
         let GoalInfo { goal_id, stamp } = &request.goal_info;
         let (no_id, no_stamp) = (goal_id.uuid == [0; 16], *stamp == Time::default());
         let asked = |entry: &Entry<G, R>| {
@@ -191,6 +192,10 @@ impl<G, R: Clone> Goals<G, R> {
             if entry.ended.is_none() {
                 entry.status = GoalStatus::STATUS_CANCELING;
                 entry.stop.store(true, Ordering::Relaxed);
+                if entry.goal.take().is_some() {
+                    entry.status = GoalStatus::STATUS_CANCELED;
+                    (entry.result, entry.ended) = (Some(unbegun()), Some(Instant::now()));
+                }
                 goals_canceling.push(info(entry.id, &entry.stamp));
             }
         }
@@ -207,8 +212,8 @@ impl<G, R: Clone> Goals<G, R> {
     }
 
     /// Asks for the end of all goals, as the node ends.
-    pub fn cancel_all(&mut self) {
-        let _ = self.cancel(&CancelGoalRequest::default());
+    pub fn cancel_all(&mut self, unbegun: impl Fn() -> R) {
+        let _ = self.cancel(&CancelGoalRequest::default(), unbegun);
     }
 
     /// The end of a goal: `None` while it has none, status UNKNOWN where the goal is not known.
@@ -300,7 +305,7 @@ mod tests {
             goals
         };
         let count = |request| {
-            let response = filled().cancel(&request);
+            let response = filled().cancel(&request, || ());
             (response.return_code, response.goals_canceling.len())
         };
         assert_eq!(count(cancel(0, 0)), (CancelGoalResponse::ERROR_NONE, 3));
@@ -310,12 +315,21 @@ mod tests {
         assert_eq!(count(cancel(9, 0)), (CancelGoalResponse::ERROR_UNKNOWN_GOAL_ID, 0));
         let mut goals = filled();
         let begun = goals.begin().unwrap();
-        goals.cancel(&cancel(1, 0));
+        goals.cancel(&cancel(0, 0), || ());
         assert!(begun.stop.load(Ordering::Relaxed));
+        // The one that runs is asked to end; those that wait have ended, and none begins.
+        assert_eq!(goals.result(begun.id), None);
+        for waiting in [2, 3] {
+            assert_eq!(
+                goals.result([waiting; 16]),
+                Some((GoalStatus::STATUS_CANCELED, Some(())))
+            );
+        }
+        assert!(goals.begin().is_none() && goals.is_open());
         goals.end(begun.id, GoalStatus::STATUS_SUCCEEDED, ());
         assert_eq!(goals.result(begun.id), Some((GoalStatus::STATUS_CANCELED, Some(()))));
         assert_eq!(
-            goals.cancel(&cancel(1, 0)).return_code,
+            goals.cancel(&cancel(1, 0), || ()).return_code,
             CancelGoalResponse::ERROR_GOAL_TERMINATED
         );
     }

@@ -252,6 +252,21 @@ impl Control {
         Ok(())
     }
 
+    /// Why model time stands still, in words; `None` while it runs.
+    pub fn stands_still(&self) -> Option<String> {
+        let inactive = *self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(state) = inactive {
+            return Some(format!("the node is managed and {state}, and model time stands still"));
+        }
+        let why = match self.gauges.run_state() {
+            RunState::Running => return None,
+            RunState::Starting => "the model is still being built",
+            RunState::Paused => "the twin is paused",
+            RunState::Failed => "a step of the twin failed, and it stands still",
+        };
+        Some(why.to_owned())
+    }
+
     /// The whole state of the model. It blocks until the solver has answered, between two periods.
     ///
     /// # Errors

@@ -28,8 +28,8 @@ pub enum ToSide {
     Reply {
         /// Number of the service in the plan.
         service: u16,
-        /// The ticket of the request.
-        ticket: u64,
+        /// The request that it answers.
+        to: RequestId,
         /// Without the CDR header.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,
@@ -66,8 +66,8 @@ pub enum FromSide {
     Request {
         /// Number of the service in the plan.
         service: u16,
-        /// Returned with the reply.
-        ticket: u64,
+        /// What the client knows the request by.
+        id: RequestId,
         /// The client.
         client: Peer,
         /// Number of the request among all of its writer's.
@@ -77,6 +77,13 @@ pub enum FromSide {
         /// The CDR body.
         #[serde(with = "serde_bytes")]
         body: Vec<u8>,
+    },
+    /// A reply was sent long enough ago for its client to have it.
+    Replied {
+        /// Number of the service in the plan.
+        service: u16,
+        /// The request that it answered.
+        to: RequestId,
     },
     /// DDS works: a sample has just passed through it.
     Beat(Beat),
@@ -91,6 +98,16 @@ pub enum FromSide {
     },
     /// Reliable readers do not acknowledge samples; the writer of their topic was replaced.
     Stalled(Stall),
+}
+
+/// What a client knows its request by, and finds in the reply. It holds for any DDS process of the node: a request that is
+/// open when the process is replaced is answered through the next one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RequestId {
+    /// The writer that the client states: that of the request, or of another endpoint of the client.
+    pub writer: Guid,
+    /// The number that the client states.
+    pub number: i64,
 }
 
 /// Severity of a line.

@@ -12,6 +12,8 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::inbox::{ReplyTo, Request, Sample};
+use super::keeper::{LONGEST_SILENCE, SILENCE};
+use super::run_delay::RunDelay;
 use super::{Shared, TopicCounters};
 use crate::dds::frames::{self, Beat, FromSide, LogLevel, Stall, ToSide};
 use crate::dds::plan::{GuidPrefix, Plan};
@@ -29,6 +31,10 @@ pub(super) struct Child {
     socket: UnixStream,
     state: Arc<ChildState>,
     thread: Option<JoinHandle<()>>,
+    /// Its wait for a processor since its latest report.
+    delay: RunDelay,
+    /// That report (ns of the monotonic clock).
+    marked: u64,
 }
 
 /// The state that the process has reported.
@@ -85,6 +91,8 @@ impl Child {
             .name("from dds".into())
             .spawn(move || reader.run(from))?;
         let mut child = Self {
+            delay: RunDelay::of(process.id()),
+            marked: 0,
             process,
             socket,
             state,
@@ -97,7 +105,7 @@ impl Child {
     /// Sends a frame; waits while the process reads slowly.
     ///
     /// # Errors
-    /// When the process has ended, or reads nothing for longer than [`SILENCE`](super::keeper::SILENCE).
+    /// When the process has ended, or reads nothing for longer than [`SILENCE`] in which it could have run.
     pub(super) fn send(&mut self, frame: &ToSide) -> io::Result<()> {
         if let ToSide::Publish { writer, .. } = frame {
             let mut published = self.state.published.lock().unwrap_or_else(PoisonError::into_inner);
@@ -107,13 +115,14 @@ impl Child {
         }
         let bytes = frames::encode(frame)?;
         let mut left = bytes.as_slice();
-        let began = Instant::now();
+        let (began, mut delay) = (Instant::now(), None);
         while !left.is_empty() {
             match self.socket.write(left) {
                 Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
                 Ok(written) => left = &left[written..],
                 Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => {
-                    if began.elapsed() > super::keeper::SILENCE {
+                    let delay = delay.get_or_insert_with(|| RunDelay::of(self.process.id()));
+                    if is_too_long(began.elapsed(), delay) {
                         return Err(error);
                     }
                 }
@@ -133,6 +142,21 @@ impl Child {
     pub(super) fn silent(&self) -> Duration {
         let beat = self.state.beat.load(Ordering::Acquire);
         Duration::from_nanos(monotonic::now().saturating_sub(beat))
+    }
+
+    /// Time for which it has waited for a processor since its latest report.
+    pub(super) fn waited(&self) -> Duration {
+        self.delay.since_mark()
+    }
+
+    /// Whether it has not reported for longer than [`SILENCE`] in which it could have run.
+    pub(super) fn is_silent(&mut self) -> bool {
+        let beat = self.state.beat.load(Ordering::Acquire);
+        if beat != self.marked {
+            self.marked = beat;
+            self.delay.mark();
+        }
+        is_too_long(self.silent(), &self.delay)
     }
 
     /// Restarts the count of its silence, because this process itself stood still.
@@ -177,6 +201,12 @@ impl Child {
         let failure = self.state.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
         failure.or_else(|| ended.and_then(describe))
     }
+}
+
+/// Whether a process that could have run has done nothing for too long. Its wait for a processor is looked up last, because
+/// that reads some files.
+fn is_too_long(silent: Duration, delay: &RunDelay) -> bool {
+    silent > SILENCE && (silent > LONGEST_SILENCE || silent.saturating_sub(delay.since_mark()) > SILENCE)
 }
 
 fn describe(status: ExitStatus) -> Option<String> {
@@ -233,7 +263,7 @@ impl ChildReader {
             FromSide::Unreadable { reader, why } => self.sample(reader, Sample::Unreadable(why)),
             FromSide::Request {
                 service,
-                ticket,
+                id,
                 client,
                 sequence,
                 sent,
@@ -242,13 +272,10 @@ impl ChildReader {
                 if self.shared.accepts(usize::from(service), &client, sequence, sent)
                     && let Some(inbox) = self.shared.services.get(usize::from(service))
                 {
-                    let reply_to = ReplyTo::Dds {
-                        life: self.life,
-                        ticket,
-                    };
-                    inbox.push(Request::of_a_client(reply_to, client, body, &self.shared.open));
+                    inbox.push(Request::of_a_client(ReplyTo::Dds(id), client, body, &self.shared.open));
                 }
             }
+            FromSide::Replied { service, to } => self.shared.outbox.replied(service, to),
             FromSide::Beat(beat) => self.beat(&beat),
             FromSide::Peers(peers) => *self.shared.peers() = peers,
             FromSide::Log { level, text } => match level {

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::{Notify, oneshot};
 
-use crate::dds::frames::Peer;
+use crate::dds::frames::{Peer, RequestId};
 use crate::dds::plan::Guid;
 
 /// A sample.
@@ -26,8 +26,8 @@ pub enum Sample {
 /// The recipient of a reply.
 #[derive(Debug)]
 pub(super) enum ReplyTo {
-    /// A client on the network, through the DDS process with this number.
-    Dds { life: u64, ticket: u64 },
+    /// A client on the network, through whichever DDS process there is then.
+    Dds(RequestId),
     /// A part of this process.
     Local(oneshot::Sender<Vec<u8>>),
 }
@@ -82,7 +82,7 @@ impl Request {
 
     /// Whether it came over DDS, where clients use two forms of requests.
     pub fn is_from_dds(&self) -> bool {
-        matches!(self.reply_to, ReplyTo::Dds { .. })
+        matches!(self.reply_to, ReplyTo::Dds(_))
     }
 }
 

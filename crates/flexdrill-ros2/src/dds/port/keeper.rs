@@ -13,8 +13,11 @@ use super::health::{Health, Restart};
 use crate::dds::plan::Plan;
 use flexdrill_realtime::monotonic;
 
-/// Longest silence of a process that is up. It reports its health five times a second.
+/// Longest silence of a process that is up. It reports its health five times a second. The time for which it waits for a
+/// processor does not count: a restart would make a busy machine busier.
 pub(super) const SILENCE: Duration = Duration::from_millis(1500);
+/// Longest silence for whatever reason: a lease of ROS 2's participants lasts 10 s, after which they drop this one.
+pub(super) const LONGEST_SILENCE: Duration = Duration::from_secs(10);
 /// Longest time until a process is up.
 const START_UP: Duration = Duration::from_secs(5);
 /// How often an idle process is checked.
@@ -177,7 +180,7 @@ impl Keeper {
                 ));
             }
             if child.up().is_some() {
-                if child.silent() > SILENCE {
+                if child.is_silent() {
                     return End::Failed(silent(child));
                 }
             } else if began.elapsed() > START_UP {
@@ -192,8 +195,9 @@ fn is_late(error: &io::Error) -> bool {
 }
 
 fn silent(child: &Child) -> String {
+    let (silent, waited) = (child.silent().as_secs_f64(), child.waited().as_secs_f64());
     format!(
-        "its process has not reported for {:.1} s: it is stopped, or gets no processor time",
-        child.silent().as_secs_f64()
+        "its process has not reported for {silent:.1} s, of which it waited {waited:.1} s for a processor: it is stopped, or \
+         the machine is overloaded"
     )
 }

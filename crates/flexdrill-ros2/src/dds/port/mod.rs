@@ -10,6 +10,7 @@ mod health;
 mod inbox;
 mod keeper;
 mod outbox;
+mod run_delay;
 mod seen_requests;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -21,9 +22,9 @@ pub use self::health::{Health, Restart};
 use self::inbox::ReplyTo;
 pub use self::inbox::{Inbox, Request, Sample};
 use self::keeper::Keeper;
-use self::outbox::Outbox;
+use self::outbox::{Outbox, Reply};
 use self::seen_requests::{Arrival, SeenRequests, Verdict};
-use super::frames::{Peer, Peers, ToSide};
+use super::frames::{Peer, Peers};
 use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan, service_topics};
 use crate::dds::network::Network;
 use flexdrill_realtime::monotonic;
@@ -365,17 +366,14 @@ impl Requests {
         self.inbox.next().await
     }
 
-    /// Answers a request with a CDR body. The reply is dropped where the process of the request has ended meanwhile.
+    /// Answers a request with a CDR body, through the present DDS process or the next one.
     pub fn reply(&self, request: Request, body: Vec<u8>) {
         match request.reply_to {
-            ReplyTo::Dds { life, ticket } => self.outbox.reply(
-                life,
-                ToSide::Reply {
-                    service: self.service,
-                    ticket,
-                    body,
-                },
-            ),
+            ReplyTo::Dds(to) => self.outbox.reply(Reply {
+                service: self.service,
+                to,
+                body,
+            }),
             // The client may not wait any more.
             ReplyTo::Local(answer) => drop(answer.send(body)),
         }

@@ -3,16 +3,44 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::TopicCounters;
-use crate::dds::frames::ToSide;
+use crate::dds::frames::{RequestId, ToSide};
 use crate::dds::plan::Offer;
 
 /// Most bytes in the queue: more than a second of all outputs of a tool with 200 stations.
 const MOST_BYTES: usize = 8 << 20;
+/// Most replies that are kept until their clients have them: as many as all services of the node take requests.
+const MOST_REPLIES: usize = 1024;
+/// Most bytes in them.
+const MOST_REPLY_BYTES: usize = 4 << 20;
+/// Longest time for which a client is assumed to wait for a reply.
+const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A bounded queue to the DDS process, and the newest state of every latched topic.
+/// A reply to a client on the network.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Reply {
+    /// Number of the service in the plan.
+    pub(super) service: u16,
+    /// The request that it answers.
+    pub(super) to: RequestId,
+    /// CDR without its header.
+    pub(super) body: Vec<u8>,
+}
+
+impl Reply {
+    fn frame(&self) -> ToSide {
+        ToSide::Reply {
+            service: self.service,
+            to: self.to,
+            body: self.body.clone(),
+        }
+    }
+}
+
+/// A bounded queue to the DDS process, the newest state of every latched topic, and the replies that their clients do not
+/// have yet.
 #[derive(Clone, Default)]
 pub(super) struct Outbox(Arc<Inner>);
 
@@ -30,6 +58,9 @@ struct State {
     /// Number of the process that reads the queue; none while there is no process.
     life: Option<u64>,
     latched: BTreeMap<u16, Vec<u8>>,
+    /// Replies until the process has reported that their clients have them.
+    replies: VecDeque<(Instant, Reply)>,
+    reply_bytes: usize,
 }
 
 impl Outbox {
@@ -54,15 +85,29 @@ impl Outbox {
         }
     }
 
-    pub(super) fn reply(&self, life: u64, reply: ToSide) {
+    /// Sends a reply, and keeps it until its client has it.
+    pub(super) fn reply(&self, reply: Reply) {
         let mut state = self.lock();
-        if state.life == Some(life) {
-            state.push(reply);
+        if state.life.is_some() {
+            state.push(reply.frame());
             self.0.added.notify_one();
+        }
+        state.keep(reply);
+    }
+
+    /// The client of a request has the reply.
+    pub(super) fn replied(&self, service: u16, to: RequestId) {
+        let mut state = self.lock();
+        let is_that = |reply: &Reply| reply.service == service && reply.to == to;
+        if let Some(at) = state.replies.iter().position(|(_, reply)| is_that(reply))
+            && let Some((_, reply)) = state.replies.remove(at)
+        {
+            state.reply_bytes -= reply.body.len();
         }
     }
 
-    /// Opens the queue for a process. The newest states are its first messages.
+    /// Opens the queue for a process. The newest states are its first messages, then come the replies that did not reach
+    /// their clients through the process before.
     pub(super) fn open(&self, life: u64) {
         let mut state = self.lock();
         state.life = Some(life);
@@ -74,7 +119,13 @@ impl Outbox {
                 body: body.clone(),
             })
             .collect();
-        for frame in latched {
+        let now = Instant::now();
+        let waited_for = state
+            .replies
+            .iter()
+            .filter(|(since, _)| now.duration_since(*since) < PATIENCE);
+        let replies: Vec<ToSide> = waited_for.map(|(_, reply)| reply.frame()).collect();
+        for frame in latched.into_iter().chain(replies) {
             state.push(frame);
         }
     }
@@ -116,6 +167,16 @@ impl State {
             && let Some(oldest) = self.pop()
         {
             self.count_dropped(&oldest);
+        }
+    }
+
+    fn keep(&mut self, reply: Reply) {
+        self.reply_bytes += reply.body.len();
+        self.replies.push_back((Instant::now(), reply));
+        while (self.reply_bytes > MOST_REPLY_BYTES || self.replies.len() > MOST_REPLIES)
+            && let Some((_, oldest)) = self.replies.pop_front()
+        {
+            self.reply_bytes -= oldest.body.len();
         }
     }
 
@@ -208,17 +269,60 @@ mod tests {
     }
 
     #[test]
-    fn a_reply_is_not_sent_to_another_process() {
+    fn a_reply_is_sent_through_the_next_process_until_its_client_has_it() {
         let (outbox, _) = outbox();
-        outbox.open(2);
-        let reply = || ToSide::Reply {
+        let reply = |number: i64| Reply {
             service: 0,
-            ticket: 7,
-            body: vec![],
+            to: RequestId {
+                writer: [7; 16],
+                number,
+            },
+            body: vec![number as u8; 10],
         };
-        outbox.reply(1, reply());
+        let sent = |frames: Vec<ToSide>| -> Vec<i64> {
+            let number = |frame: &ToSide| match frame {
+                ToSide::Reply { to, .. } => to.number,
+                other => panic!("{other:?}"),
+            };
+            frames.iter().map(number).collect()
+        };
+        // There is no process yet.
+        outbox.reply(reply(1));
         assert!(outbox.wait(Duration::ZERO).is_empty());
-        outbox.reply(2, reply());
-        assert_eq!(outbox.wait(Duration::ZERO).len(), 1);
+        outbox.open(1);
+        outbox.reply(reply(2));
+        outbox.reply(reply(3));
+        assert_eq!(sent(outbox.wait(Duration::ZERO)), [1, 2, 3]);
+        outbox.replied(0, reply(2).to);
+        // Of the others the process may have lost either.
+        outbox.close();
+        outbox.open(2);
+        assert_eq!(sent(outbox.wait(Duration::ZERO)), [1, 3]);
+        for number in [1, 3] {
+            outbox.replied(0, reply(number).to);
+        }
+        outbox.close();
+        outbox.open(3);
+        assert!(outbox.wait(Duration::ZERO).is_empty());
+        assert_eq!(outbox.lock().reply_bytes, 0);
+    }
+
+    #[test]
+    fn kept_replies_are_bounded() {
+        let (outbox, _) = outbox();
+        for number in 0..2 * MOST_REPLIES as i64 {
+            outbox.reply(Reply {
+                service: 0,
+                to: RequestId {
+                    writer: [7; 16],
+                    number,
+                },
+                body: vec![0; 60_000],
+            });
+        }
+        let state = outbox.lock();
+        assert!(state.reply_bytes <= MOST_REPLY_BYTES, "{} bytes", state.reply_bytes);
+        assert_eq!(state.reply_bytes, 60_000 * state.replies.len());
+        assert_eq!(state.replies.back().unwrap().1.to.number, 2 * MOST_REPLIES as i64 - 1);
     }
 }

@@ -56,8 +56,8 @@ const MOST_BROKEN: u32 = 10;
 const CALM: Duration = Duration::from_millis(500);
 /// Longest wait at the end until the last replies have reached their clients.
 pub const LAST_REPLIES: Duration = Duration::from_secs(2);
-/// Most replies that wait until discovery knows their client.
-const REPLIES: usize = 256;
+/// Most replies that wait to be taken by their services: as many as the node keeps for the next process.
+const REPLIES: usize = 1024;
 
 /// Why the process ends.
 #[derive(Debug, thiserror::Error)]
@@ -270,9 +270,9 @@ impl Inlet {
                         writer.publish(body);
                     }
                 }
-                ToSide::Reply { service, ticket, body } => {
-                    // A reply that finds the queue full is lost; its client repeats the request.
-                    let _ = self.answers.try_send(Answer { service, ticket, body });
+                ToSide::Reply { service, to, body } => {
+                    // The node keeps a reply that finds the queue full, but sends it to the next process only.
+                    let _ = self.answers.try_send(Answer { service, to, body });
                 }
                 ToSide::Begin(_) | ToSide::End => break,
             }

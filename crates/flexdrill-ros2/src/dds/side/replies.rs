@@ -1,6 +1,8 @@
-//! Service servers. A request is forwarded to the node with a ticket, and the node's reply carries the same ticket.
+//! Service servers. A request is forwarded to the node with what its client knows it by, and the node's reply carries the
+//! same, so that any DDS process of the node can send it.
 
-use std::collections::{BTreeMap, HashSet};
+use std::cell::RefCell;
+use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
@@ -18,25 +20,26 @@ use super::outlet::Outlet;
 use super::peers::PeerBook;
 use super::raw::RawCdr;
 use super::{LAST_REPLIES, SideError};
-use crate::dds::frames::{FromSide, LogLevel};
+use crate::dds::frames::{FromSide, LogLevel, RequestId};
 use crate::dds::plan::{MOST_REPLY, ServicePlan, service_topics};
 
 /// Requests and replies kept per service, for several clients at once.
 const DEPTH: i32 = 64;
-/// Most requests of a service without a reply.
-const MOST_OPEN: usize = 256;
 /// Most clients of a service that are remembered.
 const MOST_CLIENTS: usize = 1024;
-/// Longest wait for a new client's reply reader to be discovered.
-const CLIENT_WAIT: Duration = Duration::from_millis(500);
+/// Longest wait for a new client's reply reader to be discovered. To a process that has just joined the network all clients
+/// are new, and a busy client answers its announcement after a while. Replies to other clients do not wait for it.
+const CLIENT_WAIT: Duration = Duration::from_secs(3);
 /// Time from the discovery of a reader until our writer is matched with it, on another thread that does not report it. Each
 /// client waits once.
 const MATCH_WAIT: Duration = Duration::from_millis(100);
+/// Time after which a client has a reply: a lost datagram is sent again within some 100 ms.
+const DELIVERY: Duration = Duration::from_secs(1);
 
 /// A reply of the node.
 pub(super) struct Answer {
     pub(super) service: u16,
-    pub(super) ticket: u64,
+    pub(super) to: RequestId,
     pub(super) body: Vec<u8>,
 }
 
@@ -80,9 +83,9 @@ impl ServiceServer {
         outlet: &Outlet,
     ) -> bool {
         let mut requests = Box::pin(self.requests.as_async_stream());
-        let mut open: BTreeMap<u64, SampleIdentity> = BTreeMap::new();
-        let mut known = HashSet::new();
-        let mut next = 0;
+        let known = RefCell::new(HashSet::new());
+        let mut answering = FuturesUnordered::new();
+        let mut delivering = FuturesUnordered::new();
         let mut replied: Option<tokio::time::Instant> = None;
         loop {
             tokio::select! {
@@ -93,35 +96,34 @@ impl ServiceServer {
                         format!("service {}: a request could not be received: {error}", self.name),
                     ),
                     Some(Ok(request)) => {
-                        if open.len() == MOST_OPEN {
-                            open.pop_first();
-                        }
-                        open.insert(next, reply_to(&request));
+                        let id = request_id(&request);
                         let client = request.writer_guid();
                         outlet.send(FromSide::Request {
                             service,
-                            ticket: next,
+                            id,
                             client: book.lock().unwrap_or_else(PoisonError::into_inner).writer(client, &self.participant),
                             sequence: i64::from(request.sequence_number),
                             sent: request.source_timestamp().and_then(nanoseconds),
                             body: request.into_value().0,
                         });
-                        next += 1;
                     }
                 },
                 answer = answers.recv() => {
                     let Some(answer) = answer else { break };
-                    let Some(identity) = open.remove(&answer.ticket) else { continue };
-                    if known.len() >= MOST_CLIENTS {
-                        known.clear();
-                    }
-                    if known.insert(identity.writer_guid) {
-                        self.wait_for_client(identity.writer_guid).await;
-                    }
-                    self.reply(identity, answer.body, outlet);
-                    replied = Some(tokio::time::Instant::now());
+                    answering.push(self.answer(answer, &known, outlet));
                 }
+                Some(to) = answering.next() => {
+                    replied = Some(tokio::time::Instant::now());
+                    delivering.push(async move {
+                        tokio::time::sleep(DELIVERY).await;
+                        to
+                    });
+                }
+                Some(to) = delivering.next() => outlet.send(FromSide::Replied { service, to }),
             }
+        }
+        while answering.next().await.is_some() {
+            replied = Some(tokio::time::Instant::now());
         }
         if let Some(replied) = replied {
             // Older replies have arrived, or their clients have left.
@@ -129,6 +131,25 @@ impl ServiceServer {
                 tokio::time::timeout_at(replied + LAST_REPLIES, self.replies.async_wait_for_acknowledgments()).await;
         }
         true
+    }
+
+    /// Sends an answer once its client can receive it; the request that it answers.
+    async fn answer(&self, answer: Answer, known: &RefCell<HashSet<GUID>>, outlet: &Outlet) -> RequestId {
+        let client = GUID::from_bytes(answer.to.writer);
+        if !known.borrow().contains(&client) {
+            self.wait_for_client(client).await;
+            let mut known = known.borrow_mut();
+            if known.len() >= MOST_CLIENTS {
+                known.clear();
+            }
+            known.insert(client);
+        }
+        let identity = SampleIdentity {
+            writer_guid: client,
+            sequence_number: SequenceNumber::from(answer.to.number),
+        };
+        self.reply(identity, answer.body, outlet);
+        answer.to
     }
 
     fn reply(&self, identity: SampleIdentity, body: Vec<u8>, outlet: &Outlet) {
@@ -172,20 +193,17 @@ impl ServiceServer {
     }
 }
 
-/// The identity for the reply: the one that the request states, or else that of the request's own sample.
-fn reply_to(request: &DeserializedCacheChange<RawCdr>) -> SampleIdentity {
-    let own = SampleIdentity {
-        writer_guid: request.writer_guid(),
-        sequence_number: request.sequence_number,
-    };
-    match request.related_sample_identity() {
+/// What the client finds in the reply: the identity that the request states, or else that of the request's own sample.
+fn request_id(request: &DeserializedCacheChange<RawCdr>) -> RequestId {
+    let (writer, number) = match request.related_sample_identity() {
         // Fast DDS leaves the number unknown; it is the request's number.
-        Some(given) if given.sequence_number == SequenceNumber::UNKNOWN => SampleIdentity {
-            sequence_number: own.sequence_number,
-            ..given
-        },
-        Some(given) => given,
-        None => own,
+        Some(given) if given.sequence_number == SequenceNumber::UNKNOWN => (given.writer_guid, request.sequence_number),
+        Some(given) => (given.writer_guid, given.sequence_number),
+        None => (request.writer_guid(), request.sequence_number),
+    };
+    RequestId {
+        writer: writer.to_bytes(),
+        number: i64::from(number),
     }
 }
 
@@ -210,7 +228,7 @@ pub(super) async fn serve(
     book: &Mutex<PeerBook>,
     outlet: &Outlet,
 ) -> Result<(), SideError> {
-    let (senders, receivers): (Vec<_>, Vec<_>) = servers.iter().map(|_| mpsc::channel(DEPTH as usize)).unzip();
+    let (senders, receivers): (Vec<_>, Vec<_>) = servers.iter().map(|_| mpsc::channel(super::REPLIES)).unzip();
     let mut serving: FuturesUnordered<_> = servers
         .iter()
         .zip(receivers)
