@@ -13,11 +13,14 @@ use flexdrill_core::tool::Body;
 
 /// All alarms, the worst first. `restored` says per alarm whether its state began in an earlier run.
 pub(super) fn list(system: &AlarmSystem, moments: &[WorstMoment], restored: &[bool], header: Header) -> AlarmList {
-    let mut order: Vec<usize> = (0..AlarmId::ALL.len()).collect();
+    let mut order: Vec<usize> = (0..AlarmId::ALL.len().min(moments.len())).collect();
     order.sort_by_key(|index| {
-        let standing = system.alarm(*index).standing;
+        let (standing, moment) = (system.alarm(*index).standing, &moments[*index]);
         let category = AlarmId::ALL[*index].category();
-        (rank(standing.state()), category, Reverse(standing.priority()), *index)
+        let follows = moment.finding.follows.is_some();
+        let (state, priority) = (standing.state(), Reverse(standing.priority()));
+        let rank = rank(state, moment.ended().is_some());
+        (rank, category, follows, priority, state as u8, *index)
     });
     let figures = system.statistics().figures();
     let alarms: Vec<Alarm> = order
@@ -40,11 +43,10 @@ pub(super) fn list(system: &AlarmSystem, moments: &[WorstMoment], restored: &[bo
     }
 }
 
-/// The order of the states in the list: those that require a response come first.
-fn rank(state: State) -> u8 {
+/// The order of the states in the list: those whose condition stands come first, since they require a response.
+fn rank(state: State, ended: bool) -> u8 {
     match state {
-        State::ActiveUnacknowledged => 0,
-        State::ActiveAcknowledged => 1,
+        State::ActiveUnacknowledged | State::ActiveAcknowledged => u8::from(ended),
         State::ReturnedUnacknowledged => 2,
         State::Shelved => 3,
         State::SuppressedByDesign => 4,
@@ -85,8 +87,11 @@ fn alarm(system: &AlarmSystem, id: AlarmId, moment: &WorstMoment) -> Alarm {
         from_earlier_run: false,
         what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
         worst_at: Time::from_nanoseconds(moment.at),
-        ended: moment.ended.is_some(),
-        ended_at: Time::from_nanoseconds(moment.ended.unwrap_or_default()),
+        ended: moment.ended().is_some(),
+        ended_at: Time::from_nanoseconds(moment.ended().unwrap_or_default()),
+        less_severe_since: Time::from_nanoseconds(moment.less_severe().unwrap_or_default()),
+        episodes: moment.episodes,
+        follows: finding.follows.map_or("", AlarmId::id).to_owned(),
     }
 }
 
@@ -132,7 +137,13 @@ pub(super) fn event(event: &Event, stamp: i64, moment: &WorstMoment, frame_id: &
         category: alarm.map_or(Alarm::DRILLING, |alarm| alarm.category()),
         what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
         worst_at: Time::from_nanoseconds(moment.at),
-        ended_at: Time::from_nanoseconds(moment.ended.unwrap_or_default()),
+        ended_at: Time::from_nanoseconds(moment.ended().unwrap_or_default()),
+        less_severe_since: Time::from_nanoseconds(moment.less_severe().unwrap_or_default()),
+        episodes: moment.episodes,
+        follows: match event.change {
+            Change::Returned => String::new(),
+            _ => finding.follows.map_or("", AlarmId::id).to_owned(),
+        },
     }
 }
 

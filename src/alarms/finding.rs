@@ -1,5 +1,6 @@
 //! A finding: the condition of an alarm with its texts.
 
+use super::catalogue::AlarmId;
 use flexdrill_alarms::{Priority, Time};
 use flexdrill_core::motion::ToolLocation;
 
@@ -29,12 +30,23 @@ pub struct Finding {
     /// What the driller can do: weight, speed, pick up, call the engineer; never a file, a parameter or a mesh. For the
     /// alarms of the tool's motion the book writes it, since they share one advice.
     pub what_to_do: String,
+    /// The alarm that `what_to_do` refers to; none for an action of its own.
+    pub follows: Option<AlarmId>,
     /// What the engineer can do.
     pub what_the_engineer_can_do: String,
     /// When location, value and evidence were observed (ns); none for the present.
     pub seen: Option<Time>,
-    /// When the condition ended, where the analysis only holds the level (ns).
+    /// When the condition for `priority` was last met, where the analysis only holds the level (ns).
     pub ended: Option<Time>,
+    /// The lower priority that the condition has then; none where it has ended.
+    pub less: Option<Priority>,
+}
+
+impl Finding {
+    /// The present priority of the condition.
+    pub(super) fn present(&self) -> Option<Priority> {
+        if self.ended.is_some() { self.less } else { self.priority }
+    }
 }
 
 impl Default for Finding {
@@ -52,9 +64,11 @@ impl Default for Finding {
             cause: String::new(),
             consequence: String::new(),
             what_to_do: String::new(),
+            follows: None,
             what_the_engineer_can_do: String::new(),
             seen: None,
             ended: None,
+            less: None,
         }
     }
 }

@@ -255,7 +255,7 @@ impl AlarmBook {
             if moment.is_known() {
                 demands.push(Demand {
                     id,
-                    priority: moment.present,
+                    priority: moment.counts.map(|counts| standing.active().unwrap_or(counts)),
                     rule: tool::rule(kind, &self.config.alarms.advice),
                     shelved: standing.shelf().is_some(),
                 });

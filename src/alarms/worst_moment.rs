@@ -17,11 +17,20 @@ pub(super) struct WorstMoment {
     pub finding: Finding,
     /// The time of the worst moment (ns).
     pub at: Time,
-    /// When the condition for the published priority ended; none while it is met.
-    pub ended: Option<Time>,
+    /// Times that the condition has come since the alarm was normal.
+    pub episodes: u32,
+    /// The priority with which the condition counts. A condition that has come back counts until its alarm returns: one
+    /// that pauses for some seconds has not ended.
+    pub counts: Option<Priority>,
     /// The present priority of the condition.
-    pub present: Option<Priority>,
+    present: Option<Priority>,
+    /// The published priority of the alarm.
+    published: Option<Priority>,
+    /// When the first episode began.
+    first: Time,
     /// When the condition for the published priority was last met.
+    reached: Time,
+    /// When the condition was last met at all.
     met: Time,
     /// When the condition was last observed.
     observed: Time,
@@ -30,19 +39,25 @@ pub(super) struct WorstMoment {
 impl WorstMoment {
     /// Adds an observation at an instant, after the alarm has observed it.
     pub fn observe(&mut self, finding: Finding, time: Time, standing: &Standing) {
-        self.observed = time;
-        self.present = finding.priority.filter(|_| finding.ended.is_none());
+        let present = finding.present();
+        if present.is_some() && self.present.is_none() {
+            self.first = if self.episodes == 0 { time } else { self.first };
+            self.episodes = self.episodes.saturating_add(1);
+        }
+        (self.observed, self.published) = (time, standing.priority());
+        if present.is_some() {
+            self.met = time;
+        } else if let Some(ended) = finding.ended {
+            self.met = ended;
+        }
+        let pauses = self.episodes > 1 && standing.active().is_some();
+        self.counts = present.or(self.counts.filter(|_| pauses));
+        self.present = present;
         // The book clears the moment of a normal alarm after the event of its return.
-        if standing
-            .priority()
-            .is_some_and(|published| finding.priority >= Some(published))
-        {
+        if self.published.is_some() && finding.priority >= self.published {
             self.at = finding.seen.unwrap_or(time);
-            self.ended = finding.ended;
-            self.met = finding.ended.unwrap_or(time);
+            self.reached = finding.ended.unwrap_or(time);
             self.finding = finding;
-        } else if self.is_known() && self.ended.is_none() {
-            self.ended = Some(self.met);
         }
     }
 
@@ -51,19 +66,34 @@ impl WorstMoment {
         self.finding.priority.is_some()
     }
 
-    /// The evidence, with the time of the worst moment and of the end where they are past.
+    /// When the condition ended; none while it counts.
+    pub fn ended(&self) -> Option<Time> {
+        (self.is_known() && self.counts.is_none()).then_some(self.met)
+    }
+
+    /// When the condition last reached the published priority, while it counts with a lower one.
+    pub fn less_severe(&self) -> Option<Time> {
+        (self.counts.is_some() && self.counts < self.published).then_some(self.reached)
+    }
+
+    /// The evidence, with the time of the worst moment, of the end where they are past, and the count of a condition that
+    /// comes and goes.
     pub fn evidence(&self, standing: &Standing) -> String {
         let mut times = Vec::new();
         if self.is_known() && self.observed.saturating_sub(self.at) > RECENT {
             times.push(format!("worst at {}", time_of_day(self.at)));
         }
-        if let Some(ended) = self.ended {
-            let at = time_of_day(ended);
-            times.push(match (self.present, standing.active()) {
-                (Some(_), _) => format!("less severe since {at}"),
-                (None, Some(_)) => format!("ended at {at}, being watched"),
-                (None, None) => format!("ended at {at}"),
-            });
+        if self.episodes > 1 {
+            let first = time_of_day(self.first);
+            times.push(format!("it came {} times since {first}", self.episodes));
+        }
+        if let Some(ended) = self.ended() {
+            let watched = standing.active().map_or("", |_| ", being watched");
+            times.push(format!("ended at {}{watched}", time_of_day(ended)));
+        } else if self.present.is_none() && self.is_known() {
+            times.push(format!("last at {}", time_of_day(self.met)));
+        } else if let Some(reached) = self.less_severe() {
+            times.push(format!("less severe since {}", time_of_day(reached)));
         }
         match times.is_empty() {
             true => self.finding.evidence.clone(),

@@ -143,10 +143,22 @@ export interface Alarm {
    * Zero while the alarm is normal.
    */
   worst_at: Time;
-  /** The condition for this priority has ended: the alarm is held in case it returns, or waits to be acknowledged. */
+  /** The condition has ended: the alarm is held in case it returns, or waits to be acknowledged. */
   ended: boolean;
-  /** When the condition for this priority was last met, on the rig's clock; zero unless ended. */
+  /** When the condition was last met, on the rig's clock; zero unless ended. */
   ended_at: Time;
+  /**
+   * When the condition last reached the priority of the alarm, on the rig's clock: it stands since then at a lower one.
+   * Zero while it stands at the alarm's priority, and once it has ended.
+   */
+  less_severe_since: Time;
+  /**
+   * Number of times that the condition has come since the alarm was normal or the node began: 1 for a condition that stands
+   * without a pause, more for one that comes and goes. Zero while the alarm is normal.
+   */
+  episodes: number;
+  /** Id of the alarm whose action comes first: what_to_do refers to it. Empty for an alarm with an action of its own. */
+  follows: string;
 }
 export const Alarm = {
   /** No action is needed. */
@@ -216,6 +228,9 @@ export function decodeAlarm(reader: CdrReader): Alarm {
     worst_at: decodeTime(reader),
     ended: reader.bool(),
     ended_at: decodeTime(reader),
+    less_severe_since: decodeTime(reader),
+    episodes: reader.uint32(),
+    follows: reader.string(),
   };
 }
 
@@ -305,10 +320,19 @@ export interface AlarmEvent {
   /** Time of location, value and evidence, as in Alarm. */
   worst_at: Time;
   /**
-   * When the condition ended, as in Alarm: earlier than the stamp of RETURNED and LOWERED by the time for which the alarm
-   * was held. Zero while the condition is met.
+   * When the condition ended, as in Alarm: earlier than the stamp of RETURNED by the time for which the alarm was held.
+   * Zero while the condition is met.
    */
   ended_at: Time;
+  /**
+   * When the condition last reached the priority of the alarm, as in Alarm: earlier than the stamp of LOWERED by the time
+   * for which the priority was held.
+   */
+  less_severe_since: Time;
+  /** Number of times that the condition has come, as in Alarm. */
+  episodes: number;
+  /** Id of the alarm whose action comes first, as in Alarm. */
+  follows: string;
 }
 export const AlarmEvent = {
   /** The condition has stood for its on-delay. */
@@ -361,6 +385,9 @@ export function decodeAlarmEvent(reader: CdrReader): AlarmEvent {
     what_the_engineer_can_do: reader.string(),
     worst_at: decodeTime(reader),
     ended_at: decodeTime(reader),
+    less_severe_since: decodeTime(reader),
+    episodes: reader.uint32(),
+    follows: reader.string(),
   };
 }
 
