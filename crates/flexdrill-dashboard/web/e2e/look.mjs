@@ -4,8 +4,8 @@ import { join } from "node:path";
 
 export const SIZES = [
   [1920, 1080],
-  [1280, 800],
-  [820, 1180],
+  [1366, 768],
+  [768, 1024],
   [390, 844],
 ];
 /** Narrower than this the page is for fingers. */
@@ -33,6 +33,33 @@ function faults([touch, finger]) {
   }
   for (const element of document.querySelectorAll(".value")) {
     if (seen(element) && element.scrollWidth > element.parentElement.clientWidth) out.push(`${element.id} is cut off`);
+  }
+  for (const element of document.querySelectorAll(".tile .note")) {
+    if (!seen(element)) continue;
+    const { bottom } = element.getBoundingClientRect();
+    // A pixel of the last line's descent may lie on the tile's edge.
+    const below = bottom - element.parentElement.getBoundingClientRect().bottom > 1;
+    const cut = element.scrollWidth > element.clientWidth + 1 || element.scrollHeight > element.clientHeight + 1;
+    if (below || cut) out.push(`the note is cut off: ${words(element)}`);
+  }
+  for (const element of document.querySelectorAll(".tabs button, .facts .fact, .badge")) {
+    if (seen(element) && element.scrollWidth > element.clientWidth + 1) out.push(`${words(element)} is cut off`);
+  }
+  // Their words are apart: each has room on both sides.
+  for (const element of document.querySelectorAll(".tabs button")) {
+    if (!seen(element)) continue;
+    const range = document.createRange();
+    range.selectNodeContents(element);
+    const [text, box] = [range.getBoundingClientRect(), element.getBoundingClientRect()];
+    if (text.left - box.left < 3 || box.right - text.right < 3) out.push(`the tab "${words(element)}" touches another`);
+  }
+  const leading = document.querySelector("#alarm-list .alarm");
+  if (leading && seen(leading)) {
+    // In the first screen, wherever the page has been scrolled to.
+    const top = leading.getBoundingClientRect().top + scrollY;
+    if (top > innerHeight)
+      out.push(`the first alarm begins ${Math.round(top)} pixels down, the screen has ${innerHeight}`);
+    if (document.querySelector("#alarm-list details[open]")) out.push("an alarm is open that was not opened");
   }
   if (innerWidth >= touch) return out;
   for (const element of document.querySelectorAll("button, select, input:not([type=checkbox]), summary")) {

@@ -8,6 +8,7 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 import { look as lookAt } from "./look.mjs";
+import { impose, restore, STATES } from "./states.mjs";
 import {
   clean,
   lastWords,
@@ -121,6 +122,22 @@ try {
       page.evaluate(() => window.flexdrill.store.isLive),
     );
     await look("calm");
+  });
+
+  await step("alarms of every kind: nothing is cut off, the first one is in the first screen", async () => {
+    await page.click("#tab-alarms");
+    for (const [name, alarms] of Object.entries(STATES)) {
+      await impose(page, alarms);
+      await until(`${alarms.length} alarms`, 10, async () => (await page.locator(".alarm").count()) === alarms.length);
+      await look(name);
+    }
+    // Of the list as it is published the first has ended; the line has the action of one that stands.
+    await until("the action", 10, async () =>
+      /^Backward whirl, pipe at 1\.50 m \(27°\): Lower the speed/.test(await page.textContent("#state-sentence")),
+    );
+    assert.equal(await page.locator("#alarm-list .alarm").first().getAttribute("data-id"), "backward_whirl");
+    await restore(page);
+    await until("no alarm of those", 10, async () => !(await alarm("chaotic_whirl").isVisible()));
   });
 
   await step("a location is chosen by a click on the tool", async () => {

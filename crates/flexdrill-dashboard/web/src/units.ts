@@ -73,6 +73,11 @@ export function number(value: number, places: number): string {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
+/** So many of something, in the singular where it is one. */
+export function counted(count: number, one: string): string {
+  return `${count} ${one}${count === 1 ? "" : "s"}`;
+}
+
 /** A time that has gone by. */
 export function lapse(seconds: number): string {
   if (!Number.isFinite(seconds)) return "–";

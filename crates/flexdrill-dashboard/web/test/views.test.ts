@@ -93,12 +93,15 @@ test("an alarm of the computer never fills the driller's line", () => {
   assert.equal(stateNow(live(alarm("recording", 3)), "si").word, "NORMAL");
 });
 
-test("an alarm whose condition has ended says so, and since when", () => {
+test("an alarm whose condition has ended says so, and since when, and calls for nothing", () => {
   const time = 1_700_000_000;
   const held = { ...alarm("backward_whirl", 3), ended: true, ended_at: { sec: time, nanosec: 0 } };
-  const { word, sentence } = stateNow(live(held), "si");
-  assert.equal(word, "ACT NOW");
-  assert.match(sentence, /^Backward_whirl: ended at \d\d:\d\d:\d\d, being watched\. act on/);
+  const { word, level, sentence } = stateNow(live(held), "si");
+  assert.deepEqual([word, level], ["WATCH", 1]);
+  assert.match(
+    sentence,
+    /^No alarm stands now\. Backward_whirl, ended at \d\d:\d\d:\d\d; the twin watches whether it returns\.$/,
+  );
   assert.equal(endedAt(held), time);
   assert.ok(Number.isNaN(endedAt(alarm("shock", 1))) && Number.isNaN(worstAt(alarm("shock", 1))));
 });

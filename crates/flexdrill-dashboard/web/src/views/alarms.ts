@@ -1,11 +1,11 @@
 // The alarms by priority, with cause, consequence and what to do; requests of an operator; the journal.
 
-import { alarmLocation, endedAt, engineersAction, isOfSystem, title, worstAt } from "../alarms";
+import { alarmLocation, endedAt, engineersAction, inOrder, isOfSystem, title, worstAt } from "../alarms";
 import * as api from "../api";
 import { h, setText, show } from "../dom";
 import { Alarm, AlarmEvent, type AlarmList } from "../messages";
 import { stamp } from "../store/topics";
-import { clock, dateAndClock, lapse, number } from "../units";
+import { clock, counted, dateAndClock, lapse, number } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { ALARM_STATE, CHANGE, PRIORITY, PRIORITY_SHAPE, word } from "../words";
 import { nearest } from "../store/geometry";
@@ -149,8 +149,11 @@ export class Alarms implements View {
       setText(
         this.figures,
         list
-          ? `${list.unacknowledged} to acknowledge · ${list.annunciations_last_ten_minutes} alarms in ten minutes` +
-              `${list.flood ? " – FLOOD" : ""} · ${number(list.annunciations_per_hour, 1)} per hour`
+          ? `${list.unacknowledged} to acknowledge · ${counted(list.annunciations_last_ten_minutes, "alarm")} in ten minutes` +
+              `${list.flood ? " – FLOOD" : ""}` +
+              (Number.isFinite(list.annunciations_per_hour)
+                ? ` · ${number(list.annunciations_per_hour, 1)} per hour`
+                : "")
           : "",
       );
     }
@@ -165,8 +168,9 @@ export class Alarms implements View {
 
   private fill(alarms: Alarm[] | null, allowed: boolean): void {
     const calls = (alarm: Alarm) => alarm.state >= 1 && alarm.state <= 4;
-    const loud = (alarms ?? []).filter((alarm) => calls(alarm) && !isOfSystem(alarm));
-    const system = (alarms ?? []).filter((alarm) => calls(alarm) && isOfSystem(alarm));
+    const called = inOrder((alarms ?? []).filter(calls));
+    const loud = called.filter((alarm) => !isOfSystem(alarm));
+    const system = called.filter(isOfSystem);
     const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
     this.ages.length = 0;
     // The button that has the focus keeps it.
@@ -181,7 +185,7 @@ export class Alarms implements View {
     );
     show(this.systemTitle, system.length > 0);
     this.systemList.replaceChildren(...system.map((alarm) => this.entry(alarm, allowed)));
-    setText(this.quietTitle, `${quiet.length} inactive alarms`);
+    setText(this.quietTitle, counted(quiet.length, "inactive alarm"));
     this.quiet.replaceChildren(
       ...quiet.map((alarm) => {
         const shelve = allowed && alarm.state === Alarm.NORMAL ? this.button("shelve", alarm.id, "Shelve") : null;
@@ -203,20 +207,23 @@ export class Alarms implements View {
     if (alarm.from_earlier_run) setText(age, "from an earlier run");
     else if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
-    const details = h("details", { open: this.open.get(alarm.id) ?? unacknowledged });
+    // Closed until it is opened: open ones would fill the panel and hide the alarms below.
+    const details = h("details", { open: this.open.get(alarm.id) ?? false });
     const [worst, ended] = [worstAt(alarm), endedAt(alarm)];
+    const forEngineer = isOfSystem(alarm) && engineersAction(alarm) !== "";
+    const action = forEngineer ? engineersAction(alarm) : alarm.what_to_do;
     const rows = [
-      ["Action", alarm.what_to_do],
-      ["Engineer", engineersAction(alarm)],
+      ["Driller", forEngineer ? alarm.what_to_do : ""],
       [Number.isNaN(worst) ? "Evidence" : `Evidence, ${clock(worst)}`, alarm.evidence],
       ["Cause", alarm.cause],
       ["Consequence", alarm.consequence],
+      ["Engineer", forEngineer ? "" : engineersAction(alarm)],
     ].filter(([, text]) => text !== "");
     details.append(
       h(
         "summary",
         { "data-key": `why ${alarm.id}`, onclick: () => this.open.set(alarm.id, !details.open) },
-        "action and cause",
+        "evidence and cause",
       ),
       h("dl", {}, ...rows.flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
     );
@@ -229,7 +236,8 @@ export class Alarms implements View {
           ? " until it returns to normal"
           : ` until ${clock(alarm.shelved_until.sec)}`
         : "";
-    const end = Number.isNaN(ended) ? "" : ` · condition ended at ${clock(ended)}, being watched`;
+    const watched = alarm.state === Alarm.RETURNED_UNACKNOWLEDGED ? "" : ", being watched";
+    const end = Number.isNaN(ended) ? "" : ` · condition ended at ${clock(ended)}${watched}`;
     return h(
       "li",
       {
@@ -247,17 +255,22 @@ export class Alarms implements View {
         h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}${end}`),
       ),
       where,
-      details,
-      allowed
-        ? h(
-            "div",
-            { class: "buttons" },
-            unacknowledged ? this.button("acknowledge", alarm.id, "Acknowledge") : null,
-            alarm.state === Alarm.SHELVED
-              ? this.button("unshelve", alarm.id, "Unshelve")
-              : this.button("shelve", alarm.id, "Shelve"),
-          )
-        : null,
+      action === "" ? null : h("p", { class: "action" }, action),
+      h(
+        "div",
+        { class: "alarm-foot" },
+        details,
+        allowed
+          ? h(
+              "div",
+              { class: "buttons" },
+              unacknowledged ? this.button("acknowledge", alarm.id, "Acknowledge") : null,
+              alarm.state === Alarm.SHELVED
+                ? this.button("unshelve", alarm.id, "Unshelve")
+                : this.button("shelve", alarm.id, "Shelve"),
+            )
+          : null,
+      ),
     );
   }
 

@@ -5,7 +5,7 @@ import { type AlarmChance, type AppliedInputs, type Forecast, TwinStatus } from 
 import type { Ring } from "../store/ring";
 import type { Layout, Scalar } from "../store/layout";
 import type { Store } from "../store/store";
-import { convert, type Kind, lapse, number, quantity, type System, withUnit } from "../units";
+import { convert, counted, type Kind, lapse, number, quantity, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, word } from "../words";
 import { Strip, withGaps } from "./strip";
@@ -82,7 +82,7 @@ export function rows(
 
 /** The chance of an alarm as the driller reads it: runs that saw it, and the interval. */
 export function chance(of: AlarmChance): string {
-  return `${of.seen} of ${of.members} runs (${percent(of.lower)} to ${percent(of.upper)})`;
+  return `${of.seen} of ${counted(of.members, "run")} (${percent(of.lower)} to ${percent(of.upper)})`;
 }
 
 /** An alarm at the highest priority that a run saw, with the chance of that priority. */
@@ -196,9 +196,8 @@ export function summary(forecast: Forecast): string {
   }
   const interval = `${percent(forecast.any_alarm_lower)} to ${percent(forecast.any_alarm_upper)}`;
   const seen = Math.round(forecast.any_alarm * forecast.members);
-  const runs = forecast.members === 1 ? "run" : "runs";
   const what = seen === 0 ? "No alarm" : `An alarm`;
-  return `${what} in ${seen === 0 ? "" : `${seen} of `}${forecast.members} ${runs} (chance ${interval}).${failed}`;
+  return `${what} in ${seen === 0 ? "" : `${seen} of `}${counted(forecast.members, "run")} (chance ${interval}).${failed}`;
 }
 
 /** An alarm of a look-ahead in words. */

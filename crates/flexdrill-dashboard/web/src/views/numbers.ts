@@ -114,7 +114,8 @@ export class Numbers implements View {
         const status = moment.live ? store.status : null;
         // In a recording the status is of the shown time, however long ago it was played.
         const since = store.isBag ? 0 : store.age("twin/status") / 1e3;
-        const old = status ? ` ${lapse(status.input_age[index] + since)}` : "";
+        const known = status ? status.input_age[index] + since : NaN;
+        const old = Number.isFinite(known) ? ` ${lapse(known)}` : "";
         const age = old === "" ? "" : `, age${old}`;
         const limited = Number.isFinite(limit()) ? ` · limit ${number(limit(), kind === "speed" ? 0 : 1)}` : "";
         const level = levelOf(store, [`${name}_input`], state === 3 || state === 4 ? 2 : state === 0 ? 1 : 0);
@@ -165,8 +166,8 @@ export class Numbers implements View {
         const where = peaks[worst] > 0 ? `at ${withUnit(depth, "depth", system())}` : "no contact";
         const impulse = at(moment, layer);
         const bound = setting("shock.levels.watch");
-        const of = Number.isFinite(bound) ? ` / limit ${number(bound, 0)} N s` : "";
-        const strike = Number.isFinite(impulse) ? `, ${number(impulse, 1)} N s${of}` : "";
+        const of = Number.isFinite(bound) ? ` / limit ${number(bound, 0)}` : "";
+        const strike = Number.isFinite(impulse) ? `, ${number(impulse, 1)}${of} N s` : "";
         return {
           value: digits(at(moment, column), "force", system()),
           note: `${where} · shock ${word(SEVERITY, shock)}${strike}`,

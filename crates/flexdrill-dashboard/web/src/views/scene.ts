@@ -17,6 +17,8 @@ const COARSE = 0.66;
 const AT_REST = 200;
 /** A page that does not keep up draws for at most this part of its time. */
 const SHARE = 0.3;
+/** Room to the left of the scale of depth that its title takes (pixels). */
+const TITLE = 110;
 /** How near a click must be to a station (pixels). */
 const REACH = 30;
 
@@ -287,7 +289,9 @@ export class Scene implements View {
       .join("");
     const texts = this.ruler.ticks.map(({ from, value }) => ({ at: at(from), text: `${value}` }));
     const unit = settings.units === "field" ? "ft" : "m";
-    texts.push({ at: at(this.ruler.head), text: `vertical depth (${unit})` });
+    const head = at(this.ruler.head);
+    // To the left of the scale, where no label of the tool is; the unit alone where the title has no room.
+    texts.push({ at: head, text: (head?.[0] ?? 0) < TITLE ? unit : `vertical depth (${unit})` });
     const foot = at(this.ruler.foot);
     const [x, y] = foot ?? [-99, -99];
     const arrow = foot ? `M${x - 5} ${y - 9}L${x} ${y}L${x + 5} ${y - 9}` : "";
@@ -296,11 +300,9 @@ export class Scene implements View {
       if (!entry.at) return "";
       const isTick = index < texts.length - 2;
       const [left, top] = entry.at;
-      const shift = isTick ? [-6, 4] : index === texts.length - 2 ? [0, -8] : [0, 15];
-      const anchor = isTick ? "end" : "middle";
-      // The title of the scale is longer than a narrow picture has room for to its left.
-      const x = isTick ? left + shift[0] : Math.max(left, 56);
-      const location = `x="${Math.round(x)}" y="${Math.round(top + shift[1])}" text-anchor="${anchor}"`;
+      const shift = isTick ? [-6, 4] : index === texts.length - 2 ? [4, -8] : [0, 15];
+      const anchor = index < texts.length - 1 ? "end" : "middle";
+      const location = `x="${Math.round(left + shift[0])}" y="${Math.round(top + shift[1])}" text-anchor="${anchor}"`;
       return `<text ${location}>${entry.text}</text>`;
     };
     this.lines.setAttribute("viewBox", `0 0 ${width} ${height}`);

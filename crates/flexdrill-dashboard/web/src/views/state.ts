@@ -1,10 +1,10 @@
 // The state of the tool in one word and one line, at the top of the page.
 
-import { alarmLocation, endedAt, engineersAction, standing, title } from "../alarms";
+import { alarmLocation, endedAt, engineersAction, headline, isMet, isOfSystem, standing, title } from "../alarms";
 import { h, setAttribute, setText } from "../dom";
-import { type Alarm, TwinStatus } from "../messages";
+import { Alarm, TwinStatus } from "../messages";
 import { SILENT, type Store } from "../store/store";
-import { clock, dateAndClock, digits, lapse, type System, withUnit } from "../units";
+import { clock, counted, dateAndClock, digits, lapse, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, QUALITY, word } from "../words";
 
@@ -57,20 +57,30 @@ function unknown(store: Store): State | null {
 function recorded(store: Store, system: System): State | null {
   if (!store.isBag) return null;
   const name = store.session?.bag?.name ?? "";
-  const { drilling } = standing(store.alarms?.alarms ?? []);
-  const alarm = drilling[0];
-  const more = drilling.length > 1 ? ` (+${drilling.length - 1} more)` : "";
-  const then = alarm
-    ? `Alarm at that time, ${word(PRIORITY, alarm.priority)}: ${named(alarm, system)}${more}.`
+  const alarms = store.alarms?.alarms ?? [];
+  const head = headline(alarms);
+  const then = head
+    ? `Alarm at that time, ${word(PRIORITY, head.level)}: ${named(head.alarm, system)}${more(head.others)}.`
     : store.alarms
-      ? "No alarm at that time."
+      ? `No alarm at that time. ${ended(alarms, system)}`
       : "";
   return { level: 5, word: "RECORDING", sentence: `${name}, ${dateAndClock(store.now)}. Not the rig. ${then}` };
 }
 
-function named(alarm: Parameters<typeof title>[0], system: System): string {
+function named(alarm: Alarm, system: System): string {
   const location = alarmLocation(alarm, system);
   return `${title(alarm)}${location ? `, ${location}` : ""}`;
+}
+
+const more = (others: number): string => (others > 0 ? ` (+${others} more)` : "");
+
+/** The alarms that are only held in case their condition returns, in a sentence; empty where there are none. */
+function ended(alarms: readonly Alarm[], system: System): string {
+  const held = standing(alarms).drilling.filter((alarm) => !isMet(alarm));
+  if (held.length === 0) return "";
+  const at = endedAt(held[0]);
+  const when = Number.isNaN(at) ? "has ended" : `ended at ${clock(at)}`;
+  return `${named(held[0], system)}, ${when}; the twin watches whether it returns${more(held.length - 1)}.`;
 }
 
 function ofTwin(store: Store, system: System): State {
@@ -88,18 +98,15 @@ function ofTwin(store: Store, system: System): State {
   if (status.state === TwinStatus.PAUSED) {
     return { level: 1, word: "PAUSED", sentence: "The model is paused on request; its values do not change." };
   }
-  const { drilling } = standing(store.alarms?.alarms ?? []);
-  const alarm = drilling[0];
-  if (alarm) {
-    const others = drilling.length > 1 ? ` (+${drilling.length - 1} more)` : "";
-    const ended = endedAt(alarm);
-    const end = Number.isNaN(ended) ? "" : `ended at ${clock(ended)}, being watched. `;
-    return {
-      level: alarm.priority,
-      word: CALLS[alarm.priority] ?? "WATCH",
-      sentence: `${named(alarm, system)}: ${end}${alarm.what_to_do || alarm.evidence}${others}`,
-    };
+  const alarms = store.alarms?.alarms ?? [];
+  const head = headline(alarms);
+  if (head) {
+    const sentence = `${named(head.alarm, system)}: ${head.text}${more(head.others)}`;
+    return { level: head.level, word: CALLS[head.level] ?? "WATCH", sentence };
   }
+  // A motion that has just ended calls for no action, but the line does not say NORMAL before the alarm has returned.
+  const held = ended(alarms, system);
+  if (held !== "") return { level: 1, word: "WATCH", sentence: `No alarm stands now. ${held}` };
   if (status.model_quality !== TwinStatus.QUALITY_GOOD) {
     const quality = word(QUALITY, status.model_quality).toLowerCase();
     // The cause names settings of the solver: it is for the engineer, next to the quality.
@@ -110,15 +117,17 @@ function ofTwin(store: Store, system: System): State {
 }
 
 function doing(store: Store, status: TwinStatus, system: System): string {
-  const unacknowledged = store.alarms?.unacknowledged ?? 0;
+  const returned = (store.alarms?.alarms ?? []).filter(
+    (alarm) => alarm.state === Alarm.RETURNED_UNACKNOWLEDGED && !isOfSystem(alarm),
+  ).length;
   const speed = status.input_applied[0] ?? NaN;
   const weight = status.input_applied[1] ?? NaN;
   const motion =
     Math.abs(speed) < 0.1
       ? "Drive at standstill"
       : `Rotating at ${digits(speed, "speed", system)} r/min, ${withUnit(weight, "weight", system)} on bit`;
-  const alarms = unacknowledged === 1 ? "1 returned alarm" : `${unacknowledged} returned alarms`;
-  return `${motion}; ${unacknowledged > 0 ? `${alarms} to acknowledge` : "no action required"}.`;
+  const alarms = `${counted(returned, "returned alarm")} to acknowledge`;
+  return `${motion}; ${returned > 0 ? alarms : "no action required"}.`;
 }
 
 export class StateLine implements View {
@@ -205,8 +214,11 @@ function systemLine(store: Store): string {
   if (store.silent || store.lag > 0 || store.unconfirmed > 0) return "System: not known";
   const { system } = standing(store.alarms?.alarms ?? []);
   if (system.length === 0) return "System: no alarm";
-  const texts = system.map((alarm) => `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}. ${systemAdvice(alarm)}`);
-  return `System: ${texts.join(" ")}`;
+  const names = system.map((alarm) => `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}`);
+  // One line has room for the advice of one alarm; the alarms have it in full.
+  return system.length === 1
+    ? `System: ${names[0]}. ${systemAdvice(system[0])}`
+    : `System: ${names.join(", ")}. The action of each is under Alarms, System.`;
 }
 
 const systemAdvice = (alarm: Alarm): string => engineersAction(alarm) || alarm.what_to_do || alarm.evidence;

@@ -1,6 +1,6 @@
 // State, five numbers and the alarms in type that is read from two metres, for a screen on a wall or a phone on a stand.
 
-import { alarmLocation, standing, title } from "../alarms";
+import { alarmLocation, hasAction, headline, isMet, levelNow, standing, title } from "../alarms";
 import { h, setAttribute, setText } from "../dom";
 import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, word } from "../words";
@@ -55,9 +55,15 @@ export class Wall implements View {
       setAttribute(root, "data-level", String(reading.level));
       root.classList.toggle("held", reading.held === true || reading.value === "–");
     }
-    const { drilling } = standing(store.alarmsShown()?.alarms ?? []);
+    const alarms = store.alarmsShown()?.alarms ?? [];
+    const { drilling } = standing(alarms);
+    const head = headline(alarms);
     const { isLive } = store;
-    const key = JSON.stringify([isLive, settings.units, drilling.map((one) => [one.id, one.priority, one.what_to_do])]);
+    const key = JSON.stringify([
+      isLive,
+      settings.units,
+      drilling.map((one) => [one.id, one.priority, one.what_to_do, isMet(one)]),
+    ]);
     if (key === this.key) return;
     this.key = key;
     this.alarms.classList.toggle("old", !isLive);
@@ -66,10 +72,12 @@ export class Wall implements View {
         const location = alarmLocation(alarm, settings.units);
         return h(
           "li",
-          { class: "wall-alarm", "data-level": String(alarm.priority) },
+          { class: "wall-alarm", "data-level": String(levelNow(alarm)) },
           h("strong", {}, `${PRIORITY_SHAPE[alarm.priority]} ${title(alarm)}`),
           h("span", {}, `${word(PRIORITY, alarm.priority)}${location ? `, ${location}` : ""}`),
-          h("p", {}, alarm.what_to_do),
+          // The top line has the leading action; a reference to it would only take the room of the alarms below.
+          hasAction(alarm) && alarm !== head?.alarm ? h("p", {}, alarm.what_to_do) : null,
+          isMet(alarm) ? null : h("p", {}, "The condition has ended; the twin watches whether it returns."),
         );
       }),
       ...(drilling.length > MOST ? [h("li", {}, `and ${drilling.length - MOST} more`)] : []),

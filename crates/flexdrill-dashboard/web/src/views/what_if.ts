@@ -2,7 +2,7 @@
 
 import * as api from "../api";
 import { h, setText, show } from "../dom";
-import { convert, number, quantity } from "../units";
+import { convert, counted, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { alarmRows } from "./forecast";
 import { percent } from "./transfer";
@@ -26,7 +26,7 @@ export function verdict(answer: api.WhatIfAnswer): string {
   const seen = Math.round(answer.any_alarm * ended);
   const interval = `${percent(answer.any_alarm_lower ?? 0)} to ${percent(answer.any_alarm_upper ?? 1)}`;
   const what = seen === 0 ? "no alarm in" : `alarms in ${seen} of`;
-  return `${what} ${ended} runs (${interval})${unknown}`;
+  return `${what} ${counted(ended, "run")} (${interval})${unknown}`;
 }
 
 /** A number of the answer, which JSON has as null where it is none. */
@@ -271,7 +271,7 @@ export class WhatIfView implements View {
     this.drawn = key;
     const { unit } = quantity("weight", this.context.settings.units);
     const head = asked.running
-      ? `Question of ${asked.by}: ${asked.done} runs of ${asked.horizon} s have ended, ${asked.remaining} may follow.`
+      ? `Question of ${asked.by}: ${counted(asked.done, "run")} of ${asked.horizon} s ${asked.done === 1 ? "has" : "have"} ended, ${asked.remaining} may follow.`
       : asked.failed
         ? `Question of ${asked.by}: ${asked.message}`
         : `Question of ${asked.by}, judged over ${asked.horizon} s.`;
