@@ -73,6 +73,19 @@ export function number(value: number, places: number): string {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
+/**
+ * Bounds of a set point, in r/min or kN, as the display has them. They are rounded inwards to the display's digits: what
+ * is shown is accepted.
+ */
+export function bounds(limit: { min: number; max: number }, kind: "speed" | "weight", system: System): string {
+  const { unit, digits: places } = quantity(kind, system);
+  const scale = (kind === "weight" ? convert(1e3, kind, system) : 1) * 10 ** places;
+  // A bound that has just these digits keeps them in spite of rounding.
+  const least = Math.ceil(limit.min * scale - 1e-6) / 10 ** places;
+  const most = Math.floor(limit.max * scale + 1e-6) / 10 ** places;
+  return `${least} to ${most} ${unit}`;
+}
+
 /** So many of something, in the singular where it is one. */
 export function counted(count: number, one: string): string {
   return `${count} ${one}${count === 1 ? "" : "s"}`;

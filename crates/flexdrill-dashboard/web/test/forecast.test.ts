@@ -103,6 +103,9 @@ test("a forecast says what its runs saw, and what is unknown is said to be so", 
   assert.match(summary(some), /^An alarm in 2 of 4 runs .* 1 more could not be computed to the end/);
   const none = forecast(0, [], { members: 0, failed: 4, failure: "a step failed", any_alarm: NaN });
   assert.equal(summary(none), "The next minute is unknown: a step failed.");
+  const one = forecast(0, [], { members: 1, any_alarm: 1, any_alarm_lower: 0.2, any_alarm_upper: 1 });
+  assert.match(summary(one), /^An alarm in 1 of 1 run \(/);
+  assert.match(chance({ ...alarm("shock", 1, 1), members: 1 }), /^1 of 1 run \(/);
 });
 
 test("an alarm is listed once, at the highest priority that a run saw, with the count of that priority", () => {
@@ -253,5 +256,6 @@ test("the map's runs are those that ended", () => {
   const of = (least_members: number, most_members: number) => ({ ...map(), members: 20, least_members, most_members });
   assert.match(members(of(6, 8)), /: 6 to 8 runs$/);
   assert.match(members(of(20, 20)), /: 20 runs$/);
+  assert.match(members(of(1, 1)), /: 1 run$/);
   assert.match(members(of(0, 0)), /^No run of this map ended/);
 });

@@ -2,7 +2,7 @@
 // configuration, colours, history.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { parseHistory } from "../src/api";
 import { CdrReader } from "../src/cdr";
@@ -13,7 +13,7 @@ import { Layout } from "../src/store/layout";
 import { Ring } from "../src/store/ring";
 import { roundUp } from "../src/ticks";
 import { contrast, PALETTES } from "../src/theme";
-import { convert, digits, lapse, number, withUnit } from "../src/units";
+import { bounds, convert, counted, digits, lapse, number, withUnit } from "../src/units";
 import { Camera, project } from "../src/scene/matrix";
 
 interface Reference {
@@ -166,6 +166,27 @@ test("text has at least the contrast of WCAG AA on what it stands on", () => {
     for (const mark of [p.trace, p.limit, p.mark]) {
       for (const ground of [p.panel, p.well]) assert.ok(contrast(mark, ground) >= 3, `${name}: ${mark} on ${ground}`);
     }
+  }
+});
+
+test("bounds of a set point are in the display's unit and digits, and are themselves accepted", () => {
+  const weight = { min: 0, max: 60 };
+  assert.equal(bounds({ min: 0, max: 120 }, "speed", "si"), "0 to 120 r/min");
+  assert.equal(bounds(weight, "weight", "si"), "0 to 60 kN");
+  assert.equal(bounds(weight, "weight", "field"), "0 to 13.48 klbf");
+  assert.equal(bounds({ min: 0.1 + 0.2, max: 100 / 3 }, "weight", "si"), "0.3 to 33.3 kN");
+  const [, most] = /to ([0-9.]+)/.exec(bounds(weight, "weight", "field")) ?? [];
+  assert.ok(Number(most) / convert(1e3, "weight", "field") <= weight.max);
+});
+
+test("a count of one is in the singular", () => {
+  assert.deepEqual([counted(0, "run"), counted(1, "run"), counted(2, "run")], ["0 runs", "1 run", "2 runs"]);
+  // No text of a view writes a plural behind a number that may be one.
+  const plural =
+    /\$\{[^{}]*\} (alarms|runs|members|joints|stations|samples|messages|cells|candidates|minutes|points|times)\b/;
+  for (const file of readdirSync("src/views")) {
+    const text = readFileSync(`src/views/${file}`, "utf8");
+    assert.doesNotMatch(text, plural, file);
   }
 });
 

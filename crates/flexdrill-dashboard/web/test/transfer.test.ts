@@ -86,6 +86,8 @@ test("powers have their share of what is put in; what is zero is left out", () =
     [percent(0), percent(-1e-4), percent(0.99999), percent(1), percent(NaN)],
     ["0.0 %", "> -0.1 %", "> 99.9 %", "100.0 %", ""],
   );
+  // Divided by next to nothing.
+  assert.deepEqual([percent(46045680857641666), percent(-11), percent(10)], ["> 1000 %", "< -1000 %", "1000.0 %"]);
 });
 
 test("optional inputs appear where the twin lists them, with what is assumed", () => {

@@ -3,7 +3,7 @@
 import * as api from "../api";
 import { h, setText, show } from "../dom";
 import { TwinStatus } from "../messages";
-import { convert, number, quantity } from "../units";
+import { bounds, convert, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { publisher } from "../words";
 
@@ -100,15 +100,16 @@ export class Steer implements View {
   private read(): { rpm: number; kilonewton: number } | string {
     const limits = this.context.store.session?.limits;
     if (!limits) return "The twin's limits are not known yet.";
-    const factor = convert(1e3, "weight", this.context.settings.units);
+    const { units } = this.context.settings;
+    const factor = convert(1e3, "weight", units);
     const rpm = this.speed.valueAsNumber;
     const kilonewton = this.weight.valueAsNumber / factor;
     if (Number.isNaN(rpm) || Number.isNaN(kilonewton)) return "Enter a number for both set points.";
     const speed = limits.rotary_speed_rpm;
     const weight = limits.weight_on_bit_kn;
-    if (rpm < speed.min || rpm > speed.max) return `Rotary speed must be ${speed.min} to ${speed.max} r/min.`;
+    if (rpm < speed.min || rpm > speed.max) return `Rotary speed must be ${bounds(speed, "speed", units)}.`;
     if (kilonewton < weight.min || kilonewton > weight.max) {
-      return `Weight on bit must be ${weight.min} to ${weight.max} kN.`;
+      return `Weight on bit must be ${bounds(weight, "weight", units)}.`;
     }
     if (this.operator.value.trim() === "") return "Enter your name: all clients see who steers.";
     return { rpm, kilonewton };
@@ -132,7 +133,8 @@ export class Steer implements View {
     this.context.change({ operator });
     const target = { operator, rotary_speed_rpm: rpm, weight_on_bit_kn: kilonewton };
     const { ok, message } = await api.request("steer", target);
-    this.say(ok, message || (ok ? "steering" : "refused"));
+    const weight = withUnit(1e3 * kilonewton, "weight", this.context.settings.units);
+    this.say(ok, ok ? `towards ${number(rpm, 1)} r/min and ${weight}` : message || "refused");
     if (!ok) return;
     this.target = target;
     this.polled = -Infinity;
@@ -241,10 +243,13 @@ export class Steer implements View {
     if (limits) {
       const factor = convert(1e3, "weight", settings.units);
       const { rotary_speed_rpm: speed, weight_on_bit_kn: weight } = limits;
-      setText(this.speedUnit, `rotary speed, ${speed.min} to ${speed.max} r/min, ${number(speed.slew_per_s, 0)} per s`);
+      setText(
+        this.speedUnit,
+        `rotary speed, ${bounds(speed, "speed", settings.units)}, ${number(speed.slew_per_s, 0)} per s`,
+      );
       setText(
         this.weightUnit,
-        `weight on bit, ${number(weight.min * factor, 0)} to ${number(weight.max * factor, 1)} ${unit}, ` +
+        `weight on bit, ${bounds(weight, "weight", settings.units)}, ` +
           `${number(weight.slew_per_s * factor, 1)} per s`,
       );
     }

@@ -56,6 +56,8 @@ export function percent(share: number): string {
   if (value > 0 && value < 0.1) return "< 0.1 %";
   if (value < 0 && value > -0.1) return "> -0.1 %";
   if (value > 99.9 && value < 100) return "> 99.9 %";
+  // A share of next to nothing has no digits that mean anything.
+  if (Math.abs(value) > 1000) return value > 0 ? "> 1000 %" : "< -1000 %";
   return `${number(value, 1)} %`;
 }
 

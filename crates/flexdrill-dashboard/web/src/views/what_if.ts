@@ -2,7 +2,7 @@
 
 import * as api from "../api";
 import { h, setText, show } from "../dom";
-import { convert, counted, number, quantity } from "../units";
+import { bounds, convert, counted, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { alarmRows } from "./forecast";
 import { percent } from "./transfer";
@@ -159,10 +159,10 @@ export class WhatIfView implements View {
         return "Enter speed and weight of each candidate.";
       }
       if (!(point.rotary_speed_rpm >= speed.min && point.rotary_speed_rpm <= speed.max)) {
-        return `Rotary speed must be ${speed.min} to ${speed.max} r/min.`;
+        return `Rotary speed must be ${bounds(speed, "speed", this.context.settings.units)}.`;
       }
       if (!(point.weight_on_bit_kn >= weight.min && point.weight_on_bit_kn <= weight.max + 1e-9)) {
-        return `Weight on bit must be ${weight.min} to ${weight.max} kN.`;
+        return `Weight on bit must be ${bounds(weight, "weight", this.context.settings.units)}.`;
       }
       candidates.push({ ...point, weight_on_bit_kn: Math.min(point.weight_on_bit_kn, weight.max) });
     }
@@ -233,16 +233,12 @@ export class WhatIfView implements View {
     this.add.disabled = this.list.children.length >= MOST;
     const limits = store.session?.limits;
     if (limits) {
-      const { unit } = quantity("weight", settings.units);
       const { rotary_speed_rpm: speed, weight_on_bit_kn: weight } = limits;
       for (const label of this.list.querySelectorAll<HTMLElement>(".speed-label")) {
-        setText(label, `speed, ${speed.min} to ${speed.max} r/min`);
+        setText(label, `speed, ${bounds(speed, "speed", settings.units)}`);
       }
       for (const label of this.list.querySelectorAll<HTMLElement>(".weight-label")) {
-        setText(
-          label,
-          `weight, ${number(weight.min * this.factor, 0)} to ${number(weight.max * this.factor, 1)} ${unit}`,
-        );
+        setText(label, `weight, ${bounds(weight, "weight", settings.units)}`);
       }
       this.begin();
     }
@@ -266,7 +262,8 @@ export class WhatIfView implements View {
     const total = asked.done + asked.remaining;
     if (total > 0) this.progress.value = asked.done / total;
     else this.progress.removeAttribute("value");
-    const key = `${JSON.stringify(asked)} ${this.context.revision}`;
+    const { isLive, isBag } = this.context.store;
+    const key = `${JSON.stringify(asked)} ${this.context.revision} ${isLive}`;
     if (key === this.drawn) return;
     this.drawn = key;
     const { unit } = quantity("weight", this.context.settings.units);
@@ -277,6 +274,7 @@ export class WhatIfView implements View {
         : `Question of ${asked.by}, judged over ${asked.horizon} s.`;
     this.result.replaceChildren(
       h("p", { class: "hint" }, head),
+      isLive || isBag ? "" : h("p", { class: "not-live" }, "The page has no live data. The answers are of earlier."),
       ...asked.answers.map((answer) => {
         const { rotary_speed: rpm, weight_on_bit: kilonewton } = answer.candidate;
         const figures = answer.figures

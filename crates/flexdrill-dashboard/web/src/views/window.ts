@@ -5,7 +5,7 @@ import { fit, h, setText, show } from "../dom";
 import { SafeWindow } from "../messages";
 import { channels } from "../theme";
 import { valueTicks } from "../ticks";
-import { convert, number, quantity } from "../units";
+import { convert, counted, number, quantity } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { percent } from "./transfer";
 
@@ -61,7 +61,7 @@ export function sentence(map: SafeWindow, rpm: number, kilonewton: number): stri
 export function members(map: SafeWindow): string {
   const { least_members: least, most_members: most } = map;
   if (most === 0) return "No run of this map ended, each";
-  return `Each start of a cell that was run: ${least === most ? most : `${least} to ${most}`} runs`;
+  return `Each start of a cell that was run: ${least === most ? "" : `${least} to `}${counted(most, "run")}`;
 }
 
 export class WindowView implements View {
@@ -145,13 +145,15 @@ export class WindowView implements View {
       moment ? moment.layout.scalar(moment.row, name) : NaN;
     const rpm = convert(scalar("rotary_speed_applied"), "speed", "si");
     const kilonewton = convert(scalar("weight_on_bit_applied"), "weight", "si");
-    const point = Number.isFinite(rpm) && Number.isFinite(kilonewton) ? [rpm, kilonewton] : null;
+    // The newest values of a twin that is not heard are not the present.
+    const isKnown = store.isLive || store.isBag;
+    const point = isKnown && Number.isFinite(rpm) && Number.isFinite(kilonewton) ? [rpm, kilonewton] : null;
     const { unit } = quantity("weight", context.settings.units);
     setText(
       this.present,
       point
         ? `${number(rpm, 0)} r/min, ${number(kilonewton * scales.factor, 1)} ${unit}: ${sentence(map, rpm, kilonewton)}`
-        : "",
+        : "The present speed and weight are not known here.",
     );
     const size = fit(this.canvas);
     const key = [
