@@ -92,24 +92,19 @@ pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
                     }
                 }
                 sample.measured = [
-                    measured.surface_torque,
-                    measured.hook_load,
-                    measured.downhole_torque,
-                    measured.downhole_weight_on_bit,
-                ];
+                    MeasuredKind::SurfaceTorque,
+                    MeasuredKind::HookLoad,
+                    MeasuredKind::DownholeTorque,
+                    MeasuredKind::DownholeWeightOnBit,
+                ]
+                .map(|kind| measured.value(kind).unwrap_or(f64::NAN));
                 samples.push(sample);
             }
             RigInputs::ROS_TYPE => {
                 let inputs: RigInputs = message.decode()?;
-                let values = [
-                    inputs.rotary_speed_rpm,
-                    inputs.weight_on_bit_kn,
-                    inputs.rate_of_penetration_m_per_h,
-                    inputs.standpipe_pressure_mpa,
-                ];
-                for (newest, value) in newest.iter_mut().zip(values) {
-                    if value.is_finite() {
-                        *newest = (time, value);
+                for kind in InputKind::ALL {
+                    if let Some(value) = inputs.value(kind).filter(|value| value.is_finite()) {
+                        newest[kind.index()] = (time, value);
                     }
                 }
             }

@@ -17,6 +17,8 @@ Begin with one of these:
   flexdrill replay LOG.csv --out RUN      run a field log or a bag through the model without waiting, into a bag
   flexdrill report RUN --out DIR          make one page of a bag to pass on
 
+  ros2 run flexdrill flexdrill run        the same twin by ROS 2's own command; --ros-args follow it as usual
+
   flexdrill check my_tool.yaml            is my configuration right?
   flexdrill verify                        is the model right? Closed-form cases, in a minute or two
 

@@ -204,11 +204,15 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {unit}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
-    let (topic, units) = (&topics::RIG_INPUTS, "both, with stamp");
-    row(
-        "input",
-        format!("{} [{}, {units}]", setup.topic_name(topic)?, topic.kind.ros_type),
-    );
+    for (topic, what) in [
+        (&topics::RIG_INPUTS, "both, with stamp"),
+        (&topics::RIG_MEASURED, "what the rig measures besides, for comparison"),
+    ] {
+        row(
+            "input",
+            format!("{} [{}, {what}]", setup.topic_name(topic)?, topic.kind.ros_type),
+        );
+    }
     let schedule = outputs::published(config);
     for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
         let rate = match topic.cadence {
@@ -220,6 +224,10 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {rate}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
+    row(
+        "action",
+        format!("{} [flexdrill/action/WhatIf]", setup.service_name("~/what_if")?),
+    );
     match &setup.alarm_state {
         Some(path) => row("alarm state", path.display().to_string()),
         None => row(

@@ -1,9 +1,9 @@
 //! The first stages of a run: a node is prepared, then started.
 
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex};
 
 use tokio::sync::{Notify, oneshot};
 use tokio::task::JoinSet;
@@ -223,6 +223,7 @@ impl PreparedNode {
             inputs: self.inputs.clone(),
             dds: port.monitor(),
             record: (recording.is_some() || live.is_some()).then(|| record.clone()),
+            warned: Mutex::default(),
         };
         for (kind, samples) in self.plain_samples {
             tasks.spawn(receive::receive_plain(receiver(), kind, samples));

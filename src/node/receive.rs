@@ -1,7 +1,7 @@
 //! The tasks that receive the rig's samples. How samples are judged is [`crate::rig_inputs`].
 
-use std::collections::HashMap;
-use std::sync::Arc;
+use std::collections::{HashMap, HashSet};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::inputs::RigInputs;
@@ -10,7 +10,7 @@ use crate::rig_inputs::{Carried, Driver, DriverId, SampleRefused};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{Message, message_from_cdr_body};
+use flexdrill_messages::{Message, RigMeasured, message_from_cdr_body};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::frames::Peer;
 use flexdrill_ros2::dds::plan::Guid;
@@ -26,6 +26,8 @@ const LOG_INTERVAL: f64 = 2.0;
 const QUERY_INTERVAL: f64 = 1.0;
 /// Most publishers for which the time of the last question is kept.
 const MOST_QUERIED: usize = 64;
+/// Most publishers that are warned of their zeros.
+const MOST_WARNED: usize = 64;
 
 /// Receives samples: their path from a topic to the inputs and the recording.
 pub struct SampleReceiver {
@@ -35,6 +37,8 @@ pub struct SampleReceiver {
     pub dds: Monitor,
     /// The queue to the recording and the viewers, if there are any.
     pub record: Option<ReceivedSender>,
+    /// Publishers that were warned of their zeros.
+    pub warned: Mutex<HashSet<DriverId>>,
 }
 
 impl SampleReceiver {
@@ -56,6 +60,23 @@ impl SampleReceiver {
     fn record(&self, received: Received) {
         if let Some(record) = &self.record {
             record.send(received);
+        }
+    }
+
+    /// Says once per publisher that a value of 0 was taken as not given.
+    fn warn_of_zeros(&self, is_doubtful: bool, topic: &TopicInfo, id: DriverId) {
+        if !is_doubtful {
+            return;
+        }
+        let mut warned = self.warned.lock().unwrap_or_else(PoisonError::into_inner);
+        if warned.len() < MOST_WARNED && warned.insert(id) {
+            let peer = self.dds.writers().into_iter().flatten().find(|peer| peer.id == id.0);
+            let who = peer.map_or_else(|| "a publisher".to_owned(), |peer| peer.to_string());
+            tracing::warn!(
+                "{}: {who} leaves values at 0 and does not say in the field `given` which of its values are measured: they are \
+                 not used. Set `given`, or set values that are not measured to NaN",
+                topic.name
+            );
         }
     }
 
@@ -168,7 +189,8 @@ pub async fn receive_stamped(receiver: SampleReceiver, samples: Arc<Inbox<Sample
         &topics::RIG_INPUTS,
         Carried::Inputs(&InputKind::ALL),
         &samples,
-        |receiver, message, id| {
+        |receiver, message: flexdrill_messages::RigInputs, id| {
+            receiver.warn_of_zeros(message.has_doubtful_zero(), &topics::RIG_INPUTS, id);
             let refused = receiver.inputs.accept_stamped(&message, id);
             receiver.record(Received::Stamped(message));
             refused
@@ -184,7 +206,8 @@ pub async fn receive_measured(receiver: SampleReceiver, samples: Arc<Inbox<Sampl
         &topics::RIG_MEASURED,
         Carried::Measured,
         &samples,
-        |receiver, message, _| {
+        |receiver, message: RigMeasured, id| {
+            receiver.warn_of_zeros(message.has_doubtful_zero(), &topics::RIG_MEASURED, id);
             let refused = receiver.inputs.accept_measured(&message);
             receiver.record(Received::Measured(message));
             refused.into_iter().collect()

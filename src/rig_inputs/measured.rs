@@ -6,6 +6,10 @@ use std::fmt;
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_messages::RigMeasured;
 
+/// Later than this (ns) a stamp of 0 is one that the sender has not set. A simulated clock begins at 0, and measurements of
+/// its first hour may say so.
+const NO_STAMP: i64 = 3_600_000_000_000;
+
 /// The newest good value of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredValue {
@@ -34,6 +38,8 @@ pub enum MeasuredRefused {
         /// The most that is accepted (s).
         most: f64,
     },
+    /// It does not state when it was measured: its stamp is 0.
+    NoStamp,
     /// A value is infinite or implausible.
     Implausible {
         /// Which.
@@ -55,7 +61,8 @@ impl MeasuredRefused {
             Self::Bad { .. } => 0,
             Self::Ahead { .. } => 1,
             Self::Older { .. } => 2,
-            Self::Implausible { kind, .. } => 3 + kind.index(),
+            Self::NoStamp => 3,
+            Self::Implausible { kind, .. } => 4 + kind.index(),
         }
     }
 }
@@ -65,6 +72,9 @@ impl fmt::Display for MeasuredRefused {
         f.write_str("rig/measured: a message was refused: ")?;
         match self {
             Self::Bad { quality } => write!(f, "its source marks the values as bad (quality {quality})"),
+            Self::NoStamp => f.write_str(
+                "its stamp is 0, so that nobody knows when it was measured; set header.stamp to the time of the measurement",
+            ),
             Self::Ahead { ahead, most } => write!(
                 f,
                 "its stamp is {ahead:.3} s ahead of the clock, at most {most} s are accepted; synchronise the clocks"
@@ -136,6 +146,9 @@ impl Measured {
             return Err(MeasuredRefused::Bad {
                 quality: message.quality,
             });
+        }
+        if stamp == 0 && now > NO_STAMP {
+            return Err(MeasuredRefused::NoStamp);
         }
         let ahead = stamp.saturating_sub(now) as f64 * 1e-9;
         if ahead > max_skew {
@@ -245,7 +258,13 @@ mod tests {
         }
         let ahead = measured.accept(&message(NOW + 1_000_000_000, &[(HookLoad, 1e5)]), NOW, 0.0, 0.5);
         assert!(matches!(ahead, Err(MeasuredRefused::Ahead { .. })));
+        let unset = measured.accept(&message(0, &[(HookLoad, 1e5)]), NOW, 0.0, 0.5);
+        assert_eq!(unset, Err(MeasuredRefused::NoStamp));
         assert_eq!(measured.newest(HookLoad), None);
-        assert_eq!(measured.counts(), [4, 4, 0, 0]);
+        assert_eq!(measured.counts(), [5, 5, 0, 0]);
+        // A simulated clock begins at 0.
+        measured
+            .accept(&message(0, &[(HookLoad, 1e5)]), 1_000_000_000, 0.0, 0.5)
+            .unwrap();
     }
 }

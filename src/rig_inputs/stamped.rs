@@ -4,7 +4,7 @@ use flexdrill_core::inputs::{InputKind, Stamp};
 use flexdrill_messages::RigInputs;
 
 /// The values of a message at `rig_time` (ns since 1970, on the clock of its stamp); `None` for an input that the message
-/// leaves out (NaN).
+/// does not give.
 pub fn values(message: &RigInputs, rig_time: i64, max_skew: f64) -> [Option<(f64, Stamp)>; InputKind::COUNT] {
     let age = rig_time.saturating_sub(message.header.stamp.to_nanoseconds());
     let stamp = Stamp {
@@ -13,15 +13,7 @@ pub fn values(message: &RigInputs, rig_time: i64, max_skew: f64) -> [Option<(f64
         bad: !matches!(message.quality, RigInputs::GOOD | RigInputs::SUSPECT),
         max_skew,
     };
-    InputKind::ALL.map(|kind| {
-        let value = match kind {
-            InputKind::RotarySpeed => message.rotary_speed_rpm,
-            InputKind::WeightOnBit => message.weight_on_bit_kn,
-            InputKind::RateOfPenetration => message.rate_of_penetration_m_per_h,
-            InputKind::StandpipePressure => message.standpipe_pressure_mpa,
-        };
-        (!value.is_nan()).then_some((value, stamp))
-    })
+    InputKind::ALL.map(|kind| message.value(kind).map(|value| (value, stamp)))
 }
 
 /// Whether the source doubts the values.

@@ -100,9 +100,14 @@ fn stamped_inputs_age_from_their_stamp_and_what_is_no_message_is_counted() {
     });
     let age = status["input_age"][0].as_f64().unwrap();
     assert!((0.8..2.0).contains(&age), "{age}");
-    // The peer sends every field, 0 where none is asked of it.
-    assert_eq!(status["input_source"], json!(vec!["encoder 2"; 4]));
-    assert_eq!(status["input_suspect"], json!(vec![true; 4]));
+    // The peer sends every field, 0 where none is asked of it, as a program does that does not know the field.
+    assert_eq!(status["input_source"], json!(["encoder 2", "encoder 2", "", ""]));
+    assert_eq!(status["input_suspect"], json!([true, true, false, false]));
+    let line = twin.wait_for("rig/inputs: ");
+    assert!(
+        line.contains("leaves values at 0") && line.contains("Set `given`"),
+        "{line}"
+    );
     peer.command(stamped(0.0, 2, 50.0));
     twin.wait_for("rig/inputs: rotary_speed 50 r/min refused: its source calls it BAD");
     peer.command(stamped(-30.0, 0, 51.0));
@@ -117,14 +122,26 @@ fn stamped_inputs_age_from_their_stamp_and_what_is_no_message_is_counted() {
         peer.command(short);
     }
     let status = peer.status_with(STATUS.0, |status| status["input_unreadable"] == json!([20, 0, 0, 0]));
-    assert_eq!(status["input_rejected"], json!([3, 3, 3, 3]), "{status}");
+    assert_eq!(status["input_rejected"], json!([3, 3, 0, 0]), "{status}");
+    // A program that says which values it gives can give a 0: the pump is off.
+    let mut given = stamped(0.0, 0, 43.0);
+    given["value"]["given"] = json!(1 | 8);
+    peer.command(given);
+    let status = peer.status_with(STATUS.0, |status| {
+        received(status).is_some_and(|speed| (speed - 43.0).abs() < 1e-9)
+    });
+    assert_eq!(status["input_received"][3], 0.0, "{status}");
+    assert_eq!(
+        status["input_state"][2], 0,
+        "no rate of penetration was given: {status}"
+    );
     twin.signal("TERM");
     assert_eq!(twin.end(), Some(0));
     let lines = twin.said().matches("a sample could not be read").count();
     assert!((1..=2).contains(&lines), "{lines} lines about 20 samples");
     let recorded = flexdrill::bag::open(&live).unwrap().map(Result::unwrap);
     let recorded = recorded.filter(|message| message.topic.is("rig/inputs"));
-    assert_eq!(recorded.count(), 5);
+    assert_eq!(recorded.count(), 6);
 }
 
 /// What is answered with "successful" acts, whenever it was asked for.

@@ -638,3 +638,29 @@ fn a_stalled_reader_holds_up_nobody() {
         "{after}"
     );
 }
+
+/// ROS 2's own programs warn of each endpoint without user data, and show the hash in `ros2 topic info -v`.
+#[test]
+fn every_endpoint_announces_the_hash_of_its_type() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&["--lifecycle"]);
+    twin.wait_for("model time");
+    let found = peer.command(json!({"do": "user_data"}))["user_data"].clone();
+    let found = found.as_object().unwrap();
+    assert!(found.len() > 60, "{found:?}");
+    for (topic, announced) in found {
+        for data in announced.as_array().unwrap() {
+            let data = data.as_str().unwrap();
+            let is_hash = data.starts_with("typehash=RIHS01_") && data.len() == 9 + 7 + 64 + 1 && data.ends_with(';');
+            // The topic with which the node checks its own DDS has a type that is none of ROS 2.
+            assert!(is_hash || topic.contains("flexdrill_pulse"), "{topic}: '{data}'");
+            assert!(!data.is_empty(), "{topic}");
+        }
+    }
+    // As `ros2 topic info -v` shows it for std_msgs/msg/Float64 everywhere.
+    let float64 = "typehash=RIHS01_705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a;";
+    assert_eq!(found["rt/rig/rotary_speed_rpm"], json!([float64]));
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+}

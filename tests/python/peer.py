@@ -1,7 +1,7 @@
 """A DDS program from another vendor (Cyclone DDS), told what to do by one JSON object per line on standard input.
 
 Answers one JSON object per line. Commands: subscribe, take, listen, publish, flood, call,
-matched, rihs01, endpoints, quit.
+matched, rihs01, endpoints, user_data, quit.
 """
 
 import hashlib
@@ -128,6 +128,18 @@ class Peer:
             ]
             found[name] = [[each.topic_name, Policy.Durability.TransientLocal in each.qos] for each in others]
         return found
+
+    def user_data(self, seconds=2.0):
+        """What all writers and readers of others announce as USER_DATA, by the topic in DDS."""
+        time.sleep(seconds)
+        found = {}
+        for builtin in (BuiltinTopicDcpsPublication, BuiltinTopicDcpsSubscription):
+            for sample in BuiltinDataReader(self.participant, builtin).take(N=1000):
+                if not sample.sample_info.valid_data or sample.participant_key == self.participant.guid:
+                    continue
+                data = [policy.data for policy in sample.qos if isinstance(policy, Policy.Userdata)]
+                found.setdefault(sample.topic_name, []).append(bytes(data[0]).decode() if data else "")
+        return {"user_data": found}
 
     def rihs01(self, description):
         """The hash of a type description, from itself."""

@@ -20,16 +20,7 @@ pub fn rig_inputs(
     if given.iter().all(Option::is_none) {
         return None;
     }
-    let [speed, weight, rate, pressure] = given.map(|given| given.unwrap_or(f64::NAN));
-    Some(RigInputs {
-        header,
-        rotary_speed_rpm: speed,
-        weight_on_bit_kn: weight,
-        quality,
-        source: source.to_owned(),
-        rate_of_penetration_m_per_h: rate,
-        standpipe_pressure_mpa: pressure,
-    })
+    Some(RigInputs::of(header, given, quality, source.to_owned()))
 }
 
 /// The measured quantities among the values (SI) of a rig; `None` where there is none.

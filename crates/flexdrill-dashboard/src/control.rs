@@ -181,19 +181,15 @@ impl Control {
             return steering.end(why);
         }
         drive.advance();
-        let message = RigInputs {
-            header: Header {
-                stamp: Time::from_nanoseconds(measured(status)),
-                frame_id: String::new(),
-            },
-            rotary_speed_rpm: drive.sent[0],
-            weight_on_bit_kn: drive.sent[1],
-            quality: RigInputs::GOOD,
-            source: format!("dashboard: {}", drive.operator),
-            // The page drives speed and weight; the rig's other inputs keep acting.
-            rate_of_penetration_m_per_h: f64::NAN,
-            standpipe_pressure_mpa: f64::NAN,
+        let header = Header {
+            stamp: Time::from_nanoseconds(measured(status)),
+            frame_id: String::new(),
         };
+        let [speed, weight] = drive.sent;
+        let source = format!("dashboard: {}", drive.operator);
+        // The page drives speed and weight; the rig's other inputs keep acting.
+        let values = [Some(speed), Some(weight), None, None];
+        let message = RigInputs::of(header, values, RigInputs::GOOD, source);
         if let Ok(body) = to_cdr_body(&message) {
             self.parts.inputs.publish(body);
         }

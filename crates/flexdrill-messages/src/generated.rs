@@ -1427,6 +1427,9 @@ pub mod flexdrill {
         pub rate_of_penetration_m_per_h: f64,
         /// Standpipe pressure, inside minus outside at the tool's top (MPa), NaN if not given.
         pub standpipe_pressure_mpa: f64,
+        /// Which of the values are given: a sum of the GIVEN_ constants. With 0 the message does not say so, and a rate or pressure
+        /// of exactly 0 counts as not given: a program that does not know the field leaves it at 0.
+        pub given: u32,
     }
 
     impl RigInputs {
@@ -1436,6 +1439,11 @@ pub mod flexdrill {
         pub const SUSPECT: u8 = 1;
         /// The values are wrong or not measured; the twin refuses them.
         pub const BAD: u8 = 2;
+        /// Bits of `given`.
+        pub const GIVEN_ROTARY_SPEED: u32 = 1;
+        pub const GIVEN_WEIGHT_ON_BIT: u32 = 2;
+        pub const GIVEN_RATE_OF_PENETRATION: u32 = 4;
+        pub const GIVEN_STANDPIPE_PRESSURE: u32 = 8;
     }
 
     impl Message for RigInputs {
@@ -1443,7 +1451,7 @@ pub mod flexdrill {
         const NAME: &'static str = "RigInputs";
         const ROS_TYPE: &'static str = "flexdrill/msg/RigInputs";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::RigInputs_";
-        const RIHS01: &'static str = "RIHS01_da73ca5b1d4349463ac48b05c8b2fb39f27eb04741adc3e476a022c960ed0a12";
+        const RIHS01: &'static str = "RIHS01_9efac5ffbffc4da5926c39013faf84522a543c2d5ddc444ff330d2ae09e0b63e";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/RigInputs.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1451,11 +1459,12 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_m_per_h", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_mpa", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "rotary_speed_rpm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_kn", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_m_per_h", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_mpa", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "given", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// What the rig and the tool's own sensors measure besides the inputs that drive the twin. The twin compares these values
-    /// with its own and never drives the model by them. Every value is optional: NaN where it is not given. Topic rig/measured.
+    /// with its own and never drives the model by them. Every value is optional: NaN where it is not given; see also `given`.
+    /// Topic rig/measured.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct RigMeasured {
         /// Stamp: time of the measurement, on the rig's clock. Frame: not used.
@@ -1490,6 +1499,9 @@ pub mod flexdrill {
         pub quality: u8,
         /// Sensor or program of origin, for displays; may be empty.
         pub source: std::string::String,
+        /// Which of the values are given: bit k for value k of the above, the surface torque being value 0. With 0 the message does
+        /// not say so, and a value of exactly 0 counts as not given: a program that does not know a field leaves it at 0.
+        pub given: u32,
     }
 
     impl RigMeasured {
@@ -1506,7 +1518,7 @@ pub mod flexdrill {
         const NAME: &'static str = "RigMeasured";
         const ROS_TYPE: &'static str = "flexdrill/msg/RigMeasured";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::RigMeasured_";
-        const RIHS01: &'static str = "RIHS01_6fa55954461bcaa8b975b3061722ff51cf1b849e5072380bd54c3bfc77203263";
+        const RIHS01: &'static str = "RIHS01_44f88d41aa2249f5e6e694cfdd99a933a4da86b78538496eddb6fa1802ca5748";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/RigMeasured.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1514,7 +1526,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigMeasured", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "surface_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hook_load", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_vibration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_vibration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_shock", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_shock", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/RigMeasured", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "surface_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hook_load", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "downhole_weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_vibration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_vibration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "axial_shock", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lateral_shock", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "given", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// The map of rotary speed and weight on bit that the node has loaded (map.file): where alarms must be expected, and where

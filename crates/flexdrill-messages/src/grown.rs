@@ -3,15 +3,38 @@
 
 use byteorder::{BigEndian, LittleEndian};
 
-use super::{AppliedInputs, Message, RigInputs, Transfer, to_cdr_body};
+use super::{AppliedInputs, Message, RigInputs, RigMeasured, Transfer, to_cdr_body};
 
 /// What an older sender leaves out.
 struct Missing {
     /// Bytes of zero directly after the end of the older body.
     first: usize,
-    /// Numbers of eight bytes after that, at the next multiple of eight.
+    /// What follows those begins at a multiple of this.
+    align: usize,
+    /// Numbers of eight bytes.
     numbers: &'static [f64],
+    /// Bytes of zero after those.
+    last: usize,
 }
+
+impl Missing {
+    const fn numbers(numbers: &'static [f64]) -> Self {
+        Self {
+            first: 0,
+            align: 8,
+            numbers,
+            last: 0,
+        }
+    }
+}
+
+/// The field `given` of four bytes, with which a message does not say which of its values are given.
+const GIVEN: Missing = Missing {
+    first: 0,
+    align: 4,
+    numbers: &[],
+    last: 4,
+};
 
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.
 const NOT_APPLIED: &[f64] = &[0.0; 4];
@@ -20,37 +43,39 @@ const NOT_SAID: &[f64] = &[f64::NAN];
 /// NaN is a value that is not given.
 const NOT_GIVEN: &[f64] = &[f64::NAN; 2];
 
-/// What older senders of a type leave out, the newest of them first.
-fn missing(ros_type: &str) -> &'static [Missing] {
-    match ros_type {
-        AppliedInputs::ROS_TYPE => &[
-            Missing {
-                first: 0,
-                numbers: NOT_APPLIED,
-            },
+/// What older senders of each type leave out, the newest of them first.
+const MISSING: &[(&str, &[Missing])] = &[
+    (
+        AppliedInputs::ROS_TYPE,
+        &[
+            Missing::numbers(NOT_APPLIED),
             // The length of a list (who asked for a parameter) and the refinement of steps.
             Missing {
                 first: 5,
-                numbers: NOT_APPLIED,
+                ..Missing::numbers(NOT_APPLIED)
             },
         ],
-        RigInputs::ROS_TYPE => &[Missing {
-            first: 0,
-            numbers: NOT_GIVEN,
-        }],
-        Transfer::ROS_TYPE => &[Missing {
-            first: 0,
-            numbers: NOT_SAID,
-        }],
-        _ => &[],
-    }
-}
+    ),
+    (
+        RigInputs::ROS_TYPE,
+        &[
+            GIVEN,
+            Missing {
+                last: GIVEN.last,
+                ..Missing::numbers(NOT_GIVEN)
+            },
+        ],
+    ),
+    (RigMeasured::ROS_TYPE, &[GIVEN]),
+    (Transfer::ROS_TYPE, &[Missing::numbers(NOT_SAID)]),
+];
 
 /// The message in an older body, if it is one: completed, its fields fit to the last byte.
 pub(crate) fn complete<M: Message>(body: &[u8], big_endian: bool) -> Option<M> {
-    missing(M::ROS_TYPE).iter().find_map(|missing| {
+    let (_, older) = MISSING.iter().find(|(ros_type, _)| *ros_type == M::ROS_TYPE)?;
+    older.iter().find_map(|missing| {
         let message = read_with::<M>(body, missing, 0, big_endian)?;
-        // The bytes up to the multiple of eight belong to no field. A body that ends within a field would read them as
+        // The bytes up to the multiple belong to no field. A body that ends within a field would read them as
         // that field, and then they matter.
         let again = read_with::<M>(body, missing, u8::MAX, big_endian)?;
         (to_cdr_body(&message).ok()? == to_cdr_body(&again).ok()?).then_some(message)
@@ -61,7 +86,7 @@ pub(crate) fn complete<M: Message>(body: &[u8], big_endian: bool) -> Option<M> {
 fn read_with<M: Message>(body: &[u8], missing: &Missing, padding: u8, big_endian: bool) -> Option<M> {
     let mut whole = body.to_vec();
     whole.resize(body.len() + missing.first, 0);
-    whole.resize(whole.len().next_multiple_of(8), padding);
+    whole.resize(whole.len().next_multiple_of(missing.align), padding);
     for number in missing.numbers {
         whole.extend(if big_endian {
             number.to_be_bytes()
@@ -69,6 +94,7 @@ fn read_with<M: Message>(body: &[u8], missing: &Missing, padding: u8, big_endian
             number.to_le_bytes()
         });
     }
+    whole.resize(whole.len() + missing.last, 0);
     let decoded = if big_endian {
         cdr_encoding::from_bytes::<M, BigEndian>(&whole).ok()
     } else {
@@ -125,6 +151,29 @@ mod tests {
     }
 
     #[test]
+    fn an_older_sender_does_not_say_which_values_are_given() {
+        for source in ["", "a", "ab", "abc", "abcd", "the rig"] {
+            let measured = RigMeasured {
+                hook_load: 5e4,
+                source: source.to_owned(),
+                given: 7,
+                ..RigMeasured::default()
+            };
+            let body = to_cdr_body(&measured).unwrap();
+            // An older body ends with its text.
+            let end = body.len() - 4 - (source.len() + 1).wrapping_neg() % 4;
+            let read: RigMeasured = message_from_cdr_body(&body[..end]).unwrap();
+            assert_eq!(read, RigMeasured { given: 0, ..measured }, "{source}");
+            for length in (0..end - 1).chain(body.len() - 3..body.len()) {
+                assert!(
+                    message_from_cdr_body::<RigMeasured>(&body[..length]).is_err(),
+                    "{source}: {length}"
+                );
+            }
+        }
+    }
+
+    #[test]
     fn an_older_transfer_does_not_say_whether_the_drive_was_at_its_limit() {
         let whole = Transfer {
             bit_torque: 90.0,
@@ -149,9 +198,11 @@ mod tests {
         };
         let body = to_cdr_body(&whole).unwrap();
         assert_eq!(from_cdr_body::<RigInputs>(&body).unwrap().0, whole);
-        // The last byte of the older body only ends its text: without it, no value is missing.
+        // The last byte of the older body only ends its text: without it, no value is missing. Without `given` it is the
+        // body of a sender that does not know that field.
         let older = to_cdr_body(&older("encoder")).unwrap().len() - 1;
-        for length in (0..body.len()).filter(|length| *length < older || length.next_multiple_of(8) > body.len() - 16) {
+        let is_older = |length: usize| length == body.len() - 4 || (older..=body.len() - 20).contains(&length);
+        for length in (0..body.len()).filter(|length| !is_older(*length)) {
             assert!(
                 message_from_cdr_body::<RigInputs>(&body[..length]).is_err(),
                 "{length} of {}",

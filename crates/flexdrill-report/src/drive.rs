@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::history::{HELD, History, Range};
 use crate::shares::Shares;
+use flexdrill_core::inputs::InputKind;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use flexdrill_messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
 
@@ -107,10 +108,11 @@ pub(crate) struct Drive {
 
 impl Drive {
     pub(crate) fn rig_inputs(&mut self, time: f64, message: &RigInputs) {
-        self.received_speed(time, message.rotary_speed_rpm);
-        self.received_weight(time, message.weight_on_bit_kn);
-        self.received_rate(time, message.rate_of_penetration_m_per_h);
-        self.received_pressure(time, message.standpipe_pressure_mpa);
+        let value = |kind| message.value(kind).unwrap_or(f64::NAN);
+        self.received_speed(time, value(InputKind::RotarySpeed));
+        self.received_weight(time, value(InputKind::WeightOnBit));
+        self.received_rate(time, value(InputKind::RateOfPenetration));
+        self.received_pressure(time, value(InputKind::StandpipePressure));
     }
 
     pub(crate) fn received_speed(&mut self, time: f64, rpm: f64) {

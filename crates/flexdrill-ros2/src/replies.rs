@@ -30,6 +30,15 @@ pub trait Reply: Serialize {
     /// has one, and lists without a text become empty.
     #[must_use]
     fn shortened(self, why: &str) -> Self;
+
+    /// The reply to a request that must not be carried out, for this reason; `None` where the service only reads, and may be
+    /// asked twice.
+    fn refused(_why: &str) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
 }
 
 /// Replies with a flag for the outcome, and a text.
@@ -39,9 +48,18 @@ macro_rules! flag_and_text {
             fn shortened(self, why: &str) -> Self {
                 Self { message: why.to_owned(), ..self }
             }
+
+            fn refused(why: &str) -> Option<Self> {
+                Some(Self { success: false, message: not_carried_out(why) })
+            }
         }
     )*};
 }
+
+fn not_carried_out(why: &str) -> String {
+    format!("the request was not carried out: {why}")
+}
+
 flag_and_text!(
     TriggerResponse,
     SetBoolResponse,
@@ -95,12 +113,43 @@ macro_rules! short {
         }
     )*};
 }
-short!(
-    CancelGoalResponse,
-    ChangeStateResponse,
-    GetStateResponse,
-    WhatIfSendGoalResponse
-);
+short!(GetStateResponse);
+
+impl Reply for CancelGoalResponse {
+    fn shortened(self, _why: &str) -> Self {
+        self
+    }
+
+    fn refused(_why: &str) -> Option<Self> {
+        Some(Self {
+            return_code: Self::ERROR_REJECTED,
+            goals_canceling: Vec::new(),
+        })
+    }
+}
+
+impl Reply for ChangeStateResponse {
+    fn shortened(self, _why: &str) -> Self {
+        self
+    }
+
+    fn refused(_why: &str) -> Option<Self> {
+        Some(Self { success: false })
+    }
+}
+
+impl Reply for WhatIfSendGoalResponse {
+    fn shortened(self, _why: &str) -> Self {
+        self
+    }
+
+    fn refused(_why: &str) -> Option<Self> {
+        Some(Self {
+            accepted: false,
+            ..Self::default()
+        })
+    }
+}
 
 impl Reply for ListParametersResponse {
     fn shortened(self, _why: &str) -> Self {
@@ -122,6 +171,12 @@ impl Reply for SetParametersAtomicallyResponse {
             },
         }
     }
+
+    fn refused(why: &str) -> Option<Self> {
+        Some(Self {
+            result: Err(not_carried_out(why)).into(),
+        })
+    }
 }
 
 impl Reply for SetParametersResponse {
@@ -135,6 +190,12 @@ impl Reply for SetParametersResponse {
             cut(&mut result.reason, share);
         }
         self
+    }
+
+    fn refused(why: &str) -> Option<Self> {
+        Some(Self {
+            results: vec![Err(not_carried_out(why)).into()],
+        })
     }
 }
 
@@ -151,6 +212,15 @@ impl Reply for SetLoggerLevelsResponse {
             cut(&mut result.reason, share);
         }
         self
+    }
+
+    fn refused(why: &str) -> Option<Self> {
+        Some(Self {
+            results: vec![SetLoggerLevelsResult {
+                successful: false,
+                reason: not_carried_out(why),
+            }],
+        })
     }
 }
 

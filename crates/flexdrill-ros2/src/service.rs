@@ -161,6 +161,10 @@ impl ServiceServer {
             let Some((dialect, request)) = self.read::<Req>(&received) else {
                 continue;
             };
+            if let Some(refusal) = received.refused.as_deref().and_then(Resp::refused) {
+                self.reply(received, dialect, refusal);
+                continue;
+            }
             let response = CLIENT
                 .scope(received.client.clone(), async { handler(request).await })
                 .await;

@@ -17,8 +17,8 @@ use flexdrill_text::printable;
 #[derive(Debug, thiserror::Error)]
 enum NoDescription {
     #[error(
-        "this node knows no type '{0}'; it describes the types of its topics and services (`ros2 node info`), and \
-         their parts"
+        "this node knows no type '{0}'; it describes the types of its topics, services and actions (`ros2 node info`), \
+         and their parts"
     )]
     Unknown(String),
     #[error("{name} has the hash {here} here, not '{asked}': the request is for another definition")]
@@ -160,12 +160,13 @@ fn collect(
     Ok(())
 }
 
-/// The hash of a type that a topic or a service has; the parts of services are none.
+/// The hash of a type that a topic, a service or an action has; the parts of services are none.
 fn hash_of(name: &str) -> Option<&'static str> {
     let message = find_type(name).filter(|info| info.ros_type.contains("/msg/"));
     message
         .map(|info| info.rihs01)
         .or_else(|| find_service(name).map(|info| info.rihs01))
+        .or_else(|| find_action(name).map(|info| info.rihs01))
 }
 
 /// Describes the type that is asked for, if its hash is the one here. An empty hash asks for the one here.
@@ -242,6 +243,23 @@ mod tests {
                 .map(|source| source.raw_file_contents.len())
                 .sum();
             assert!(joined <= topic.kind.schema.len() && joined > 0, "{}", topic.name);
+        }
+    }
+
+    #[test]
+    fn the_action_is_described_with_all_that_it_is_made_of() {
+        let action = find_action("flexdrill/action/WhatIf").unwrap();
+        let described = describe(&request(action.ros_type, action.rihs01)).unwrap();
+        let parts = described.type_description.referenced_type_descriptions;
+        let named = |name: &str| parts.iter().any(|part| part.type_name == name);
+        for name in [
+            "flexdrill/action/WhatIf_Goal",
+            "flexdrill/action/WhatIf_SendGoal",
+            "flexdrill/action/WhatIf_FeedbackMessage",
+            "flexdrill/msg/WhatIfCandidate",
+            "builtin_interfaces/msg/Time",
+        ] {
+            assert!(named(name), "{name} is missing");
         }
     }
 

@@ -37,6 +37,18 @@ struct Commands {
     sent: u64,
 }
 
+/// Who decides whether model time runs.
+#[derive(Debug, Clone, Copy, Default)]
+enum Managed {
+    /// The node is not managed: `~/pause` decides.
+    #[default]
+    No,
+    /// The node is managed and in this state, in which model time stands still.
+    Inactive(&'static str),
+    /// The node is managed and active.
+    Active,
+}
+
 /// Why a service could not carry out a request.
 #[derive(Debug, thiserror::Error)]
 pub enum ControlError {
@@ -55,6 +67,12 @@ pub enum ControlError {
         /// Its state in a word.
         state: &'static str,
     },
+    /// A managed node that is active computes.
+    #[error(
+        "the node is managed and active, and would say so while its model stands still; deactivate it instead \
+         (ros2 lifecycle set)"
+    )]
+    Active,
     /// The solver is in a step that takes too long.
     #[error("the solver did not answer in time")]
     NoAnswer,
@@ -98,8 +116,8 @@ pub struct Control {
     initial_rates: Rates,
     /// When the last checkpoint was requested.
     checkpoint: Mutex<Option<Instant>>,
-    /// The state of a managed node that is not active. Model time stands still in it.
-    inactive: Mutex<Option<&'static str>>,
+    /// What the states of a managed node ask for.
+    managed: Mutex<Managed>,
     /// Acts before a reset.
     restore: OnceLock<Box<Restore>>,
 }
@@ -138,7 +156,7 @@ impl Control {
             rig_inputs,
             gauges,
             checkpoint: Mutex::default(),
-            inactive: Mutex::default(),
+            managed: Mutex::default(),
             restore: OnceLock::new(),
         })
     }
@@ -229,12 +247,15 @@ impl Control {
     /// Pauses or resumes model time.
     ///
     /// # Errors
-    /// As [`Control::reset`]; [`ControlError::NotActive`] where a managed node that is not active is to resume.
+    /// As [`Control::reset`]; [`ControlError::NotActive`] where a managed node that is not active is to resume, and
+    /// [`ControlError::Active`] where one that is active is to pause: its state would say that it computes.
     pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
         // The lock is held until the command is sent, so that no transition comes in between.
-        let inactive = self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(state) = inactive.filter(|_| !pause) {
-            return Err(ControlError::NotActive { state });
+        let managed = self.managed.lock().unwrap_or_else(PoisonError::into_inner);
+        match (*managed, pause) {
+            (Managed::Inactive(state), false) => return Err(ControlError::NotActive { state }),
+            (Managed::Active, true) => return Err(ControlError::Active),
+            _ => {}
         }
         self.send(Command::Pause(pause))?;
         tracing::info!("{}{}", if pause { "paused" } else { "resumed" }, asked_by());
@@ -246,16 +267,16 @@ impl Control {
     /// # Errors
     /// As [`Control::reset`]; then nothing has changed.
     pub fn set_inactive(&self, inactive: Option<&'static str>) -> Result<(), ControlError> {
-        let mut state = self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut managed = self.managed.lock().unwrap_or_else(PoisonError::into_inner);
         self.send(Command::Pause(inactive.is_some()))?;
-        *state = inactive;
+        *managed = inactive.map_or(Managed::Active, Managed::Inactive);
         Ok(())
     }
 
     /// Why model time stands still, in words; `None` while it runs.
     pub fn stands_still(&self) -> Option<String> {
-        let inactive = *self.inactive.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(state) = inactive {
+        let managed = *self.managed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Managed::Inactive(state) = managed {
             return Some(format!("the node is managed and {state}, and model time stands still"));
         }
         let why = match self.gauges.run_state() {
@@ -347,8 +368,15 @@ mod tests {
         }
         assert!(control.answer_pause(true).success, "an inactive node may be paused");
         control.set_inactive(None).unwrap();
-        assert!(control.answer_pause(true).success && control.answer_pause(false).success);
-        assert_eq!(sent(), 6);
+        // Its state says that it computes.
+        let refused = control.answer_pause(true);
+        assert!(
+            !refused.success && refused.message.contains("deactivate"),
+            "{}",
+            refused.message
+        );
+        assert!(control.answer_pause(false).success);
+        assert_eq!(sent(), 5);
     }
 
     /// A set that the queue has no room for is refused and changes nothing, since "successful" means that the values act.

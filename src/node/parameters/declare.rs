@@ -144,6 +144,11 @@ mod tests {
         );
         // A range of ROS 2 includes its ends, and 0 is refused.
         assert!(slew.floating_point_range[0].from_value > 0.0, "{slew:?}");
+        // It is a number that people can read.
+        assert!(
+            slew.floating_point_range[0].from_value.to_string().len() < 12,
+            "{slew:?}"
+        );
         assert!(slew.additional_constraints.starts_with("above 0, at most"), "{slew:?}");
         let rate = store.describe("outputs.rates.whirl");
         assert!(rate.description.contains("twin/whirl"), "{}", rate.description);

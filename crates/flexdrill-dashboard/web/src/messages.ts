@@ -1077,6 +1077,11 @@ export interface RigInputs {
   rate_of_penetration_m_per_h: number;
   /** Standpipe pressure, inside minus outside at the tool's top (MPa), NaN if not given. */
   standpipe_pressure_mpa: number;
+  /**
+   * Which of the values are given: a sum of the GIVEN_ constants. With 0 the message does not say so, and a rate or pressure
+   * of exactly 0 counts as not given: a program that does not know the field leaves it at 0.
+   */
+  given: number;
 }
 export const RigInputs = {
   /** The source considers the values correct. */
@@ -1085,6 +1090,11 @@ export const RigInputs = {
   SUSPECT: 1,
   /** The values are wrong or not measured; the twin refuses them. */
   BAD: 2,
+  /** Bits of `given`. */
+  GIVEN_ROTARY_SPEED: 1,
+  GIVEN_WEIGHT_ON_BIT: 2,
+  GIVEN_RATE_OF_PENETRATION: 4,
+  GIVEN_STANDPIPE_PRESSURE: 8,
 } as const;
 /** Reads a `flexdrill/msg/RigInputs`. */
 export function decodeRigInputs(reader: CdrReader): RigInputs {
@@ -1096,12 +1106,14 @@ export function decodeRigInputs(reader: CdrReader): RigInputs {
     source: reader.string(),
     rate_of_penetration_m_per_h: reader.float64(),
     standpipe_pressure_mpa: reader.float64(),
+    given: reader.uint32(),
   };
 }
 
 /**
  * What the rig and the tool's own sensors measure besides the inputs that drive the twin. The twin compares these values
- * with its own and never drives the model by them. Every value is optional: NaN where it is not given. Topic rig/measured.
+ * with its own and never drives the model by them. Every value is optional: NaN where it is not given; see also `given`.
+ * Topic rig/measured.
  */
 export interface RigMeasured {
   /** Stamp: time of the measurement, on the rig's clock. Frame: not used. */
@@ -1136,6 +1148,11 @@ export interface RigMeasured {
   quality: number;
   /** Sensor or program of origin, for displays; may be empty. */
   source: string;
+  /**
+   * Which of the values are given: bit k for value k of the above, the surface torque being value 0. With 0 the message does
+   * not say so, and a value of exactly 0 counts as not given: a program that does not know a field leaves it at 0.
+   */
+  given: number;
 }
 export const RigMeasured = {
   /** The source considers the values correct. */
@@ -1164,6 +1181,7 @@ export function decodeRigMeasured(reader: CdrReader): RigMeasured {
     lateral_shock: reader.float64(),
     quality: reader.uint8(),
     source: reader.string(),
+    given: reader.uint32(),
   };
 }
 

@@ -23,9 +23,14 @@ pub struct NumberRange {
 }
 
 impl NumberRange {
-    /// Smallest allowed number: the ranges of ROS 2 include both ends.
+    /// The lower end for ROS 2, whose ranges include both ends. Where the end itself is not allowed it is a number next to it
+    /// that people can read: a billionth of the range above it, as a power of ten.
     fn smallest(&self) -> f64 {
-        if self.low_is_in { self.low } else { self.low.next_up() }
+        let range = self.high - self.low;
+        if self.low_is_in || !range.is_finite() || range <= 0.0 {
+            return self.low;
+        }
+        self.low + 10_f64.powi(range.log10().floor() as i32 - 9)
     }
 }
 

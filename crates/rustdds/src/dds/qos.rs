@@ -210,6 +210,7 @@ impl QosPolicyBuilder {
       // (drop glue) which is incompatible with `const fn`, and the built-in QoS
       // policies never need it. Set it via `QosPolicies::with_data_representation`.
       data_representation: None,
+      user_data: Vec::new(),
       #[cfg(feature = "security")]
       property: None,
     }
@@ -235,6 +236,8 @@ pub struct QosPolicies {
   pub(crate) resource_limits: Option<policy::ResourceLimits>,
   pub(crate) lifespan: Option<policy::Lifespan>,
   pub(crate) data_representation: Option<policy::DataRepresentation>,
+  /// Bytes that discovery announces with the endpoint (DDS 1.4, 2.2.3.1); none are announced where it is empty.
+  pub(crate) user_data: Vec<u8>,
   #[cfg(feature = "security")]
   pub(crate) property: Option<policy::Property>,
 }
@@ -333,6 +336,12 @@ impl QosPolicies {
     self
   }
 
+  /// The same policies with bytes that discovery announces with the endpoint.
+  pub fn with_user_data(mut self, user_data: Vec<u8>) -> Self {
+    self.user_data = user_data;
+    self
+  }
+
   #[cfg(feature = "security")]
   pub fn property(&self) -> Option<policy::Property> {
     self.property.clone()
@@ -362,6 +371,11 @@ impl QosPolicies {
         .data_representation
         .clone()
         .or(self.data_representation.clone()),
+      user_data: if other.user_data.is_empty() {
+        self.user_data.clone()
+      } else {
+        other.user_data.clone()
+      },
       #[cfg(feature = "security")]
       property: other.property.clone().or(self.property.clone()),
     }
@@ -566,6 +580,7 @@ impl QosPolicies {
       resource_limits,
       lifespan,
       data_representation,
+      user_data: _, // discovery writes it with the endpoint
       #[cfg(feature = "security")]
         property: _, // TODO: properties to parameter list?
     } = self;
@@ -738,6 +753,7 @@ impl QosPolicies {
       resource_limits,
       lifespan,
       data_representation,
+      user_data: Vec::new(), // discovery reads it with the endpoint
       #[cfg(feature = "security")]
       property,
     })

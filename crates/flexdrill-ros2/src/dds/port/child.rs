@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::inbox::{ReplyTo, Request, Sample};
+use super::inbox::{Request, Sample};
 use super::keeper::{LONGEST_SILENCE, SILENCE};
 use super::run_delay::RunDelay;
 use super::{Shared, TopicCounters};
@@ -269,10 +269,12 @@ impl ChildReader {
                 sent,
                 body,
             } => {
-                if self.shared.accepts(usize::from(service), &client, sequence, sent)
-                    && let Some(inbox) = self.shared.services.get(usize::from(service))
+                let index = usize::from(service);
+                if let Some(judged) = self.shared.judge(index, &client, sequence, sent)
+                    && let Some(inbox) = self.shared.services.get(index)
                 {
-                    inbox.push(Request::of_a_client(ReplyTo::Dds(id), client, body, &self.shared.open));
+                    let refused = judged.err();
+                    inbox.push(Request::of_a_client(id, client, body, refused, &self.shared.open));
                 }
             }
             FromSide::Replied { service, to } => self.shared.outbox.replied(service, to),

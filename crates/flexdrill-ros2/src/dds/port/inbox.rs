@@ -40,6 +40,8 @@ pub struct Request {
     pub client: Peer,
     /// CDR without its header.
     pub body: Vec<u8>,
+    /// Why it must not be carried out, if it changes anything: it may be for an earlier node, or have been carried out.
+    pub refused: Option<String>,
     /// Counts the request while it has no answer.
     _open: Option<OpenRequest>,
 }
@@ -56,12 +58,19 @@ impl Drop for OpenRequest {
 
 impl Request {
     /// A request that came over DDS; `open` counts it until it is answered or dropped.
-    pub(super) fn of_a_client(reply_to: ReplyTo, client: Peer, body: Vec<u8>, open: &Arc<AtomicU64>) -> Self {
+    pub(super) fn of_a_client(
+        id: RequestId,
+        client: Peer,
+        body: Vec<u8>,
+        refused: Option<String>,
+        open: &Arc<AtomicU64>,
+    ) -> Self {
         open.fetch_add(1, Ordering::AcqRel);
         Self {
-            reply_to,
+            reply_to: ReplyTo::Dds(id),
             client,
             body,
+            refused,
             _open: Some(OpenRequest(Arc::clone(open))),
         }
     }
@@ -75,6 +84,7 @@ impl Request {
             reply_to,
             client,
             body,
+            refused: None,
             _open: None,
         };
         (request, receiver)

@@ -88,8 +88,9 @@ impl Shared {
         self.peers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether a request must be carried out: it is new, and was not sent to an earlier node. A refusal is logged.
-    fn accepts(&self, service: usize, client: &Peer, sequence: i64, sent: Option<i64>) -> bool {
+    /// Whether a request may be carried out: it is new, and was not sent to an earlier node. Otherwise the reason, which is
+    /// logged; `None` for a request that arrives again and has been taken.
+    fn judge(&self, service: usize, client: &Peer, sequence: i64, sent: Option<i64>) -> Option<Result<(), String>> {
         let mut filter = self.request_filter.lock().unwrap_or_else(PoisonError::into_inner);
         let steady = monotonic::now();
         let now = SystemTime::now().duration_since(UNIX_EPOCH);
@@ -101,14 +102,14 @@ impl Shared {
             up: steady.saturating_sub(filter.began),
         };
         let why = match filter.seen.judge(&arrival) {
-            Verdict::New => return true,
+            Verdict::New => return Some(Ok(())),
             Verdict::Repeated => {
                 tracing::debug!("request {sequence} of {client} arrived again and is not carried out again");
-                return false;
+                return None;
             }
             Verdict::Older(by) => format!(
                 "it was sent {by:.1} s before this node was started. If it was sent later, the clocks of the two machines \
-                 differ: synchronise them"
+                 differ: synchronise them, or send it again half a minute after the start"
             ),
             Verdict::WithoutTime => {
                 "it does not state when it was sent, and so soon after the start it may have been sent to an earlier node. \
@@ -124,7 +125,7 @@ impl Shared {
             let service = self.service_names.get(service).map_or("?", String::as_str);
             tracing::warn!("service {service}: a request of {client} is not carried out: {why}{more}");
         }
-        false
+        Some(Err(why))
     }
 }
 

@@ -4,8 +4,9 @@
 //! therefore receives old requests: those that this node has accepted, and those that were sent to an earlier node.
 //! Accepted requests are known by writer and number. Requests to an earlier node are older than this node: the age of a
 //! request is the time since its client sent it, by this machine's clock, and the age of the node is measured by the
-//! monotonic clock, so that a change of the clock does not matter. A client on another machine whose clock is slow by some
-//! seconds is refused for that time after the start.
+//! monotonic clock, so that a change of the clock does not matter. The requests of a client on another machine whose clock is
+//! slow look old; they are refused for half a minute after the start at most, when all requests to an earlier node have
+//! arrived.
 //!
 //! A request of several datagrams arrives without its time: RustDDS keeps the time of the last datagram, and Cyclone DDS
 //! sends it with the first. Such a request is new where its program has sent others to this node, or half a minute after
@@ -32,7 +33,7 @@ pub(super) enum Verdict {
     New,
     /// It was accepted before.
     Repeated,
-    /// It was sent before this node was started, by this time (s).
+    /// It was sent before this node was started, by this time (s), and comes soon after the start.
     Older(f64),
     /// It does not state when it was sent and comes soon after the start, so that it may be for an earlier node.
     WithoutTime,
@@ -93,9 +94,15 @@ impl SeenRequests {
             return self.judge_without_time(arrival);
         };
         let older = i128::from(now) - i128::from(sent) - i128::from(up);
-        if older > 0 {
-            return Verdict::Older(older as f64 * 1e-9);
+        // A refused request is noted, too, so that it is refused when it comes again.
+        match self.note(client, sequence, sent) {
+            Verdict::New if older > 0 && up < SETTLED => Verdict::Older(older as f64 * 1e-9),
+            verdict => verdict,
         }
+    }
+
+    /// Judges a request by its number, and notes it.
+    fn note(&mut self, client: Guid, sequence: i64, sent: i64) -> Verdict {
         self.count += 1;
         if let Some(known) = self.clients.get_mut(&client) {
             known.last = self.count;
@@ -241,10 +248,26 @@ mod tests {
         assert!((by - 3.0).abs() < 1e-9, "{by}");
         assert_eq!(seen.judge(&at(7, 2, START + 1, START + SECOND)), Verdict::New);
         // What was refused for its age is not taken by its number later either.
-        assert!(matches!(
-            seen.judge(&at(7, 1, START - 3 * SECOND, START + 9 * SECOND)),
-            Verdict::Older(_)
-        ));
+        let again = seen.judge(&at(7, 1, START - 3 * SECOND, START + 9 * SECOND));
+        assert_eq!(again, Verdict::Repeated);
+        let later = seen.judge(&at(7, 1, START - 3 * SECOND, START + 90 * SECOND));
+        assert_eq!(later, Verdict::Repeated);
+    }
+
+    /// A machine without a radio clock is slow by five minutes: its clients are served half a minute after the start.
+    #[test]
+    fn a_client_with_a_slow_clock_is_refused_for_half_a_minute_at_most() {
+        let mut seen = SeenRequests::default();
+        let slow = |sequence: i64, after: i64| at(7, sequence, START + (after - 300) * SECOND, START + after * SECOND);
+        for (sequence, after) in [(1, 2), (2, 29)] {
+            assert!(
+                matches!(seen.judge(&slow(sequence, after)), Verdict::Older(_)),
+                "{after} s"
+            );
+        }
+        assert_eq!(seen.judge(&slow(3, 30)), Verdict::New);
+        assert_eq!(seen.judge(&slow(2, 29)), Verdict::Repeated);
+        assert_eq!(seen.judge(&slow(3, 30)), Verdict::Repeated);
     }
 
     #[test]

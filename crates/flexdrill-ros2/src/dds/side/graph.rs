@@ -15,10 +15,13 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::dds::plan::Plan;
+use flexdrill_messages::generated::TYPES;
 
 /// The topic on which ROS 2 nodes announce their endpoints.
 pub(super) const DISCOVERY_TOPIC: &str = "ros_discovery_info";
 const DISCOVERY_TYPE: &str = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
+/// Hash of that type after REP-2016, since Jazzy; Humble sends none.
+const DISCOVERY_HASH: &str = "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e";
 /// Most announcements of other nodes that wait.
 const DISCOVERY_DEPTH: i32 = 64;
 
@@ -73,7 +76,7 @@ impl NodeGraph {
             .create_topic(
                 DISCOVERY_TOPIC.to_owned(),
                 DISCOVERY_TYPE.to_owned(),
-                &qualities,
+                &announced(&qualities, DISCOVERY_TYPE),
                 TopicKind::NoKey,
             )
             .map_err(text)?;
@@ -105,7 +108,12 @@ impl NodeGraph {
     ) -> Result<Writer<M>, String> {
         let topic = self
             .participant
-            .create_topic(topic.to_owned(), dds_type.to_owned(), qualities, TopicKind::NoKey)
+            .create_topic(
+                topic.to_owned(),
+                dds_type.to_owned(),
+                &announced(qualities, dds_type),
+                TopicKind::NoKey,
+            )
             .map_err(text)?;
         let writer: Writer<M> = self.publisher.create_datawriter_no_key(&topic, None).map_err(text)?;
         self.node.writers.push(writer.guid().into());
@@ -124,7 +132,12 @@ impl NodeGraph {
     ) -> Result<Reader<M>, String> {
         let topic = self
             .participant
-            .create_topic(topic.to_owned(), dds_type.to_owned(), qualities, TopicKind::NoKey)
+            .create_topic(
+                topic.to_owned(),
+                dds_type.to_owned(),
+                &announced(qualities, dds_type),
+                TopicKind::NoKey,
+            )
             .map_err(text)?;
         let reader: Reader<M> = self
             .subscriber
@@ -169,6 +182,18 @@ impl Drop for NodeGraph {
     fn drop(&mut self) {
         self.send(Vec::new());
     }
+}
+
+/// Qualities of service that announce the hash of the type, as ROS 2's own programs do since Iron. Programs on
+/// rmw_cyclonedds log a warning for each endpoint without any user data; those of types that are not ROS 2's have some.
+fn announced(qualities: &QosPolicies, dds_type: &str) -> QosPolicies {
+    let known = TYPES.iter().find(|info| info.dds_type == dds_type);
+    let hash = known.map(|info| info.rihs01);
+    let data = match hash.or((dds_type == DISCOVERY_TYPE).then_some(DISCOVERY_HASH)) {
+        Some(hash) => format!("typehash={hash};"),
+        None => "source=flexdrill;".to_owned(),
+    };
+    qualities.clone().with_user_data(data.into_bytes())
 }
 
 fn discovery_qualities(depth: i32) -> QosPolicies {
