@@ -128,7 +128,11 @@ try {
     await page.click("#tab-alarms");
     for (const [name, alarms] of Object.entries(STATES)) {
       await impose(page, alarms);
-      await until(`${alarms.length} alarms`, 10, async () => (await page.locator(".alarm").count()) === alarms.length);
+      await until(
+        `${alarms.length} alarms`,
+        10,
+        async () => (await page.locator("li.alarm").count()) === alarms.length,
+      );
       await look(name);
     }
     // Of the list as it is published the first has ended; the line has the action of one that stands.
