@@ -5,6 +5,7 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_sweep::SweepError;
 use flexdrill_sweep::envelope::Envelope;
 use flexdrill_sweep::map::{Axis, Map, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_text::table_cell;
 
 /// Whose bounds a table of an envelope has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +50,9 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
                 .collect()
         })
         .unwrap_or_default();
-    let mut header = vec![map.x.key.clone(), map.y.key.clone()];
+    let mut header = [&map.x.key, &map.y.key]
+        .map(|key| table_cell(key).into_owned())
+        .to_vec();
     let own = [
         "verdict",
         "start",
@@ -66,6 +69,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
     ];
     header.extend(own.map(str::to_owned));
     for alarm in &alarms {
+        let alarm = table_cell(alarm);
         header.extend(Priority::ALL.map(|priority| format!("{alarm}_{}", priority.name())));
     }
     for (name, unit) in &figures {
@@ -74,6 +78,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
         } else {
             format!(" ({unit})")
         };
+        let (name, unit) = (table_cell(name), table_cell(&unit));
         header.extend(["p5", "p50", "p95"].map(|quantile| format!("{name}_{quantile}{unit}")));
     }
     let mut rows = vec![header];
@@ -91,10 +96,10 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
             ];
             row.extend(of.interval.map(|end| format!("{end:.4}")));
             row.extend([
-                of.alarm.clone(),
+                table_cell(&of.alarm).into_owned(),
                 of.members.to_string(),
                 of.failed.to_string(),
-                of.failure.clone(),
+                table_cell(&of.failure).into_owned(),
             ]);
             for alarm in &alarms {
                 for priority in Priority::ALL {

@@ -498,6 +498,7 @@ proptest! {
                     error: error.then(|| Problem {
                         text: "no space left".to_owned(),
                         cause: "The disk is full.",
+                        remedy: "Free disk space.",
                     }),
                     notice: None,
                     losses: Losses {

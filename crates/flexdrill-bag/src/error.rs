@@ -233,6 +233,9 @@ impl BagError {
         match self {
             Self::Gone { .. } => "The recording's file or its folder was removed, moved or replaced.",
             Self::OtherDisk { .. } => "The recording's disk was removed.",
+            Self::NotSafe { source, .. } if cannot_sync(source) => {
+                "The recording's file system does not support that files are synced to the disk."
+            }
             Self::NotSafe { .. } => "The disk failed to store data that it had accepted.",
             Self::Hung { .. } | Self::NotBegun { .. } => "The disk does not respond.",
             Self::Incomplete { problem, .. } => problem.cause(),
@@ -247,11 +250,45 @@ impl BagError {
         }
     }
 
+    /// What the person who runs the computer can do when a recording stops, as a sentence.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::NotSafe { source, .. } if cannot_sync(source) => {
+                "Restart the node with --record on a file system that can sync, such as ext4 or xfs. Free space does not help."
+            }
+            Self::NotSafe { .. } => {
+                "Check the disk: it failed to store data, which a full or a defective disk does. The recording continues in \
+                 another file as soon as it can; otherwise restart the node with --record on another disk."
+            }
+            Self::Incomplete { problem, .. } => problem.remedy(),
+            Self::Io { source, .. }
+                if matches!(
+                    source.kind(),
+                    io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem
+                ) =>
+            {
+                "Allow the node to write to the folder, or restart it with --record in another folder."
+            }
+            _ => {
+                "Free disk space: the recording then continues in another file. Otherwise restart the node with --record \
+                 on another disk."
+            }
+        }
+    }
+
     /// For `map_err` on operations on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Io { action, path, source }
     }
+}
+
+/// Whether a file system refuses to sync as such: EINVAL, ENOSYS, EOPNOTSUPP or EPERM. A disk that fails returns others.
+fn cannot_sync(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported | io::ErrorKind::PermissionDenied
+    )
 }
 
 /// The remedy for the commonest errors.
@@ -267,5 +304,36 @@ fn hint(error: &io::Error) -> &'static str {
             "; choose a folder that you can write to"
         }
         _ => "",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refused_sync_is_told_as_what_it_is() {
+        let told = |code: i32| {
+            let error = BagError::NotSafe {
+                path: "run.mcap".into(),
+                messages: 3,
+                source: io::Error::from_raw_os_error(code),
+            };
+            format!("{} {}", error.cause(), error.remedy())
+        };
+        // EINVAL, ENOSYS, EPERM, EOPNOTSUPP.
+        for code in [22, 38, 1, 95] {
+            assert!(
+                told(code).contains("does not support") && told(code).contains("ext4"),
+                "{}",
+                told(code)
+            );
+        }
+        // EIO.
+        assert!(
+            told(5).contains("failed to store data") && told(5).contains("defective"),
+            "{}",
+            told(5)
+        );
     }
 }

@@ -12,6 +12,7 @@ use crate::recording_health::{Counts, RecordingHealth};
 use crate::storage::Storage;
 use crate::tally::Tally;
 use crate::{BagError, Recording, Topic};
+use flexdrill_text::log_ending;
 
 /// Interval between checks that the file has not been moved or removed.
 const CHECK: Duration = Duration::from_millis(500);
@@ -149,7 +150,9 @@ impl FailoverRecorder {
         match self.part.as_mut().map(|part| part.add(&item.entry())) {
             Some(Ok(())) => self.open.push(item),
             Some(Err(error)) => {
-                tracing::error!("a message cannot be recorded: {error}");
+                if let Some(more) = log_ending("message not recorded") {
+                    tracing::error!("a message cannot be recorded: {error}{more}");
+                }
                 self.lost += 1;
             }
             None => self.lost += 1,

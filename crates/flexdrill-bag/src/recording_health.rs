@@ -38,6 +38,8 @@ pub struct Problem {
     pub text: String,
     /// The cause, as a sentence for the operator.
     pub cause: &'static str,
+    /// What the person who runs the computer can do, as a sentence.
+    pub remedy: &'static str,
 }
 
 impl Problem {
@@ -45,6 +47,7 @@ impl Problem {
         Self {
             text: error.to_string(),
             cause: error.cause(),
+            remedy: error.remedy(),
         }
     }
 }

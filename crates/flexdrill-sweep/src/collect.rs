@@ -8,6 +8,7 @@ use crate::directory::{Directory, Found};
 use crate::error::SweepError;
 use crate::outcome::Outcome;
 use crate::plan::{Plan, Point};
+use flexdrill_text::table_cell;
 
 impl Directory {
     /// The results as CSV, a row per point in the plan's order. The bytes depend on plan and results only. With `partial`,
@@ -80,14 +81,15 @@ const QUANTILES: [&str; 3] = ["p5", "p50", "p95"];
 
 fn header(plan: &Plan) -> Vec<String> {
     let mut names: Vec<String> = vec!["point".to_owned()];
-    names.extend(plan.keys.iter().cloned());
+    names.extend(plan.keys.iter().map(|key| table_cell(key).into_owned()));
     names.extend(["start", "seed"].map(str::to_owned));
     names.extend(OWN.map(str::to_owned));
     for alarm in &plan.runs.alarms {
+        let alarm = table_cell(alarm);
         names.extend(Priority::ALL.map(|priority| format!("{alarm}_{}", priority.name())));
     }
     for (figure, unit) in &plan.runs.figures {
-        let unit = in_a_name(unit);
+        let (figure, unit) = (table_cell(figure), in_a_name(&table_cell(unit)));
         names.extend(QUANTILES.map(|quantile| format!("{figure}{unit}_{quantile}")));
     }
     names
@@ -125,7 +127,7 @@ fn row(plan: &Plan, point: &Point, outcome: Option<&Outcome>) -> Vec<String> {
         outcome.run_up.map_or(String::new(), number),
     ]);
     cells.extend(outcome.quality.map(|count| count.to_string()));
-    cells.push(outcome.failure.clone());
+    cells.push(table_cell(&outcome.failure).into_owned());
     cells.extend(outcome.any_alarm.map(|count| count.to_string()));
     for alarm in &plan.runs.alarms {
         for priority in Priority::ALL {
@@ -152,7 +154,7 @@ fn number(value: f64) -> String {
 
 fn text(value: &Value) -> String {
     match value {
-        Value::String(text) => text.clone(),
+        Value::String(text) => table_cell(text).into_owned(),
         other => other.to_string(),
     }
 }

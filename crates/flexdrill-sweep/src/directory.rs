@@ -175,13 +175,24 @@ impl Directory {
     /// When its file cannot be read.
     pub fn find(&self, point: &Point) -> Result<Found, SweepError> {
         let file = self.file(point);
+        self.ensure_own(&file)?;
         match read_bounded(&file, outcome::MOST_BYTES) {
             Ok(bytes) => Ok(match outcome::from_bytes(&self.plan, point, &bytes) {
                 Ok(outcome) => Found::Done(Box::new(outcome)),
                 Err(damage) => Found::Damaged(damage),
             }),
             Err(reason) if reason.kind() == ErrorKind::NotFound => Ok(Found::Missing),
+            Err(_) if !is_regular(&file) => Ok(Found::Damaged(Damage::NotAFile)),
             Err(reason) => Err(SweepError::Read { path: file, reason }),
+        }
+    }
+
+    /// Refuses a point's file whose folders are links: they may lead out of the directory.
+    fn ensure_own(&self, file: &Path) -> Result<(), SweepError> {
+        let folders = [self.path.join(POINTS), file.parent().unwrap_or(&self.path).to_owned()];
+        match folders.into_iter().find(|folder| is_link(folder)) {
+            Some(path) => Err(SweepError::Link { path }),
+            None => Ok(()),
         }
     }
 
@@ -195,6 +206,7 @@ impl Directory {
             reason: error.to_string(),
         })?;
         let file = self.file(point);
+        self.ensure_own(&file)?;
         let folder = file.parent().unwrap_or(&self.path);
         std::fs::create_dir_all(folder).map_err(|reason| unwritten(folder, reason))?;
         let part = part(folder, &[&bytes])?;
@@ -245,8 +257,15 @@ impl Directory {
             reason,
         };
         let points = self.path.join(POINTS);
+        if is_link(&points) {
+            return Err(SweepError::Link { path: points });
+        }
         for folder in entries(&points).map_err(|reason| unread(&points, reason))? {
             let folder = folder.path();
+            if is_link(&folder) {
+                each(&folder.file_name().unwrap_or_default().to_string_lossy());
+                continue;
+            }
             for file in entries(&folder).map_err(|reason| unread(&folder, reason))? {
                 each(&file.file_name().to_string_lossy());
             }
@@ -286,11 +305,26 @@ pub fn plan_from_bytes(file: &Path, bytes: &[u8]) -> Result<Plan, SweepError> {
     }
 }
 
-/// A file of at most `most` bytes, and one byte more of a larger one.
+/// A regular file of at most `most` bytes, and one byte more of a larger one. Opening does not wait for the other end of a
+/// pipe, and does not follow a link.
 fn read_bounded(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
+    use rustix::fs::{Mode, OFlags};
+    let flags = OFlags::RDONLY | OFlags::CLOEXEC | OFlags::NONBLOCK | OFlags::NOFOLLOW;
+    let file = File::from(rustix::fs::open(path, flags, Mode::empty())?);
+    if !file.metadata()?.is_file() {
+        return Err(std::io::Error::new(ErrorKind::InvalidInput, "it is no regular file"));
+    }
     let mut bytes = Vec::new();
-    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    file.take(most + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+fn is_link(path: &Path) -> bool {
+    std::fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink())
+}
+
+fn is_regular(path: &Path) -> bool {
+    std::fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
 }
 
 /// A complete file on the disk, without its name yet.
@@ -307,7 +341,7 @@ fn part(folder: &Path, content: &[&[u8]]) -> Result<tempfile::NamedTempFile, Swe
         part.write_all(bytes).map_err(failed)?;
     }
     // A machine that loses its power after the renaming must not leave an empty result.
-    part.as_file().sync_data().map_err(failed)?;
+    part.as_file().sync_data().map_err(|reason| unsynced(folder, reason))?;
     Ok(part)
 }
 
@@ -325,9 +359,42 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), SweepError> {
     Ok(())
 }
 
+/// A file system that does not know the request is no disk that is full.
+fn unsynced(path: &Path, reason: std::io::Error) -> SweepError {
+    let kinds = [
+        ErrorKind::InvalidInput,
+        ErrorKind::Unsupported,
+        ErrorKind::PermissionDenied,
+    ];
+    if kinds.contains(&reason.kind()) {
+        let path = path.to_owned();
+        return SweepError::NotSynced { path, reason };
+    }
+    unwritten(path, reason)
+}
+
 fn unwritten(path: &Path, reason: std::io::Error) -> SweepError {
     SweepError::Write {
         path: path.to_owned(),
         reason,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refused_sync_is_told_as_what_it_is() {
+        // EINVAL, ENOSYS, EPERM, EOPNOTSUPP.
+        for code in [22, 38, 1, 95] {
+            let text = unsynced(Path::new("points/ab"), std::io::Error::from_raw_os_error(code)).to_string();
+            assert!(
+                text.contains("points/ab: cannot be synced") && text.contains("file system"),
+                "{text}"
+            );
+        }
+        let full = unsynced(Path::new("points/ab"), std::io::Error::from_raw_os_error(28)).to_string();
+        assert!(full.contains("cannot be written: No space left"), "{full}");
     }
 }

@@ -25,6 +25,26 @@ pub enum SweepError {
         /// The system's reason.
         reason: std::io::Error,
     },
+    /// The file system cannot confirm that a file is on the disk.
+    #[error(
+        "{}: cannot be synced to the disk: {reason}. This file system does not support it; choose a directory on another \
+         one. The other results stay", path.display()
+    )]
+    NotSynced {
+        /// The folder of the file.
+        path: PathBuf,
+        /// The system's reason.
+        reason: std::io::Error,
+    },
+    /// A folder of the directory is a link to another place.
+    #[error(
+        "{}: is a link: results are read and written within the directory only. Move the folder here, or make the whole \
+         directory where the link leads to", path.display()
+    )]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
     /// The directory has no plan.
     #[error("{}: no sweep: it has no sweep.json; make one with flexdrill sweep plan SPEC DIR", path.display())]
     NoPlan {

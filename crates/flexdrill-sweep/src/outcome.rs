@@ -77,6 +77,9 @@ pub enum Damage {
         /// In the plan.
         expected: String,
     },
+    /// A link, a pipe, a device or a folder, which is not read: a pipe would wait for ever.
+    #[error("it is no regular file")]
+    NotAFile,
     /// Too large.
     #[error("it has more than {MOST_BYTES} bytes")]
     Large,

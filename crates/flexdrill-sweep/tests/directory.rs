@@ -339,6 +339,68 @@ fn damaged_points_are_named_and_left_alone() {
     directory.collect(false).unwrap();
 }
 
+/// Another user of a shared directory may have put them there.
+#[test]
+fn pipes_and_links_are_named_and_not_followed() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let elsewhere = tempfile::tempdir().unwrap();
+    let directory = Directory::create(folder.path(), &plan(GRID)).unwrap();
+    work(&directory, &all(&directory), 1).unwrap();
+    let file = |number: usize| directory.file(&directory.points()[number]);
+    std::fs::remove_file(file(0)).unwrap();
+    let made = std::process::Command::new("mkfifo").arg(file(0)).status().unwrap();
+    assert!(made.success());
+    std::fs::rename(file(1), elsewhere.path().join("result")).unwrap();
+    symlink(elsewhere.path().join("result"), file(1)).unwrap();
+    let status = directory.status().unwrap();
+    let damaged: Vec<String> = status.damaged.iter().map(|(_, damage)| damage.to_string()).collect();
+    assert_eq!(damaged, ["it is no regular file"; 2]);
+    assert!(directory.collect(true).is_err());
+    assert!(work(&directory, &all(&directory), 1).is_err());
+    // A plan that is a pipe does not hang either.
+    let other = tempfile::tempdir().unwrap();
+    let pipe = other.path().join(PLAN);
+    assert!(
+        std::process::Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert!(Directory::open(other.path()).is_err());
+    // All results elsewhere.
+    std::fs::rename(folder.path().join("points"), elsewhere.path().join("points")).unwrap();
+    symlink(elsewhere.path().join("points"), folder.path().join("points")).unwrap();
+    for refused in [
+        directory.status().err(),
+        directory.collect(true).err(),
+        work(&directory, &all(&directory), 1).err(),
+        directory
+            .put(&directory.points()[0], &made_up(&directory.points()[0]))
+            .err(),
+    ] {
+        let text = refused.unwrap().to_string();
+        assert!(text.contains("points: is a link"), "{text}");
+    }
+}
+
+#[test]
+fn a_foreign_failure_is_text_in_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let directory = Directory::create(folder.path(), &plan(GRID)).unwrap();
+    let point = &directory.points()[0];
+    let mut outcome = made_up(point);
+    outcome.failure = "=HYPERLINK(\"http://x\")\x1b[2J\u{202e}".to_owned();
+    directory.put(point, &outcome).unwrap();
+    let table = String::from_utf8(directory.collect(true).unwrap()).unwrap();
+    assert!(
+        table.contains("'=HYPERLINK") && table.contains("\\u{1b}[2J\\u{202e}"),
+        "{table}"
+    );
+    assert!(!table.contains(['\x1b', '\u{202e}']));
+}
+
 #[test]
 fn a_disk_that_refuses_a_write_costs_no_result() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,5 +7,5 @@ mod printable;
 mod throttle;
 
 pub use date::{compact_date_time, date_time, time_of_day};
-pub use printable::{printable, printable_lines};
-pub use throttle::{Throttle, Throttles};
+pub use printable::{printable, printable_lines, table_cell};
+pub use throttle::{LOG_INTERVAL, Throttle, Throttles, log_ending};

@@ -16,6 +16,15 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, true)
 }
 
+/// A foreign text as a cell of a table: as [`printable_lines`], and with an apostrophe before what a spreadsheet would
+/// compute, such as `=HYPERLINK(...)`. Numbers are no foreign text.
+pub fn table_cell(text: &str) -> Cow<'_, str> {
+    if text.starts_with(['=', '+', '-', '@']) {
+        return Cow::Owned(format!("'{}", printable_lines(text)));
+    }
+    printable_lines(text)
+}
+
 fn escaped(text: &str, lines: bool) -> Cow<'_, str> {
     let is_harmless = |c: char| (lines && c == '\n') || !is_executed(c);
     if text.chars().all(is_harmless) {
@@ -53,6 +62,15 @@ mod tests {
         for text in ["", "rig_7/weight_on_bit", "Bohrgestänge 40 r/min ± 2 °, 钻柱"] {
             assert!(matches!(printable(text), Cow::Borrowed(same) if same == text));
         }
+    }
+
+    #[test]
+    fn a_cell_of_a_table_is_text_for_a_spreadsheet() {
+        assert_eq!(table_cell("=HYPERLINK(\"http://x\")"), "'=HYPERLINK(\"http://x\")");
+        assert_eq!(table_cell("@a\x1b[2J\nb"), "'@a\\u{1b}[2J\nb");
+        // A tab or a return before the sign would hide it.
+        assert_eq!(table_cell("\t=1"), "\\t=1");
+        assert_eq!(table_cell("shock"), "shock");
     }
 
     #[test]
