@@ -21,6 +21,12 @@ pub struct LineHealth {
     pub used_at: Option<i64>,
     /// What the line carried.
     pub counts: Counts,
+    /// Values that were refused, because another connection serves their quantity.
+    pub second_source: u64,
+    /// What was refused last, in words; empty before the first.
+    pub second_text: String,
+    /// Whether two connections send one of the inputs now.
+    pub disputed: bool,
     /// Frames of the twin that were written, and those that a slow connection lost.
     pub written: [u64; 2],
     /// Why the capture ended, if it did.
@@ -39,6 +45,7 @@ impl LineHealth {
                 DiagnosticStatus::WARN,
                 format!("connected, no usable frame for {age:.0} s"),
             ),
+            _ if self.disputed => (DiagnosticStatus::WARN, format!("two sources: {}", self.second_text)),
             _ => (DiagnosticStatus::OK, "frames arrive".to_owned()),
         };
         match &self.capture_failed {
@@ -63,6 +70,7 @@ impl LineHealth {
             ("records_missing", counts.missing),
             ("records_repeated", counts.duplicates),
             ("records_out_of_order", counts.out_of_order),
+            ("values_of_a_second_source", self.second_source),
             ("items_unmapped", counts.unmapped),
             ("items_null", counts.nulls),
             ("bytes_discarded", counts.discarded_bytes),
@@ -107,6 +115,10 @@ mod tests {
         health.open = 1;
         health.used_at = Some(now - 1_000_000_000);
         assert_eq!(level(&health), DiagnosticStatus::OK);
+        health.disputed = true;
+        health.second_text = "connection 2 also sends rotary_speed".to_owned();
+        assert_eq!(level(&health), DiagnosticStatus::WARN);
+        health.disputed = false;
         health.used_at = Some(now - 11_000_000_000);
         assert_eq!(level(&health), DiagnosticStatus::WARN);
         health.open = 0;

@@ -12,8 +12,7 @@ use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, Key
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Message, message_from_cdr_body};
-use flexdrill_realtime::monotonic;
-use flexdrill_text::{Throttles, printable};
+use flexdrill_text::{log_ending, printable};
 use tokio::sync::{mpsc, watch};
 use tokio::time::{MissedTickBehavior, interval};
 
@@ -23,8 +22,6 @@ use super::{BridgeNode, mqtt_figures};
 const POLL: Duration = Duration::from_millis(100);
 /// Time between two messages on `/diagnostics`.
 const DIAGNOSTICS: Duration = Duration::from_secs(1);
-/// Least time between two log lines of one cause (s).
-const LOG_INTERVAL: f64 = 10.0;
 /// The twin's status comes five times a second; without one for this long it is silent.
 const SILENCE: Duration = Duration::from_secs(3);
 /// Events of a connection that wait to be logged.
@@ -52,7 +49,6 @@ pub struct MqttBridge {
     /// Why each connection was last lost; empty before the first loss.
     losses: [String; 2],
     unreadable: u64,
-    faults: Throttles<(&'static str, &'static str)>,
 }
 
 impl MqttBridge {
@@ -83,7 +79,6 @@ impl MqttBridge {
             since: lines::now(),
             losses: Default::default(),
             unreadable: 0,
-            faults: Throttles::new(LOG_INTERVAL),
         }
     }
 
@@ -173,7 +168,7 @@ impl MqttBridge {
         }
         if unreadable > 0 {
             self.unreadable += unreadable;
-            self.log(NAMES[0], "unreadable", || {
+            log(NAMES[0], "unreadable", || {
                 format!(
                     "{unreadable} messages of the twin could not be read; twin and bridge should have the same version"
                 )
@@ -200,9 +195,13 @@ impl MqttBridge {
         self.since = lines::now();
         let is_alive = state == "running";
         if is_alive {
-            tracing::info!("mqtt: the twin sends");
+            if let Some(more) = log_ending("mqtt: the twin sends") {
+                tracing::info!("mqtt: the twin sends{more}");
+            }
         } else {
-            tracing::warn!("mqtt: the twin has sent no status for {} s", SILENCE.as_secs());
+            log("mqtt", "silent", || {
+                format!("the twin has sent no status for {} s", SILENCE.as_secs())
+            });
             // What it sent is no longer true, also when it comes back.
             self.twin = TwinFigures::default();
         }
@@ -230,24 +229,23 @@ impl MqttBridge {
     fn on(&mut self, which: usize, event: LinkEvent) {
         let name = NAMES[which];
         match event {
-            LinkEvent::Connected => tracing::info!("{name}: connected to {}", self.broker),
-            LinkEvent::Waiting { why, wait } => {
-                // A new reason is logged at once.
-                let is_new = self.losses[which] != why;
-                let text = format!(
-                    "no connection to {}: {}; the next attempt is in {} s",
-                    self.broker,
-                    printable(&why),
-                    wait.as_secs_f64()
-                );
-                if is_new {
-                    tracing::warn!("{name}: {text}");
-                } else {
-                    self.log(name, "waiting", || text);
+            LinkEvent::Connected => {
+                if let Some(more) = log_ending(format!("{name}: connected")) {
+                    tracing::info!("{name}: connected to {}{more}", self.broker);
                 }
+            }
+            LinkEvent::Waiting { why, wait } => {
+                log(name, "waiting", || {
+                    format!(
+                        "no connection to {}: {}; the next attempt is in {} s",
+                        self.broker,
+                        printable(&why),
+                        wait.as_secs_f64()
+                    )
+                });
                 self.losses[which] = why;
             }
-            LinkEvent::Note(note) => self.log(name, "note", || printable(&note).into_owned()),
+            LinkEvent::Note(note) => log(name, "note", || printable(&note).into_owned()),
         }
     }
 
@@ -304,12 +302,12 @@ impl MqttBridge {
                 .collect(),
         }
     }
+}
 
-    fn log(&mut self, connection: &'static str, cause: &'static str, text: impl FnOnce() -> String) {
-        let now = monotonic::now() as f64 * 1e-9;
-        if let Some(more) = self.faults.ending((connection, cause), now) {
-            tracing::warn!("{connection}: {}{more}", text());
-        }
+/// One warning per connection and cause in ten seconds.
+fn log(connection: &'static str, cause: &'static str, text: impl FnOnce() -> String) {
+    if let Some(more) = log_ending(format!("{connection}: {cause}")) {
+        tracing::warn!("{connection}: {}{more}", text());
     }
 }
 

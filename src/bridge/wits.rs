@@ -6,11 +6,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use flexdrill_bridge::TwinFigures;
-use flexdrill_bridge::lines::{self, LineState, Place, Times};
+use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureWriter};
-use flexdrill_bridge::wits::{FrameUse, Line, LineEvent, Mapping, NotUsed, TwinFrames, shown};
-use flexdrill_realtime::monotonic;
-use flexdrill_text::{Throttles, printable};
+use flexdrill_bridge::wits::{FrameUse, Line, LineEvent, Mapping, NotUsed, Refused, Sources, TwinFrames, shown};
+use flexdrill_text::{log_ending, printable};
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::{MissedTickBehavior, interval};
 
@@ -23,8 +22,6 @@ const QUEUE: usize = 64;
 const OUTGOING: usize = 16;
 /// Time between two messages on `/diagnostics`.
 const DIAGNOSTICS: Duration = Duration::from_secs(1);
-/// Least time between two log lines of one cause (s).
-const LOG_INTERVAL: f64 = 10.0;
 
 /// A line of WITS and the node that it is joined to.
 pub struct WitsBridge {
@@ -33,9 +30,16 @@ pub struct WitsBridge {
     place: String,
     mapping: Mapping,
     capture: Option<CaptureWriter>,
-    connections: BTreeMap<u64, Line>,
+    connections: BTreeMap<u64, Connection>,
+    /// Which connection serves each quantity.
+    sources: Sources,
     health: LineHealth,
-    faults: Throttles<&'static str>,
+}
+
+/// One connection.
+struct Connection {
+    line: Line,
+    peer: String,
 }
 
 impl WitsBridge {
@@ -57,8 +61,8 @@ impl WitsBridge {
             mapping,
             capture: capture.map(CaptureWriter::create).transpose()?,
             connections: BTreeMap::new(),
+            sources: Sources::default(),
             health: LineHealth::default(),
-            faults: Throttles::new(LOG_INTERVAL),
         })
     }
 
@@ -78,19 +82,21 @@ impl WitsBridge {
         diagnostics.set_missed_tick_behavior(MissedTickBehavior::Delay);
         write.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut twin = TwinFigures::default();
-        let mut line = std::pin::pin!(lines::run(place, times, sender, outgoing.clone()));
+        let seats = Seats::default();
+        let mut line = std::pin::pin!(lines::run(place, times, sender, outgoing.clone(), seats.clone()));
         loop {
             tokio::select! {
                 () = &mut line => return,
-                Some(event) = events.recv() => self.on(event),
+                Some(event) = events.recv() => self.on(event, &seats),
                 _ = diagnostics.tick() => {
+                    self.health.disputed = self.sources.is_disputed(lines::now());
                     let message = self.health.diagnostics(&self.node_name, &self.place, lines::now());
                     self.node.diagnose(&message);
                 }
                 _ = write.tick(), if writing.is_some() => {
                     let unreadable = self.node.take(|topic, body| twin.take(topic.name, body).is_ok());
                     if unreadable > 0 {
-                        self.log("figures", || format!("{unreadable} messages of the twin could not be read"));
+                        log("figures", || format!("{unreadable} messages of the twin could not be read"));
                     }
                     let frame = writing.as_mut().and_then(|frames| frames.frame(&twin, lines::now()));
                     // Without a connection the frame is dropped.
@@ -104,13 +110,16 @@ impl WitsBridge {
         }
     }
 
-    fn on(&mut self, event: LineState) {
+    fn on(&mut self, event: LineState, seats: &Seats) {
         match event {
             LineState::Opened { connection, peer } => {
                 self.health.open += 1;
                 self.health.made += 1;
-                tracing::info!("wits: connection {connection} with {}", printable(&peer));
-                self.connections.insert(connection, Line::new(&self.mapping, &peer));
+                if let Some(more) = log_ending("wits connection made") {
+                    tracing::info!("wits: connection {connection} with {}{more}", printable(&peer));
+                }
+                let line = Line::new(&self.mapping, &peer);
+                self.connections.insert(connection, Connection { line, peer });
             }
             LineState::Bytes {
                 connection,
@@ -118,40 +127,23 @@ impl WitsBridge {
                 bytes,
             } => {
                 self.keep(time, connection, &bytes);
-                let Some(mut line) = self.connections.remove(&connection) else {
+                let Some(from) = self.connections.get_mut(&connection) else {
                     return;
                 };
-                let (mut read, mut counts) = (Vec::new(), self.health.counts);
-                line.push(&bytes, time, &mut counts, |event| read.push(event));
-                self.health.counts = counts;
-                self.connections.insert(connection, line);
+                let mut read = Vec::new();
+                from.line
+                    .push(&bytes, time, &mut self.health.counts, |event| read.push(event));
                 for event in read {
-                    self.take(event, time);
+                    if matches!(event, LineEvent::Frame(..)) {
+                        seats.whole_frame(connection);
+                    }
+                    self.take(connection, event, time);
                 }
             }
-            LineState::Closed { connection, time, why } => {
-                self.keep(time, connection, &[]);
-                self.health.open = self.health.open.saturating_sub(1);
-                self.health.last_loss.clone_from(&why);
-                let mut cut = 0;
-                if let Some(line) = self.connections.remove(&connection) {
-                    let mut counts = self.health.counts;
-                    line.finish(time, &mut counts, |event| {
-                        if let LineEvent::Discarded(discarded) = event {
-                            cut += discarded.bytes;
-                        }
-                    });
-                    self.health.counts = counts;
-                }
-                let lost = match cut {
-                    0 => "no frame was in flight".to_owned(),
-                    bytes => format!("{bytes} bytes of an unfinished frame are lost"),
-                };
-                tracing::warn!("wits: connection {connection} ended: {}; {lost}", printable(&why));
-            }
+            LineState::Closed { connection, time, why } => self.closed(connection, time, &why),
             LineState::Waiting { why, wait } => {
                 self.health.last_loss.clone_from(&why);
-                self.log("waiting", || {
+                log("waiting", || {
                     format!(
                         "no connection ({}); the next attempt is in {} s",
                         printable(&why),
@@ -159,7 +151,7 @@ impl WitsBridge {
                     )
                 });
             }
-            LineState::Refused { peer } => self.log("refused", || {
+            LineState::Refused { peer } => log("refused", || {
                 format!(
                     "a connection from {} was refused; at most {} are kept",
                     printable(&peer),
@@ -168,17 +160,39 @@ impl WitsBridge {
             }),
             LineState::NotWritten { connection, frames } => {
                 self.health.written[1] += frames;
-                self.log("not written", || {
+                log("not written", || {
                     format!("connection {connection} takes the twin's frames too slowly; {frames} were left out")
                 });
             }
         }
     }
 
-    fn take(&mut self, event: LineEvent, arrived: i64) {
-        let reading = match event {
+    fn closed(&mut self, connection: u64, time: i64, why: &str) {
+        self.keep(time, connection, &[]);
+        self.sources.closed(connection);
+        self.health.open = self.health.open.saturating_sub(1);
+        why.clone_into(&mut self.health.last_loss);
+        let mut cut = 0;
+        if let Some(Connection { line, .. }) = self.connections.remove(&connection) {
+            line.finish(time, &mut self.health.counts, |event| {
+                if let LineEvent::Discarded(discarded) = event {
+                    cut += discarded.bytes;
+                }
+            });
+        }
+        let lost = match cut {
+            0 => "no frame was in flight".to_owned(),
+            bytes => format!("{bytes} bytes of an unfinished frame are lost"),
+        };
+        log("connection ended", || {
+            format!("connection {connection} ended: {}; {lost}", printable(why))
+        });
+    }
+
+    fn take(&mut self, connection: u64, event: LineEvent, arrived: i64) {
+        let mut reading = match event {
             LineEvent::Discarded(discarded) => {
-                return self.log(discarded.reason.name(), || {
+                return log(discarded.reason.name(), || {
                     format!(
                         "{}: {} bytes, beginning with \"{}\"",
                         discarded.reason.name(),
@@ -189,6 +203,9 @@ impl WitsBridge {
             }
             LineEvent::Frame(_, reading) => reading,
         };
+        if let Some(refused) = self.sources.sort(connection, arrived, &mut reading) {
+            self.refused(connection, &refused);
+        }
         if let Some(inputs) = &reading.inputs {
             self.node.publish(Outgoing::Inputs, inputs);
         }
@@ -199,11 +216,31 @@ impl WitsBridge {
             FrameUse::Used { .. } => self.health.used_at = Some(arrived),
             // Empty frames show life or ask for data; they are counted only.
             FrameUse::NotUsed(NotUsed::Empty) => {}
-            FrameUse::NotUsed(reason) => self.log(reason.name(), || format!("a frame was not used: {}", reason.name())),
+            FrameUse::NotUsed(reason) => log(reason.name(), || format!("a frame was not used: {}", reason.name())),
         }
         for fault in &reading.faults {
-            self.log(fault.kind.name(), || fault.to_string());
+            log(fault.kind.name(), || fault.to_string());
         }
+    }
+
+    /// Reports values of a second source.
+    fn refused(&mut self, connection: u64, refused: &Refused) {
+        self.health.second_source += refused.quantities.len() as u64;
+        let peer = |connection| {
+            let known = self.connections.get(&connection);
+            known.map_or("?", |known| known.peer.as_str())
+        };
+        let names: Vec<&str> = refused.quantities.iter().map(|quantity| quantity.name()).collect();
+        let text = format!(
+            "connection {connection} ({}) also sends {}, which connection {} ({}) serves; its values are refused until that \
+             one has been silent for 10 s. Stop one of the two, or leave its items out in the mapping",
+            printable(peer(connection)),
+            names.join(", "),
+            refused.serving,
+            printable(peer(refused.serving))
+        );
+        self.health.second_text.clone_from(&text);
+        log("second source", || text);
     }
 
     /// Keeps bytes in the capture. A disk that refuses them ends the capture and not the bridge.
@@ -216,10 +253,11 @@ impl WitsBridge {
             self.capture = None;
         }
     }
+}
 
-    fn log(&mut self, cause: &'static str, text: impl FnOnce() -> String) {
-        if let Some(more) = self.faults.ending(cause, monotonic::now() as f64 * 1e-9) {
-            tracing::warn!("wits: {}{more}", text());
-        }
+/// One warning per cause in ten seconds.
+fn log(cause: &'static str, text: impl FnOnce() -> String) {
+    if let Some(more) = log_ending(cause) {
+        tracing::warn!("wits: {}{more}", text());
     }
 }

@@ -244,6 +244,7 @@ mod tests {
             id: DriverId(one.id),
             node: one.node.clone(),
             host: one.address.clone(),
+            source: String::new(),
         };
         let id = "000076696577657200000001";
         assert_eq!(

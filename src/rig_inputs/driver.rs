@@ -31,7 +31,8 @@ impl fmt::Display for DriverId {
     }
 }
 
-/// A publisher with its node and host, as far as discovery knows them. `Display` is `node @ host (id)`.
+/// A publisher with its node and host, as far as discovery knows them. `Display` is `node @ host (id)`, with the source
+/// that its messages name: `node @ host (id) of wits 10.0.0.7; well 3`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Driver {
     /// Its writer.
@@ -40,6 +41,9 @@ pub struct Driver {
     pub node: Option<String>,
     /// Address or name of its machine, where known.
     pub host: Option<String>,
+    /// Sensor or program that its messages name; empty where they name none. One writer with two sources is two
+    /// publishers: a bridge may carry several rigs.
+    pub source: String,
 }
 
 impl Driver {
@@ -49,6 +53,7 @@ impl Driver {
             id,
             node: None,
             host: None,
+            source: String::new(),
         }
     }
 }
@@ -57,6 +62,12 @@ impl fmt::Display for Driver {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let node = self.node.as_deref().unwrap_or("unnamed node");
         let host = self.host.as_deref().unwrap_or("unknown host");
-        write!(f, "{} @ {} ({})", printable(node), printable(host), self.id)
+        write!(f, "{} @ {} ({})", printable(node), printable(host), self.id)?;
+        if self.source.is_empty() {
+            return Ok(());
+        }
+        // Readers of a list split it at commas, and find an id by its brackets.
+        let source = self.source.replace(',', ";").replace('(', "[").replace(')', "]");
+        write!(f, " of {}", printable(&source))
     }
 }

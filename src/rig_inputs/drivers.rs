@@ -70,10 +70,11 @@ impl fmt::Display for NotDriving {
     }
 }
 
-/// One publisher of an input.
-#[derive(Debug, Clone, Copy)]
+/// One publisher of an input: a writer, and the source that its messages name.
+#[derive(Debug, Clone)]
 struct Publisher {
     id: DriverId,
+    source: String,
     route: InputRoute,
     /// First sample after its last silence (s).
     since: f64,
@@ -86,7 +87,7 @@ struct Publisher {
 #[derive(Debug, Clone, Default)]
 struct Channel {
     heard: Vec<Publisher>,
-    driving: Option<DriverId>,
+    driving: Option<(DriverId, String)>,
     refused: u64,
 }
 
@@ -148,12 +149,16 @@ impl Drivers {
         known.is_some_and(|known| known.node.is_some() && known.host.is_some())
     }
 
-    fn driver(&self, id: DriverId) -> Driver {
+    fn driver(&self, id: DriverId, source: &str) -> Driver {
         let known = self.known.iter().find(|known| known.id == id);
-        known.cloned().unwrap_or_else(|| Driver::unknown(id))
+        Driver {
+            source: source.to_owned(),
+            ..known.cloned().unwrap_or_else(|| Driver::unknown(id))
+        }
     }
 
-    /// Judges a sample, in the unit of the input's topic, by its publisher, at the time of its arrival.
+    /// Judges a sample, in the unit of the input's topic, by its publisher and the `source` that it names, at the time of
+    /// its arrival.
     ///
     /// # Errors
     /// When another publisher drives, or this one may not.
@@ -162,38 +167,41 @@ impl Drivers {
         kind: InputKind,
         route: InputRoute,
         id: DriverId,
+        source: &str,
         time: f64,
         value: f64,
     ) -> Result<(), Box<NotDriving>> {
         let silent_after = self.rule.silent_after[kind.index()];
         let not_named = self.rule.policy == DriverPolicy::Named && !self.is_named(id);
         let channel = &mut self.channels[kind.index()];
-        channel.note(id, route, time, value, silent_after);
+        channel.note((id, source), route, time, value, silent_after);
         let present = match self.rule.policy {
             DriverPolicy::First => channel.present_driver(time, silent_after),
             DriverPolicy::Newest | DriverPolicy::Named => None,
         };
-        let is_other = present.is_some_and(|present| !is_one(&present, id, route));
+        let is_other = present
+            .as_ref()
+            .is_some_and(|present| !is_one(present, id, source, route));
         if not_named || is_other {
             channel.refused += 1;
             return Err(Box::new(NotDriving {
                 kind,
                 route,
                 value,
-                sender: self.driver(id),
-                driving: present.map(|present| self.driver(present.id)),
+                sender: self.driver(id, source),
+                driving: present.map(|present| self.driver(present.id, &present.source)),
                 silent_after,
             }));
         }
         // A publisher of NaN does not become the driver.
         if value.is_finite() && present.is_none() {
-            channel.driving = Some(id);
+            channel.driving = Some((id, source.to_owned()));
         }
         Ok(())
     }
 
     fn is_named(&self, id: DriverId) -> bool {
-        let driver = self.driver(id);
+        let driver = self.driver(id, "");
         let text = id.to_string();
         self.rule
             .named
@@ -205,18 +213,18 @@ impl Drivers {
     pub fn summary(&self, kind: InputKind, now: f64) -> DriverSummary {
         let channel = &self.channels[kind.index()];
         let mut present = channel.present(now, self.rule.silent_after[kind.index()]);
-        present.sort_by_key(|heard| (Some(heard.id) != channel.driving, heard.id));
+        present.sort_by_key(|heard| (!channel.is_driving(heard), heard.id));
         let mut shown: Vec<String> = present
             .iter()
             .take(MOST_NAMED)
-            .map(|heard| self.driver(heard.id).to_string())
+            .map(|heard| self.driver(heard.id, &heard.source).to_string())
             .collect();
         if present.len() > MOST_NAMED {
             shown.push(format!("and {} more", present.len() - MOST_NAMED));
         }
-        let driving = present.iter().find(|heard| Some(heard.id) == channel.driving);
+        let driving = present.iter().find(|heard| channel.is_driving(heard));
         DriverSummary {
-            driving: driving.map_or_else(String::new, |heard| self.driver(heard.id).to_string()),
+            driving: driving.map_or_else(String::new, |heard| self.driver(heard.id, &heard.source).to_string()),
             heard: shown,
             several: are_several(&present),
             refused: channel.refused,
@@ -234,9 +242,14 @@ impl Drivers {
 }
 
 impl Channel {
-    fn note(&mut self, id: DriverId, route: InputRoute, time: f64, value: f64, silent_after: f64) {
+    fn is_driving(&self, heard: &Publisher) -> bool {
+        let driving = self.driving.as_ref();
+        driving.is_some_and(|(id, source)| heard.is(*id, source))
+    }
+
+    fn note(&mut self, (id, source): (DriverId, &str), route: InputRoute, time: f64, value: f64, silent_after: f64) {
         let number = value.is_finite().then_some(time);
-        if let Some(heard) = self.heard.iter_mut().find(|heard| heard.id == id) {
+        if let Some(heard) = self.heard.iter_mut().find(|heard| heard.is(id, source)) {
             if time - heard.last >= silent_after {
                 heard.since = time;
             }
@@ -245,13 +258,17 @@ impl Channel {
             return;
         }
         if self.heard.len() >= MOST_PUBLISHERS {
-            let (index, _) = (self.heard.iter().enumerate())
-                .min_by(|(_, a), (_, b)| a.last.total_cmp(&b.last))
-                .unwrap_or((0, &self.heard[0]));
-            self.heard.swap_remove(index);
+            // The one that drives stays: a writer that invents sources does not drive it out.
+            let oldest = (self.heard.iter().enumerate())
+                .filter(|(_, heard)| !self.is_driving(heard))
+                .min_by(|(_, a), (_, b)| a.last.total_cmp(&b.last));
+            if let Some((index, _)) = oldest {
+                self.heard.swap_remove(index);
+            }
         }
         self.heard.push(Publisher {
             id,
+            source: source.to_owned(),
             route,
             since: time,
             last: time,
@@ -261,21 +278,26 @@ impl Channel {
 
     /// The publisher that drives, unless it has been silent for `silent_after` (s).
     fn present_driver(&self, now: f64, silent_after: f64) -> Option<Publisher> {
-        let driving = self.driving?;
-        let heard = self.heard.iter().find(|heard| heard.id == driving)?;
+        let heard = self.heard.iter().find(|heard| self.is_driving(heard))?;
         let silent = heard.last_number.is_none_or(|last| now - last >= silent_after);
-        (!silent).then_some(*heard)
+        (!silent).then(|| heard.clone())
     }
 
     fn present(&self, now: f64, silent_after: f64) -> Vec<Publisher> {
         let present = |heard: &&Publisher| now - heard.last < silent_after;
-        self.heard.iter().filter(present).copied().collect()
+        self.heard.iter().filter(present).cloned().collect()
     }
 }
 
-/// Whether both are one publisher: the same writer, or the same process on the input's other topic.
-fn is_one(heard: &Publisher, id: DriverId, route: InputRoute) -> bool {
-    heard.id == id || (heard.id.same_process(&id) && heard.route != route)
+impl Publisher {
+    fn is(&self, id: DriverId, source: &str) -> bool {
+        self.id == id && self.source == source
+    }
+}
+
+/// Whether both are one publisher: the same writer with the same source, or the same process on the input's other topic.
+fn is_one(heard: &Publisher, id: DriverId, source: &str, route: InputRoute) -> bool {
+    heard.is(id, source) || (heard.id.same_process(&id) && heard.route != route)
 }
 
 /// Whether two publish at the same time. A publisher that replaced another does not count.
@@ -284,7 +306,7 @@ fn are_several(present: &[Publisher]) -> bool {
         let others = &present[index + 1..];
         others
             .iter()
-            .any(|b| !is_one(a, b.id, b.route) && a.last >= b.since && b.last >= a.since)
+            .any(|b| !is_one(a, b.id, &b.source, b.route) && a.last >= b.since && b.last >= a.since)
     })
 }
 

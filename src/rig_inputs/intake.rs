@@ -79,6 +79,11 @@ pub struct Intake {
     measured: Measured,
 }
 
+/// The largest weight that the configuration can allow (N): its hard limit, or the configured maximum beyond it.
+fn heaviest(inputs: &InputsConfig) -> f64 {
+    InputKind::WeightOnBit.to_si(inputs.hard_limits.max_kn.max(inputs.weight_on_bit.max_kn))
+}
+
 impl Intake {
     /// An intake that has received nothing; `used` as in [`InputsConfig::rules_of`].
     pub fn new(inputs: &InputsConfig, used: [bool; InputKind::COUNT]) -> Self {
@@ -90,7 +95,7 @@ impl Intake {
             unreadable: [0; InputKind::COUNT],
             overrun: [0; InputKind::COUNT],
             sources: Default::default(),
-            measured: Measured::default(),
+            measured: Measured::new(heaviest(inputs)),
         }
     }
 
@@ -137,8 +142,9 @@ impl Intake {
         } else {
             InputRoute::Plain
         };
+        let source = stamp.as_ref().map_or("", |(_, source)| source.name.as_str());
         self.drivers
-            .offer(kind, route, id, time, value)
+            .offer(kind, route, id, source, time, value)
             .map_err(SampleRefused::Driver)?;
         let judged = match stamp {
             None => self.conditioner.offer(kind, value, time),

@@ -46,6 +46,8 @@ pub enum MeasuredRefused {
         kind: MeasuredKind,
         /// The value (SI).
         value: f64,
+        /// Smallest and largest value (SI).
+        range: [f64; 2],
     },
     /// An earlier message had a newer stamp for all of its quantities.
     Older {
@@ -79,8 +81,11 @@ impl fmt::Display for MeasuredRefused {
                 f,
                 "its stamp is {ahead:.3} s ahead of the clock, at most {most} s are accepted; synchronise the clocks"
             ),
-            Self::Implausible { kind, value } => {
-                let [least, most] = kind.plausible();
+            Self::Implausible {
+                kind,
+                value,
+                range: [least, most],
+            } => {
                 write!(
                     f,
                     "{kind} = {value} {}, outside {least} to {most} {}; check the unit and the sensor",
@@ -94,8 +99,10 @@ impl fmt::Display for MeasuredRefused {
 }
 
 /// The newest measured values and the counts of their messages.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Measured {
+    /// Largest plausible weight on bit (N).
+    heaviest: f64,
     newest: [Option<MeasuredValue>; MeasuredKind::COUNT],
     received: u64,
     refused: u64,
@@ -104,7 +111,36 @@ pub struct Measured {
     newest_refusal: Option<MeasuredRefused>,
 }
 
+/// No message yet, and any weight that some rig can have.
+impl Default for Measured {
+    fn default() -> Self {
+        let [_, heaviest] = MeasuredKind::DownholeWeightOnBit.plausible();
+        Self::new(heaviest)
+    }
+}
+
 impl Measured {
+    /// No message yet; a weight on bit beyond `heaviest` (N) is implausible, such as one in a wrong unit.
+    pub fn new(heaviest: f64) -> Self {
+        Self {
+            heaviest,
+            newest: Default::default(),
+            received: 0,
+            refused: 0,
+            unreadable: 0,
+            overrun: 0,
+            newest_refusal: None,
+        }
+    }
+
+    /// Smallest and largest plausible value (SI). A string can pull at a sensor above the bit as much as it presses.
+    fn plausible(&self, kind: MeasuredKind) -> [f64; 2] {
+        match kind {
+            MeasuredKind::DownholeWeightOnBit => [-self.heaviest, self.heaviest],
+            _ => kind.plausible(),
+        }
+    }
+
     /// Accepts a message that arrived at `time` (s, the conditioner's clock). `now` is the present instant of the stamps
     /// (ns), `max_skew` how far ahead of it a stamp may be (s).
     ///
@@ -160,9 +196,9 @@ impl Measured {
                 .filter_map(|kind| Some((kind, message.value(kind)?)))
         };
         for (kind, value) in given() {
-            let [least, most] = kind.plausible();
+            let range @ [least, most] = self.plausible(kind);
             if !(least..=most).contains(&value) {
-                return Err(MeasuredRefused::Implausible { kind, value });
+                return Err(MeasuredRefused::Implausible { kind, value, range });
             }
         }
         let newest = given().map(|(kind, _)| self.newest[kind.index()].map_or(i64::MIN, |newest| newest.stamp));
@@ -266,5 +302,10 @@ mod tests {
         measured
             .accept(&message(0, &[(HookLoad, 1e5)]), 1_000_000_000, 0.0, 0.5)
             .unwrap();
+        // The hard limit of the configuration bounds the weight in the hole too: 210 kN may be klbf taken for kdaN.
+        let mut measured = Measured::new(200e3);
+        let heavy = message(NOW, &[(MeasuredKind::DownholeWeightOnBit, 210e3)]);
+        let refused = measured.accept(&heavy, NOW, 0.0, 0.5).unwrap_err();
+        assert!(refused.to_string().contains("outside -200000 to 200000 N"), "{refused}");
     }
 }

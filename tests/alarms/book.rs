@@ -332,6 +332,7 @@ fn inputs_pace_and_recording_call_too() {
                 error: Some(Problem {
                     text: "no space left".to_owned(),
                     cause: "The disk is full.",
+                    remedy: "Free disk space.",
                 }),
                 notice: None,
                 losses: Losses {
@@ -416,6 +417,7 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
         notice: Some(Problem {
             text: "its folder was removed".to_owned(),
             cause: "The recording's file or its folder was removed, moved or replaced.",
+            remedy: "Mount the disk again.",
         }),
         ..RecordingState::default()
     };
@@ -510,13 +512,14 @@ fn two_drivers_call_with_who_they_are() {
         id: ids[1],
         node: Some("/log_player".to_owned()),
         host: Some("10.0.0.9".to_owned()),
+        source: String::new(),
     });
     for tenth in 0..200_i64 {
         let now = tenth as f64 * 0.1;
         // Both send for 10 s, then the rig alone.
         for id in ids.iter().take(if tenth < 100 { 2 } else { 1 }) {
             drivers
-                .offer(InputKind::RotarySpeed, InputRoute::Plain, *id, now, 40.0)
+                .offer(InputKind::RotarySpeed, InputRoute::Plain, *id, "", now, 40.0)
                 .unwrap();
         }
         for kind in InputKind::ALL {
@@ -820,6 +823,7 @@ fn diagnostics_never_contradict_the_alarms() {
                 error: bad.then(|| Problem {
                     text: "no space left".to_owned(),
                     cause: "The disk is full.",
+                    remedy: "Free disk space.",
                 }),
                 ..RecordingState::default()
             }),

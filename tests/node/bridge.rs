@@ -129,3 +129,57 @@ fn a_rigs_log_reaches_the_recording_over_wits_and_its_replay_is_the_same() {
         .position(|message| message.hook_load == measured[0].hook_load);
     assert!(first.is_some(), "{from_line:?}");
 }
+
+/// 40 r/min with 8 kN and 100 r/min with 30 kN in turn drove the twin between 40 and 62 r/min, and nothing said so.
+#[test]
+fn a_second_source_on_a_bridge_is_refused_and_named() {
+    let Some(network) = Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let live = folder.path().join("live");
+    let program = |arguments: &[&str]| {
+        let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+        command.args(arguments);
+        command
+    };
+    let mut bridge = Program::start(program(&["bridge", "wits", "--listen", "127.0.0.1:0"]));
+    let said = bridge.wait_for("wits at 127.0.0.1:");
+    let place = said
+        .split_whitespace()
+        .find(|word| word.starts_with("127.0.0.1:"))
+        .unwrap();
+    let mut twin = program(&["run", "--config"]);
+    twin.arg(small_config()).arg("--record").arg(&live);
+    let mut twin = Program::start(twin);
+    twin.wait_for("model time runs");
+    // The rig first, and both for longer than the two programs need to find each other.
+    let port = place.rsplit(':').next().unwrap();
+    let mut sources = network.command("bash");
+    let script = "exec 3<>/dev/tcp/127.0.0.1/$0; sleep 0.5; exec 4<>/dev/tcp/127.0.0.1/$0; for turn in {1..40}; do \
+                  printf '&&\\r\\n0116 0.8\\r\\n0120 40\\r\\n!!\\r\\n' >&3; sleep 0.1; \
+                  printf '&&\\r\\n0116 3\\r\\n0120 100\\r\\n!!\\r\\n' >&4; sleep 0.1; done";
+    assert!(sources.args(["-c", script, port]).status().unwrap().success());
+    bridge.wait_for("also sends rotary_speed, weight_on_bit, which connection 1 (127.0.0.1) serves");
+    for program in [&mut bridge, &mut twin] {
+        program.signal("TERM");
+        assert_eq!(program.end(), Some(0), "{}", program.said());
+    }
+    let inputs: Vec<RigInputs> = messages(&live, "rig/inputs");
+    assert!(inputs.len() > 10, "{}", inputs.len());
+    // The conversion to SI and back rounds.
+    let is_of_the_rig = |message: &RigInputs| (message.rotary_speed_rpm - 40.0).abs() < 1e-9;
+    assert!(inputs.iter().all(is_of_the_rig), "{inputs:?}");
+    assert!(inputs.iter().any(|message| message.quality == RigInputs::SUSPECT));
+    let applied: Vec<AppliedInputs> = messages(&live, "twin/applied_inputs");
+    let fastest = applied.iter().map(|message| message.rotary_speed).fold(0.0, f64::max);
+    // 40 r/min is 4.19 rad/s.
+    assert!(fastest < 4.2, "{fastest} rad/s");
+    let diagnostics = messages::<DiagnosticArray>(&live, "/diagnostics");
+    let mut texts = diagnostics
+        .iter()
+        .flat_map(|array| &array.status)
+        .map(|item| &item.message);
+    assert!(
+        texts.any(|text| text.contains("marked suspect by its source")),
+        "the twin does not tell the operator"
+    );
+}

@@ -3,6 +3,8 @@
 //! [`run`] keeps a line for as long as it is polled. What happens is sent as [`LineState`] and bytes; what is to be written
 //! is taken from a broadcast, of which a slow connection loses the oldest.
 
+mod seats;
+
 use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -14,6 +16,8 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::{broadcast, mpsc};
 use tokio::task::JoinSet;
+
+pub use seats::{MOST_CONNECTIONS, Seats};
 
 /// Where the line is.
 #[derive(Debug)]
@@ -88,7 +92,7 @@ pub enum LineState {
         /// Until the next attempt.
         wait: Duration,
     },
-    /// A connection was refused, because there are [`MOST_CONNECTIONS`].
+    /// A connection was refused, because there are [`MOST_CONNECTIONS`] that send, or none gives way.
     Refused {
         /// Its other end.
         peer: String,
@@ -102,8 +106,6 @@ pub enum LineState {
     },
 }
 
-/// Most connections that a listening line keeps at a time: sources of one rig.
-pub const MOST_CONNECTIONS: usize = 8;
 /// Bytes that are read at a time.
 const CHUNK: usize = 4096;
 /// Longest time for writing a frame.
@@ -150,15 +152,22 @@ struct Ends {
 }
 
 /// Keeps the line for as long as it is polled, or until the receiver of `events` is gone. `outgoing` is written to every
-/// connection.
-pub async fn run(place: Place, times: Times, events: mpsc::Sender<LineState>, outgoing: broadcast::Sender<Arc<[u8]>>) {
+/// connection. The receiver reports whole frames to `seats`; where connections have to send ([`Times::silence`]), one that
+/// does not gives way to a new one.
+pub async fn run(
+    place: Place,
+    times: Times,
+    events: mpsc::Sender<LineState>,
+    outgoing: broadcast::Sender<Arc<[u8]>>,
+    seats: Seats,
+) {
     let ends = Ends {
         events,
         outgoing,
         times,
     };
     match place {
-        Place::Listen(listener) => listen(&listener, &ends).await,
+        Place::Listen(listener) => listen(&listener, &ends, &seats).await,
         Place::Connect(address) => {
             let (name, limit) = (address.clone(), times.connect);
             redial(&ends, times.silence, &name, move || connect(address.clone(), limit)).await;
@@ -195,7 +204,9 @@ async fn redial<S: AsyncRead + AsyncWrite + Unpin, F: Future<Output = io::Result
             Err(error) => error.to_string(),
             Ok(stream) => {
                 connection += 1;
-                let (why, brought) = ends.serve(stream, connection, name, silence).await;
+                // The only connection gives way to none.
+                let stays = std::future::pending();
+                let (why, brought) = ends.serve(stream, connection, name, silence, stays).await;
                 if brought {
                     back_off.reset();
                 }
@@ -210,27 +221,29 @@ async fn redial<S: AsyncRead + AsyncWrite + Unpin, F: Future<Output = io::Result
     }
 }
 
-async fn listen(listener: &TcpListener, ends: &Ends) {
+async fn listen(listener: &TcpListener, ends: &Ends, seats: &Seats) {
     let mut connections = JoinSet::new();
     let mut number = 0;
     loop {
         while connections.try_join_next().is_some() {}
         match listener.accept().await {
             Ok((stream, peer)) => {
-                while connections.try_join_next().is_some() {}
-                if connections.len() >= MOST_CONNECTIONS {
+                number += 1;
+                let Some(leave) = seats.take(number, peer.ip(), ends.times.silence.is_some()) else {
+                    number -= 1;
                     let peer = peer.to_string();
                     if ends.events.send(LineState::Refused { peer }).await.is_err() {
                         return;
                     }
                     continue;
-                }
-                number += 1;
-                let ends = ends.clone();
+                };
+                let (ends, seats) = (ends.clone(), seats.clone());
                 connections.spawn(async move {
                     // Without it the frames of the twin wait for one another; the connection works all the same.
                     let _ = stream.set_nodelay(true);
-                    ends.serve(stream, number, &name_of(peer), ends.times.silence).await;
+                    ends.serve(stream, number, &name_of(peer), ends.times.silence, leave.notified())
+                        .await;
+                    seats.leave(number);
                 });
             }
             Err(error) => {
@@ -252,13 +265,14 @@ fn name_of(peer: SocketAddr) -> String {
 }
 
 impl Ends {
-    /// Reads and writes a connection until it ends. Returns why it ended and whether it brought anything.
+    /// Reads and writes a connection until it ends or has to `leave`. Returns why it ended and whether it brought anything.
     async fn serve<S: AsyncRead + AsyncWrite + Unpin>(
         &self,
         stream: S,
         connection: u64,
         peer: &str,
         silence: Option<Duration>,
+        leave: impl Future<Output = ()>,
     ) -> (String, bool) {
         let mut outgoing = self.outgoing.subscribe();
         let peer = peer.to_owned();
@@ -270,6 +284,7 @@ impl Ends {
         let why = tokio::select! {
             why = self.read(&mut reader, connection, silence, &mut brought) => why,
             why = self.write(&mut writer, connection, &mut outgoing) => why,
+            () = leave => "it sent no whole frame and gave way to a new connection".to_owned(),
         };
         let closed = LineState::Closed {
             connection,

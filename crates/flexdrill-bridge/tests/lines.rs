@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use flexdrill_bridge::lines::{self, BackOff, LineState, Place, Times};
+use flexdrill_bridge::lines::{self, BackOff, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::{Counts, Line, Mapping};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::{TcpListener, TcpStream};
@@ -24,14 +24,21 @@ const QUICK: Times = Times {
 struct Running {
     events: mpsc::Receiver<LineState>,
     outgoing: broadcast::Sender<Arc<[u8]>>,
+    seats: Seats,
     task: tokio::task::JoinHandle<()>,
 }
 
 fn start(place: Place, times: Times) -> Running {
     let (sender, events) = mpsc::channel(16);
     let (outgoing, _) = broadcast::channel(4);
-    let task = tokio::spawn(lines::run(place, times, sender, outgoing.clone()));
-    Running { events, outgoing, task }
+    let seats = Seats::default();
+    let task = tokio::spawn(lines::run(place, times, sender, outgoing.clone(), seats.clone()));
+    Running {
+        events,
+        outgoing,
+        seats,
+        task,
+    }
 }
 
 impl Running {
@@ -113,6 +120,7 @@ async fn a_server_takes_several_sources_refuses_too_many_and_writes_to_all() {
             _ => None,
         });
         assert_eq!(opened.await, number);
+        line.seats.whole_frame(number);
         rigs.push(rig);
     }
     let mut refused = TcpStream::connect(address).await.unwrap();
@@ -134,6 +142,45 @@ async fn a_server_takes_several_sources_refuses_too_many_and_writes_to_all() {
         _ => None,
     });
     assert_eq!(from.await, (4, b"&&".to_vec()));
+}
+
+/// Eight half frames would otherwise hold all seats for the time of silence, a minute.
+#[tokio::test]
+async fn a_connection_without_a_whole_frame_gives_way_to_the_rig() {
+    let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let address = listener.local_addr().unwrap();
+    let mut line = start(Place::Listen(listener), QUICK);
+    let mut halves = Vec::new();
+    for _ in 0..lines::MOST_CONNECTIONS {
+        let mut half = TcpStream::connect(address).await.unwrap();
+        half.write_all(b"&&\r\n0104").await.unwrap();
+        line.until(|event| matches!(event, LineState::Opened { .. }).then_some(()))
+            .await;
+        halves.push(half);
+    }
+    let mut rig = TcpStream::connect(address).await.unwrap();
+    rig.write_all(frame(1).as_bytes()).await.unwrap();
+    let (mut left, mut came) = (None, false);
+    while left.is_none() || !came {
+        line.until(|event| match event {
+            LineState::Closed { connection, why, .. } => {
+                assert!(why.contains("gave way"), "{why}");
+                left = Some(connection);
+                Some(())
+            }
+            LineState::Bytes { connection: 9, .. } => {
+                came = true;
+                Some(())
+            }
+            LineState::Refused { peer } => panic!("{peer} was refused"),
+            _ => None,
+        })
+        .await;
+    }
+    assert_eq!(left, Some(1), "the oldest leaves");
+    let mut rest = Vec::new();
+    // The connection ends, in order or with a reset.
+    let _ = timeout(PATIENCE, halves[0].read_to_end(&mut rest)).await.unwrap();
 }
 
 #[tokio::test]

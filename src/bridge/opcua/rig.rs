@@ -12,7 +12,7 @@ use tokio::sync::mpsc;
 use tokio::time::{MissedTickBehavior, interval};
 
 use super::diagnosis::RigHealth;
-use super::{DIAGNOSTICS, Log, QUEUE};
+use super::{DIAGNOSTICS, QUEUE, info, warn};
 use crate::bridge::{BridgeNode, Outgoing};
 
 /// Time in which values that belong together come.
@@ -27,7 +27,6 @@ pub struct RigBridge {
     url: String,
     collector: Collector,
     health: RigHealth,
-    log: Log,
 }
 
 impl RigBridge {
@@ -39,7 +38,6 @@ impl RigBridge {
             url: url.to_owned(),
             collector: Collector::new(mapping, url.trim_start_matches("opc.tcp://")),
             health: RigHealth::default(),
-            log: Log::new(),
         }
     }
 
@@ -93,17 +91,20 @@ impl RigBridge {
                 self.health.connections_made += 1;
                 self.health.nodes[0] = nodes as u64;
                 self.health.heard_at = Some(now());
-                tracing::info!("opcua: connection {connection} follows {nodes} nodes; security policy {policy}");
+                info("connected", || {
+                    format!("connection {connection} follows {nodes} nodes; security policy {policy}")
+                });
             }
             RigEvent::NotFollowed { node, status } => {
                 self.health.nodes[1] += 1;
-                tracing::warn!("opcua: node {} is not followed: {status}", printable(&node));
+                warn("not followed", || {
+                    format!("node {} is not followed: {status}", printable(&node))
+                });
             }
             RigEvent::Value(raw) => {
                 self.health.heard_at = Some(raw.arrived);
                 if let Err(fault) = self.collector.take(&raw) {
-                    self.log
-                        .warn(fault.name(), || printable(&fault.to_string()).into_owned());
+                    warn(fault.name(), || printable(&fault.to_string()).into_owned());
                 }
             }
             RigEvent::Alive(at) => self.health.heard_at = Some(at),
@@ -112,13 +113,15 @@ impl RigBridge {
                 self.health.connected = false;
                 self.health.nodes = [0; 2];
                 self.health.last_loss.clone_from(&why);
-                tracing::warn!("opcua: connection {connection} ended: {}", printable(&why));
+                warn("connection ended", || {
+                    format!("connection {connection} ended: {}", printable(&why))
+                });
             }
             RigEvent::Waiting { why, wait } => {
                 self.health.attempts_failed += u64::from(why != self.health.last_loss || !self.health.connected);
                 self.health.nodes = [0; 2];
                 self.health.last_loss.clone_from(&why);
-                self.log.warn("waiting", || {
+                warn("waiting", || {
                     format!(
                         "no connection ({}); the next attempt is in {} s",
                         printable(&why),

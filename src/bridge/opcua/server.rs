@@ -16,7 +16,7 @@ use tokio::sync::mpsc;
 use tokio::time::{Instant, MissedTickBehavior, interval};
 
 use super::diagnosis::ServerHealth;
-use super::{DIAGNOSTICS, Log, QUEUE};
+use super::{DIAGNOSTICS, QUEUE, info, warn};
 use crate::bridge::{BridgeNode, Outgoing};
 
 /// Time between two looks at the twin's messages: clients may sample every 0.1 s.
@@ -32,7 +32,6 @@ pub struct ServerBridge {
     setup: Setup,
     twin: TwinState,
     health: ServerHealth,
-    log: Log,
 }
 
 impl ServerBridge {
@@ -45,7 +44,6 @@ impl ServerBridge {
             setup,
             twin: TwinState::default(),
             health: ServerHealth::default(),
-            log: Log::new(),
         }
     }
 
@@ -62,11 +60,13 @@ impl ServerBridge {
             self.health.restarts += 1;
             self.health.open = 0;
             self.health.last_fault.clone_from(&why);
-            tracing::warn!(
-                "opcua: the server restarts in {} s and its clients have to connect again: {}",
-                wait.as_secs_f64(),
-                printable(&why)
-            );
+            warn("the server restarts", || {
+                format!(
+                    "the server restarts in {} s and its clients have to connect again: {}",
+                    wait.as_secs_f64(),
+                    printable(&why)
+                )
+            });
             self.diagnose();
             tokio::time::sleep(wait).await;
         }
@@ -103,10 +103,12 @@ impl ServerBridge {
                     let rejected = self.setup.keys.rejected() as u64;
                     if rejected > self.health.certificates_rejected {
                         let folder = self.setup.keys.folder().display();
-                        tracing::warn!(
-                            "opcua: a client's certificate is not trusted; if it should be, move it from {folder}/rejected to \
-                             {folder}/trusted"
-                        );
+                        warn("certificate", || {
+                            format!(
+                                "a client's certificate is not trusted; if it should be, move it from {folder}/rejected to \
+                                 {folder}/trusted"
+                            )
+                        });
                     }
                     self.health.certificates_rejected = rejected;
                     self.diagnose();
@@ -125,27 +127,27 @@ impl ServerBridge {
             ServerEvent::Opened { peer } => {
                 self.health.open += 1;
                 self.health.opened += 1;
-                self.log.info("opened", || format!("connection from {peer}"));
+                info("opened", || format!("connection from {peer}"));
             }
             ServerEvent::Closed => self.health.open = self.health.open.saturating_sub(1),
             ServerEvent::Refused { peer } => {
                 self.health.refused += 1;
-                self.log.warn("refused", || {
+                warn("refused", || {
                     format!("a connection from {peer} was refused, because it or all clients have too many")
                 });
             }
             ServerEvent::NotOpcUa { peer } => {
                 self.health.not_opcua += 1;
-                self.log.warn("not opcua", || {
+                warn("not opcua", || {
                     format!("a connection from {peer} did not begin as OPC UA and was closed")
                 });
             }
-            ServerEvent::NotAccepted => self.log.warn("not accepted", || {
+            ServerEvent::NotAccepted => warn("not accepted", || {
                 "the system refuses connections; are all handles in use?".to_owned()
             }),
             ServerEvent::LoginRefused { user } => {
                 self.health.logins_refused += 1;
-                self.log.warn("login", || {
+                warn("login", || {
                     format!("user \"{}\" or the password is wrong", printable(&user))
                 });
             }
@@ -160,7 +162,7 @@ impl ServerBridge {
                 if let Some(inputs) = rig_inputs(only, header, RigInputs::GOOD, &source) {
                     self.node.publish(Outgoing::Inputs, &inputs);
                 }
-                self.log.info("written", || {
+                info("written", || {
                     let unit = quantity.dimension().si();
                     format!("user \"{}\" wrote {quantity} {value} {unit}", printable(&user))
                 });

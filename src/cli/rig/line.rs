@@ -10,7 +10,7 @@ use tokio::task::JoinSet;
 use super::Batch;
 use crate::cli::output::say;
 use flexdrill_bridge::Quantity;
-use flexdrill_bridge::lines::{self, LineState, Place, Times};
+use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::{Mapping, RigFrames};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_text::printable;
@@ -47,7 +47,8 @@ impl WitsLine {
         };
         let connections = Arc::new(AtomicU64::new(0));
         let mut tasks = JoinSet::new();
-        tasks.spawn(lines::run(Place::Listen(listener), times, sender, outgoing.clone()));
+        let place = Place::Listen(listener);
+        tasks.spawn(lines::run(place, times, sender, outgoing.clone(), Seats::default()));
         tasks.spawn(tell(events, Arc::clone(&connections)));
         Ok(Self {
             address,

@@ -8,7 +8,7 @@ use super::{MeasuredSample, Samples};
 use crate::cli::output::tell;
 use crate::messages::builtin_interfaces::Time;
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureReader};
-use flexdrill_bridge::wits::{Counts, Line, LineEvent, Mapping, Reading};
+use flexdrill_bridge::wits::{Counts, Line, LineEvent, Mapping, Reading, Sources};
 use flexdrill_text::printable;
 
 /// Whether a file is a capture that `flexdrill bridge wits --capture` wrote.
@@ -28,6 +28,7 @@ pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Sample
         utc_offset: mapping.utc_offset(),
         timed: capture.is_timed(),
         samples: Samples::default(),
+        sources: Sources::default(),
         without_time: 0,
     };
     let (mut counts, mut lines) = (Counts::default(), BTreeMap::<u64, Line>::new());
@@ -44,16 +45,19 @@ pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Sample
         newest = block.time.unwrap_or(newest);
         if block.bytes.is_empty() {
             if let Some(line) = lines.remove(&block.connection) {
-                line.finish(newest, &mut counts, |event| taken.take(event, newest));
+                line.finish(newest, &mut counts, |event| taken.take(block.connection, event, newest));
             }
+            taken.sources.closed(block.connection);
             continue;
         }
         let line = lines.entry(block.connection);
         let line = line.or_insert_with(|| Line::new(&mapping, &format!("connection {}", block.connection)));
-        line.push(&block.bytes, newest, &mut counts, |event| taken.take(event, newest));
+        line.push(&block.bytes, newest, &mut counts, |event| {
+            taken.take(block.connection, event, newest);
+        });
     }
-    for line in lines.into_values() {
-        line.finish(newest, &mut counts, |event| taken.take(event, newest));
+    for (connection, line) in lines {
+        line.finish(newest, &mut counts, |event| taken.take(connection, event, newest));
     }
     let faults: u64 = counts.faults.iter().sum();
     tell!(
@@ -82,12 +86,19 @@ struct Taken {
     /// Whether the times of arrival are known.
     timed: bool,
     samples: Samples,
+    /// As in the bridge that wrote the capture.
+    sources: Sources,
     without_time: u64,
 }
 
 impl Taken {
-    fn take(&mut self, event: LineEvent, arrived: i64) {
-        let LineEvent::Frame(_, reading) = event else { return };
+    fn take(&mut self, connection: u64, event: LineEvent, arrived: i64) {
+        let LineEvent::Frame(_, mut reading) = event else {
+            return;
+        };
+        if self.timed {
+            self.sources.sort(connection, arrived, &mut reading);
+        }
         if reading.inputs.is_none() && reading.measured.is_none() {
             return;
         }

@@ -59,7 +59,8 @@ impl Counts {
                 Sequence::Duplicate => self.duplicates += 1,
                 Sequence::OutOfOrder { .. } => self.out_of_order += 1,
                 Sequence::Gap { missing } => self.missing = self.missing.saturating_add(missing),
-                Sequence::Unnumbered | Sequence::First | Sequence::Next => {}
+                // The frame is counted with its reason.
+                Sequence::Jump { .. } | Sequence::Unnumbered | Sequence::First | Sequence::Next => {}
             }
         }
     }

@@ -8,7 +8,7 @@ use flexdrill_messages::{RigInputs, RigMeasured};
 
 use super::frame::RawFrame;
 use super::header::{Header, LAST_HEADER_ITEM};
-use super::item::{ItemCode, number};
+use super::item::{ItemCode, is_null, number};
 use super::mapping::{ItemMapping, Mapping, StampSource};
 use super::report::{FrameUse, ItemFault, ItemFaultKind, NotUsed};
 use super::sequence::{Sequence, SequenceWatch};
@@ -63,6 +63,9 @@ pub struct Decoder {
     utc_offset: i32,
     /// The other end of the line, for the source of the messages.
     peer: String,
+    /// The well that the newest header with a name gave: the source is the same for all frames of a connection, also where
+    /// some of them have no name.
+    well: String,
     sequences: BTreeMap<u8, SequenceWatch>,
 }
 
@@ -118,6 +121,7 @@ impl Decoder {
             stamp: mapping.stamp,
             utc_offset: mapping.utc_offset(),
             peer: peer.to_owned(),
+            well: String::new(),
             sequences: BTreeMap::new(),
         }
     }
@@ -186,7 +190,7 @@ impl Decoder {
             if let Some(seen) = records.last_mut().filter(|_| code.item <= LAST_HEADER_ITEM) {
                 let before = seen.header.unreadable.len();
                 // A header item may be null like any other.
-                if !number(value).is_some_and(|value| self.nulls.contains(&value)) {
+                if !is_null(value, &self.nulls) {
                     seen.header.add(code.item, value);
                 }
                 if seen.header.unreadable.len() > before {
@@ -220,7 +224,7 @@ impl Decoder {
             });
             return;
         };
-        if self.nulls.contains(&value) {
+        if is_null(text, &self.nulls) {
             draft.nulls += 1;
             return;
         }
@@ -263,14 +267,14 @@ impl Decoder {
     }
 
     /// The source of the messages: the line and the well.
-    fn source(&self, records: &[RecordSeen]) -> String {
-        let well = records
-            .iter()
-            .map(|seen| shown(&seen.header.well))
-            .find(|well| !well.is_empty());
-        let text = match well {
-            Some(well) => format!("wits {}, well {well}", self.peer),
-            None => format!("wits {}", self.peer),
+    fn source(&mut self, records: &[RecordSeen]) -> String {
+        let mut wells = records.iter().map(|seen| shown(&seen.header.well));
+        if let Some(well) = wells.find(|well| !well.is_empty()) {
+            self.well = well;
+        }
+        let text = match self.well.as_str() {
+            "" => format!("wits {}", self.peer),
+            well => format!("wits {}, well {well}", self.peer),
         };
         text.chars().take(LONGEST_SOURCE).collect()
     }
@@ -283,10 +287,10 @@ fn outcome(records: &[RecordSeen], newest: &[u8], draft: &Draft) -> FrameUse {
     } else if records.is_empty() {
         NotUsed::Empty
     } else if newest.is_empty() {
-        if records
-            .iter()
-            .any(|seen| matches!(seen.sequence, Sequence::OutOfOrder { .. }))
-        {
+        let any = |is: fn(Sequence) -> bool| records.iter().any(|seen| is(seen.sequence));
+        if any(|sequence| matches!(sequence, Sequence::Jump { .. })) {
+            NotUsed::Jumped
+        } else if any(|sequence| matches!(sequence, Sequence::OutOfOrder { .. })) {
             NotUsed::Late
         } else {
             NotUsed::Repeated
@@ -402,6 +406,43 @@ mod tests {
         assert!(!all.contains('\u{1b}'));
     }
 
+    /// Some rigs write nulls with one digit or none.
+    #[test]
+    fn a_rounded_null_is_a_null() {
+        let nulls = [
+            "-999.25",
+            "-999.250",
+            "-999.2",
+            "-999.3",
+            "-999",
+            "-9999",
+            "-9999.0",
+            "-9.999e3",
+            "-8888.00",
+            "-999.25000",
+        ];
+        for null in nulls {
+            let reading = decode("", &format!("0108 {null}\n0120 40"));
+            assert_eq!((reading.nulls, reading.measured), (1, None), "{null}");
+            assert!(reading.faults.is_empty(), "{null}");
+        }
+        // Not rounded, or of fewer than three common digits.
+        for value in ["-999.1", "-998", "-1000", "-9998.9", "-999.26"] {
+            let reading = decode("", &format!("0108 {value}\n0120 40"));
+            assert_eq!(reading.nulls, 0, "{value}");
+        }
+        let reading = decode("nulls: [99.9]\n", "0108 100\n0110 99.90");
+        assert_eq!((reading.nulls, reading.measured.unwrap().bit_depth), (1, 100.0));
+    }
+
+    #[test]
+    fn the_source_keeps_the_well_where_a_frame_does_not_name_it() {
+        let mut decoder = Decoder::new(&Mapping::default(), "rig");
+        let mut source = |text: &str| decoder.decode(&frame(text), ARRIVED).inputs.unwrap().source;
+        assert_eq!(source("0101 Well 7\n0120 40"), "wits rig, well Well 7");
+        assert_eq!(source("0120 41"), "wits rig, well Well 7");
+    }
+
     #[test]
     fn a_frame_without_values_says_why() {
         let not_used = |text: &str| match decode("", text).outcome {
@@ -416,6 +457,8 @@ mod tests {
         assert_eq!(outcome("0104 5\n0120 40"), FrameUse::Used { values: 1 });
         assert_eq!(outcome("0104 5\n0120 40"), FrameUse::NotUsed(NotUsed::Repeated));
         assert_eq!(outcome("0104 3\n0120 40"), FrameUse::NotUsed(NotUsed::Late));
+        let jumped = outcome("0104 1000000000000000\n0120 40");
+        assert_eq!(jumped, FrameUse::NotUsed(NotUsed::Jumped));
         // Another record counts for itself.
         assert_eq!(outcome("0904 3\n0917 4"), FrameUse::Used { values: 1 });
     }

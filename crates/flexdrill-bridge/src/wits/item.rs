@@ -84,6 +84,27 @@ pub(crate) fn number(text: &[u8]) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
+/// Whether a value means "no value": it is one of `nulls`, or one of them rounded to the digits that the text has. Sources
+/// write -999.25 as -999.2, -999.3 or -999. At least three digits must agree, so that 100 is no null of a site with 99.9.
+pub(crate) fn is_null(text: &[u8], nulls: &[f64]) -> bool {
+    let Some(value) = number(text) else { return false };
+    let unit = last_digit(text);
+    nulls.iter().any(|null| {
+        let difference = (value - null).abs();
+        // A thousandth of the last digit covers the error of a number with up to 16 digits.
+        difference == 0.0 || (500.0 * unit <= null.abs() && difference <= 0.501 * unit)
+    })
+}
+
+/// The value of one unit of a number's last digit: 0.01 for 1.25, 10 for 1.25e3.
+fn last_digit(text: &[u8]) -> f64 {
+    let text = String::from_utf8_lossy(text).to_ascii_lowercase();
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, digits)| digits.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    10_f64.powi(exponent.saturating_sub_unsigned(u32::try_from(decimals).unwrap_or(u32::MAX)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

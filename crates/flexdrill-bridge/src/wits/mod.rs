@@ -1,8 +1,9 @@
 //! WITS level 0: text frames of items, without acknowledgement and without checksum.
 //!
 //! The way of the bytes: [`FrameReader`] splits them into frames, [`Decoder`] gives a frame's items their meaning after
-//! the site's [`Mapping`] and watches each record's sequence number, [`FrameWriter`] writes frames. A [`capture`] keeps
-//! the bytes of a line with their times, so that they can be read again as they came.
+//! the site's [`Mapping`] and watches each record's sequence number, [`Sources`] lets one connection serve each quantity,
+//! [`FrameWriter`] writes frames. A [`capture`] keeps the bytes of a line with their times, so that they can be read again
+//! as they came.
 
 pub mod capture;
 mod count;
@@ -14,6 +15,7 @@ mod line;
 mod mapping;
 mod report;
 mod sequence;
+mod sources;
 mod write;
 
 pub use count::Counts;
@@ -25,6 +27,7 @@ pub use line::{Line, LineEvent};
 pub use mapping::{ItemMapping, Mapping, StampSource, UnitSystem, WriteItem, WriteMapping};
 pub use report::{FrameUse, ItemFault, ItemFaultKind, NotUsed};
 pub use sequence::{Sequence, SequenceWatch};
+pub use sources::{Refused, Sources};
 pub use write::{FrameWriter, RigFrames, TwinFrames};
 
 /// Foreign bytes as text for a log or a display: what cannot be shown is escaped.

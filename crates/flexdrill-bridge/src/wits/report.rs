@@ -13,6 +13,8 @@ pub enum NotUsed {
     Repeated,
     /// All its records are older than what came before.
     Late,
+    /// Its sequence numbers are too far ahead of those before.
+    Jumped,
     /// It has no item that the mapping names.
     NothingMapped,
     /// All its values are missing, unreadable or outside their range.
@@ -21,10 +23,11 @@ pub enum NotUsed {
 
 impl NotUsed {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Empty,
         Self::Repeated,
         Self::Late,
+        Self::Jumped,
         Self::NothingMapped,
         Self::NoGoodValue,
     ];
@@ -35,6 +38,7 @@ impl NotUsed {
             Self::Empty => "empty",
             Self::Repeated => "repeated",
             Self::Late => "late",
+            Self::Jumped => "sequence jumped",
             Self::NothingMapped => "no mapped item",
             Self::NoGoodValue => "no good value",
         }

@@ -1,5 +1,9 @@
 //! The sequence number of a record (item 04): whether frames were lost, repeated or came late.
 
+/// Most records that can be missing on one connection: somewhat more than one per second for a day. A larger step is a
+/// defect of the number, or a source that counts anew.
+const MOST_MISSING: u64 = 100_000;
+
 /// What a record's sequence number says, compared with those before it on the same connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sequence {
@@ -15,6 +19,11 @@ pub enum Sequence {
     Gap {
         /// How many.
         missing: u64,
+    },
+    /// Ahead of the last by more than can be missing: the number is wrong, or the source counts anew.
+    Jump {
+        /// The largest number before it.
+        newest: u64,
     },
     /// Less than the last: it comes late, or the source counts anew.
     OutOfOrder {
@@ -34,7 +43,7 @@ impl Sequence {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SequenceWatch {
     newest: Option<u64>,
-    /// The last number that was out of order: a source that counts anew continues from there.
+    /// The last number that was out of order or jumped: a source that counts anew continues from there.
     anew: Option<u64>,
 }
 
@@ -50,10 +59,13 @@ impl SequenceWatch {
             Sequence::Next
         } else if number == newest || self.anew == Some(number) {
             return Sequence::Duplicate;
-        } else if number > newest {
+        } else if number > newest && number - newest - 1 <= MOST_MISSING {
             Sequence::Gap {
                 missing: number - newest - 1,
             }
+        } else if number > newest {
+            self.anew = Some(number);
+            return Sequence::Jump { newest };
         } else {
             self.anew = Some(number);
             return Sequence::OutOfOrder { newest };
@@ -67,7 +79,7 @@ impl SequenceWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Sequence::{Duplicate, First, Gap, Next, OutOfOrder};
+    use Sequence::{Duplicate, First, Gap, Jump, Next, OutOfOrder};
 
     fn classified(numbers: &[u64]) -> Vec<Sequence> {
         let mut watch = SequenceWatch::default();
@@ -86,6 +98,20 @@ mod tests {
                 OutOfOrder { newest: 12 },
                 Next
             ]
+        );
+    }
+
+    /// One number of 1e15 would otherwise count 1e15 records as missing, and all that follow as late.
+    #[test]
+    fn a_number_far_ahead_is_not_followed_unless_the_next_continues_it() {
+        let far = 1_000_000_000_000_000;
+        assert_eq!(
+            classified(&[7, far, 8, 9, 9 + 100_001]),
+            [First, Jump { newest: 7 }, Next, Next, Gap { missing: 100_000 }]
+        );
+        assert_eq!(
+            classified(&[7, far, far + 1, far + 2]),
+            [First, Jump { newest: 7 }, Next, Next]
         );
     }
 
