@@ -357,16 +357,18 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
     } else {
         row
     };
-    let (priority, evidence, cause) = match (&recording.error, &recording.notice) {
+    let (priority, evidence, cause, remedy) = match (&recording.error, &recording.notice) {
         (Some(problem), _) => (
             Priority::Medium,
             format!("The recording stopped: {}.", problem.text),
             problem.cause.to_owned(),
+            problem.remedy,
         ),
         (None, Some(problem)) => (
             Priority::Medium,
             format!("The recording stopped and continues in another file: {}.", problem.text),
             problem.cause.to_owned(),
+            problem.remedy,
         ),
         (None, None) => match memory.losses {
             Some((lost, _)) => (
@@ -377,6 +379,7 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
                     recording.losses.total()
                 ),
                 format!("Of these, {lost}."),
+                "Free disk space, or restart the node with --record on a faster disk.",
             ),
             None => return Finding::default(),
         },
@@ -392,8 +395,7 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
         what_the_engineer_can_do: if flooded {
             "Find the program that floods an input: twin/status names the publishers of each input."
         } else {
-            "Free disk space: the recording then continues in another file. Otherwise restart the node with --record \
-             on another disk."
+            remedy
         }
         .to_owned(),
         ..Finding::default()

@@ -2,6 +2,7 @@
 
 use crate::messages::{AcknowledgeAlarmRequest, ShelveAlarmRequest, UnshelveAlarmRequest};
 use flexdrill_alarms::{AlarmSystem, Event, Operator, Refusal, Shelving, Time};
+use flexdrill_text::printable;
 
 /// Addresses every alarm in an acknowledgement.
 const ALL: &str = "all";
@@ -25,7 +26,13 @@ impl Request {
         time: Time,
         events: &mut Vec<Event>,
     ) -> Result<String, Refusal> {
-        let by = self.operator();
+        // The name enters the journal, and every reader of it shows the name.
+        let (name, reason) = self.operator();
+        let (name, reason) = (printable(name), printable(reason));
+        let by = Operator {
+            name: &name,
+            reason: &reason,
+        };
         match self {
             Request::Acknowledge(request) if ["", ALL].contains(&request.id.as_str()) => {
                 let count = system.acknowledge_all(time, &by, events)?;
@@ -57,12 +64,12 @@ impl Request {
         }
     }
 
-    fn operator(&self) -> Operator<'_> {
-        let (name, reason) = match self {
+    /// The operator's name, and the reason.
+    fn operator(&self) -> (&str, &str) {
+        match self {
             Request::Acknowledge(request) => (&request.operator_name, &request.reason),
             Request::Shelve(request) => (&request.operator_name, &request.reason),
             Request::Unshelve(request) => (&request.operator_name, &request.reason),
-        };
-        Operator { name, reason }
+        }
     }
 }

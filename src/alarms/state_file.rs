@@ -9,6 +9,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use flexdrill_alarms::Saved;
+use flexdrill_text::log_ending;
 
 /// Longest wait for the last state when the node ends.
 const LAST_STATE: Duration = Duration::from_secs(2);
@@ -258,7 +259,9 @@ fn keep(path: &Path, mut lock: Option<File>, orders: &Receiver<Order>) {
             Ok(()) => works = true,
             // One warning until a write succeeds again.
             Err(error) if works => {
-                tracing::warn!("{error}");
+                if let Some(more) = log_ending("alarm state not written") {
+                    tracing::warn!("{error}{more}");
+                }
                 works = false;
             }
             Err(_) => {}

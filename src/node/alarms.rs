@@ -30,6 +30,7 @@ use flexdrill_realtime::PaceReading;
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::PortBuilder;
 use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task};
+use flexdrill_text::log_ending;
 
 /// Longest wait of a request until its effect is on the disk: shorter than a client waits for a reply.
 const DISK_PATIENCE: Duration = Duration::from_secs(2);
@@ -223,8 +224,10 @@ pub(super) fn publish(parts: &mut PublisherParts, header: Header, clock: u64) {
         sinks.write(encoded);
         Ok(())
     });
-    if let Err(error) = sent {
-        tracing::error!("an alarm could not be encoded: {error}");
+    if let Err(error) = sent
+        && let Some(more) = log_ending("alarm not encoded")
+    {
+        tracing::error!("an alarm could not be encoded: {error}{more}");
     }
 }
 
@@ -252,14 +255,18 @@ fn log(event: &AlarmEvent) {
     let calls =
         event.to_state == Alarm::ACTIVE_UNACKNOWLEDGED && (event.annunciates || event.change == AlarmEvent::RAISED);
     if calls && event.priority >= Alarm::MEDIUM {
-        tracing::warn!(
-            "alarm {} ({priority}): {} {}",
-            event.id,
-            event.evidence,
-            event.what_to_do
-        );
+        if let Some(more) = log_ending(format!("alarm {} ({priority})", event.id)) {
+            tracing::warn!(
+                "alarm {} ({priority}): {} {}{more}",
+                event.id,
+                event.evidence,
+                event.what_to_do
+            );
+        }
     } else if !event.operator_name.is_empty() {
-        tracing::info!("alarm {} is {state}: {}", event.id, requested_by(event));
+        if let Some(more) = log_ending(format!("alarm {} is {state}", event.id)) {
+            tracing::info!("alarm {} is {state}: {}{more}", event.id, requested_by(event));
+        }
     } else {
         tracing::debug!("alarm {} is {state}", event.id);
     }

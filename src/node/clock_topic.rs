@@ -9,14 +9,12 @@ use flexdrill_messages::rosgraph_msgs::Clock;
 use flexdrill_realtime::clock::LEAP;
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::{Inbox, Sample};
-use flexdrill_text::Throttle;
+use flexdrill_text::log_ending;
 
 /// Wall time for which messages must agree on another time before it is adopted (ns).
 const AGREED_FOR: u64 = 2_000_000_000;
 /// Messages that must agree, so that a clock of 1 Hz needs no longer than a faster one.
 const AGREED_MESSAGES: u32 = 3;
-/// Least time between two lines about ignored messages (s).
-const LOG_INTERVAL: f64 = 10.0;
 
 /// The effect of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +86,6 @@ impl Follower {
 /// Follows `/clock` for as long as it is polled, and writes its time (ns) to `newest`.
 pub async fn follow(inputs: RigInputs, messages: Arc<Inbox<Sample>>, newest: Arc<AtomicU64>) {
     let mut follower = Follower::default();
-    let mut ignored_lines = Throttle::new(LOG_INTERVAL);
     loop {
         let Ok((Clock { clock }, writer)) = decode::<Clock>(messages.next().await) else {
             continue;
@@ -99,14 +96,16 @@ pub async fn follow(inputs: RigInputs, messages: Arc<Inbox<Sample>>, newest: Arc
         match effect {
             Effect::Followed => {}
             Effect::Set(difference) => {
-                tracing::warn!(
-                    "/clock was set by {:+.3} s; the model continues from its state, with stamps of the new time",
-                    difference as f64 * 1e-9
-                );
+                if let Some(more) = log_ending("/clock was set") {
+                    tracing::warn!(
+                        "/clock was set by {:+.3} s; the model continues from its state, with stamps of the new time{more}",
+                        difference as f64 * 1e-9
+                    );
+                }
                 inputs.clock_set();
             }
             Effect::Ignored(difference) => {
-                if let Some(more) = ignored_lines.ending(wall as f64 * 1e-9) {
+                if let Some(more) = log_ending("/clock ignored") {
                     tracing::warn!(
                         "/clock: a time {:+.3} s from the present one is ignored until all messages agree on it for {} s; \
                          check whether another program publishes /clock. Its writer is {}{more}",

@@ -10,6 +10,7 @@ use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{InputKind, Stamp};
 use flexdrill_messages::{RigInputs as RigInputsMessage, RigMeasured};
 use flexdrill_realtime::link::Targets;
+use flexdrill_text::log_ending;
 
 /// Characters of a message's source that are kept, since every status carries them.
 const LONGEST_SOURCE: usize = 64;
@@ -155,8 +156,16 @@ impl RigInputs {
         for kind in InputKind::ALL {
             let event = self.locked().safe_value_event(kind, now);
             match event {
-                Some(SafeValueEvent::RampBegan(text)) => tracing::warn!("{text}"),
-                Some(SafeValueEvent::Recovered(text)) => tracing::info!("{text}"),
+                Some(SafeValueEvent::RampBegan(text)) => {
+                    if let Some(more) = log_ending(format!("{kind} ramps")) {
+                        tracing::warn!("{text}{more}");
+                    }
+                }
+                Some(SafeValueEvent::Recovered(text)) => {
+                    if let Some(more) = log_ending(format!("{kind} is back")) {
+                        tracing::info!("{text}{more}");
+                    }
+                }
                 None => {}
             }
         }

@@ -26,6 +26,7 @@ use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::plan::Offer;
 use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
 use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task, at_once};
+use flexdrill_text::log_ending;
 
 const STATES: [(u8, &str); 4] = [
     (State::PRIMARY_STATE_UNCONFIGURED, "unconfigured"),
@@ -62,21 +63,27 @@ impl Lifecycle {
     fn change(&self, requested: &Transition) -> bool {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(transition) = find(*state, requested) else {
-            tracing::warn!(
-                "a change of state was refused: state {} has no transition {} '{}'; see `ros2 lifecycle list`",
-                label(*state),
-                requested.id,
-                requested.label.escape_default()
-            );
+            if let Some(more) = log_ending("change of state refused") {
+                tracing::warn!(
+                    "a change of state was refused: state {} has no transition {} '{}'; see `ros2 lifecycle list`{more}",
+                    label(*state),
+                    requested.id,
+                    requested.label.escape_default()
+                );
+            }
             return false;
         };
         let (_, name, from, to) = *transition;
         if let Err(why) = self.carry_out(name, to) {
-            tracing::warn!("{name} was refused: {why}");
+            if let Some(more) = log_ending(format!("{name} refused")) {
+                tracing::warn!("{name} was refused: {why}{more}");
+            }
             return false;
         }
         *state = to;
-        tracing::info!("{name}: the node is {}", label(to));
+        if let Some(more) = log_ending(name) {
+            tracing::info!("{name}: the node is {}{more}", label(to));
+        }
         let description = describe(transition);
         let event = TransitionEvent {
             timestamp: rig_clock(),

@@ -15,12 +15,10 @@ use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::frames::Peer;
 use flexdrill_ros2::dds::plan::Guid;
 use flexdrill_ros2::dds::port::{Inbox, Monitor, Sample};
-use flexdrill_text::{Throttle, Throttles};
+use flexdrill_text::log_ending;
 
 /// How often the targets follow the ages of the inputs.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(10);
-/// Least time between two log lines about samples of one input (s).
-const LOG_INTERVAL: f64 = 2.0;
 /// Least time between two questions to discovery about a publisher that it does not fully know (s): the announcement may
 /// come after the first sample.
 const QUERY_INTERVAL: f64 = 1.0;
@@ -94,6 +92,7 @@ impl From<Peer> for Driver {
             id: DriverId(peer.id),
             node: peer.node,
             host: peer.address,
+            source: String::new(),
         }
     }
 }
@@ -107,18 +106,14 @@ async fn receive<M: Message>(
     samples: &Inbox<Sample>,
     accept: impl Fn(&SampleReceiver, M, DriverId) -> Vec<SampleRefused>,
 ) {
-    let mut refused_lines = Throttles::new(LOG_INTERVAL);
-    let mut unreadable_lines = Throttle::new(LOG_INTERVAL);
-    let mut overrun_lines = Throttle::new(LOG_INTERVAL);
     let mut queried = HashMap::new();
     let mut dropped = 0;
     loop {
         let sample = samples.next().await;
-        let clock = monotonic::now() as f64 * 1e-9;
         let before = std::mem::replace(&mut dropped, samples.dropped());
         if dropped > before {
             receiver.count_overrun(topic, carried, dropped - before);
-            if let Some(more) = overrun_lines.ending(clock) {
+            if let Some(more) = log_ending(format!("{}: overrun", topic.name)) {
                 tracing::warn!(
                     "{}: {} samples came faster than the node reads them and were dropped; check whether a publisher floods \
                      the topic{more}",
@@ -131,7 +126,7 @@ async fn receive<M: Message>(
             Ok((message, writer)) => (message, DriverId(writer)),
             Err(error) => {
                 receiver.inputs.count_unreadable(carried);
-                if let Some(more) = unreadable_lines.ending(clock) {
+                if let Some(more) = log_ending(format!("{}: unreadable", topic.name)) {
                     tracing::warn!("{}: a sample could not be read: {error}{more}", topic.name);
                 }
                 continue;
@@ -144,7 +139,7 @@ async fn receive<M: Message>(
                 SampleRefused::Value(rejection) => rejection.reason.index(),
                 SampleRefused::Measured(refused) => usize::MAX - 1 - refused.index(),
             };
-            if let Some(more) = refused_lines.ending(cause, clock) {
+            if let Some(more) = log_ending(format!("{}: refused {cause}", topic.name)) {
                 tracing::warn!("{refused}{more}");
             }
         }

@@ -6,6 +6,7 @@ use crate::live::LiveServer;
 use flexdrill_messages::outputs::Encoded;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{CdrError, Message, to_cdr};
+use flexdrill_text::log_ending;
 
 impl PublisherParts {
     pub(super) fn send(&self, encoded: Encoded<'_>) -> Result<(), CdrError> {
@@ -29,7 +30,11 @@ impl PublisherParts {
                 stamp,
                 cdr: &cdr,
             })),
-            Err(error) => tracing::error!("{error}"),
+            Err(error) => {
+                if let Some(more) = log_ending("message not encoded") {
+                    tracing::error!("{error}{more}");
+                }
+            }
         }
     }
 }

@@ -19,7 +19,7 @@ use flexdrill_messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, SessionInfo, TwinStatus,
     WhirlState, WhirlWarning, from_cdr_body,
 };
-use flexdrill_text::printable;
+use flexdrill_text::{log_ending, printable};
 
 /// Largest number of events kept, for a page that is opened later.
 const MOST_EVENTS: usize = 2000;
@@ -127,7 +127,11 @@ impl Board {
                     known.history.begin(&session);
                     known.session = Some(session);
                 }
-                Err(why) => tracing::warn!("{}", printable(&why)),
+                Err(why) => {
+                    if let Some(more) = log_ending("session not read") {
+                        tracing::warn!("{}{more}", printable(&why));
+                    }
+                }
             }
         }
         Some(info.header.stamp.to_nanoseconds())

@@ -19,6 +19,7 @@ use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{RigInputs, TwinStatus, to_cdr_body};
 use flexdrill_ros2::dds::port::Monitor;
+use flexdrill_text::log_ending;
 
 /// Time between two samples.
 pub(crate) const PERIOD: Duration = Duration::from_millis(100);
@@ -133,7 +134,9 @@ impl Control {
                 let start = sent[input].unwrap_or(limits[input].min);
                 start.clamp(limits[input].min, limits[input].max)
             });
-            tracing::info!("{operator} begins to steer over this server");
+            if let Some(more) = log_ending("begins to steer") {
+                tracing::info!("{operator} begins to steer over this server{more}");
+            }
             steering.drive = Some(Drive {
                 operator,
                 target,
@@ -177,7 +180,9 @@ impl Control {
             other.map(|other| format!("{other} began to drive"))
         };
         if let Some(why) = end {
-            tracing::warn!("steering ended: {why}");
+            if let Some(more) = log_ending("steering ended") {
+                tracing::warn!("steering ended: {why}{more}");
+            }
             return steering.end(why);
         }
         drive.advance();

@@ -12,7 +12,7 @@ use crate::listen::CDR_HEADER;
 use flexdrill_bag::{Bag, BagMessage};
 use flexdrill_live::{Hub, LatchedStates, Player, Playing};
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_text::printable;
+use flexdrill_text::{log_ending, printable};
 
 /// A bag that is played.
 pub(crate) struct Recorded {
@@ -87,7 +87,11 @@ impl FullPass {
                         self.board.observe(topic, body, message.log_time);
                     }
                 }
-                Err(error) => tracing::warn!("{}", printable(&error.to_string())),
+                Err(error) => {
+                    if let Some(more) = log_ending("defect of the bag") {
+                        tracing::warn!("{}{more}", printable(&error.to_string()));
+                    }
+                }
             }
         }
         self.board.with_history(super::history::History::finish);

@@ -22,6 +22,7 @@ use flexdrill_ros2::args::NodeIdentity;
 use flexdrill_ros2::client::{CallError, ServiceClient};
 use flexdrill_ros2::dds::plan::dds_type_name;
 use flexdrill_ros2::dds::port::{Inbox, Monitor, PortBuilder, Sample};
+use flexdrill_text::log_ending;
 
 /// Most candidates of a question, as of a goal of the node.
 const MOST_CANDIDATES: usize = 16;
@@ -179,7 +180,9 @@ impl WhatIf {
             };
             (number, id)
         };
-        tracing::info!("{operator} asks what if, with {count} candidates");
+        if let Some(more) = log_ending("asks what if") {
+            tracing::info!("{operator} asks what if, with {count} candidates{more}");
+        }
         let request = WhatIfSendGoalRequest {
             goal_id: UUID { uuid: id },
             goal,
@@ -216,7 +219,9 @@ impl WhatIf {
             }
             asked.id
         };
-        tracing::info!("{operator} cancels the question");
+        if let Some(more) = log_ending("cancels the question") {
+            tracing::info!("{operator} cancels the question{more}");
+        }
         let request = CancelGoalRequest {
             goal_info: GoalInfo {
                 goal_id: UUID { uuid: id },

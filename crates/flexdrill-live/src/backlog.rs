@@ -7,13 +7,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use axum::body::Bytes;
-use flexdrill_realtime::monotonic;
 use foxglove::ws_protocol::BinaryMessage as _;
 use foxglove::ws_protocol::server::{MessageData, Time};
 use tokio::sync::Notify;
 use tokio_tungstenite::tungstenite::Message;
 
-use flexdrill_text::Throttle;
+use flexdrill_text::log_ending;
 
 /// Largest number of queued data messages: about a second of all topics of the default tool.
 pub(crate) const MOST_DATA: usize = 256;
@@ -27,8 +26,6 @@ const MOST_ANSWER_BYTES: usize = 4 << 20;
 /// Longest time in the queue for a message that a newer one of its topic follows. Together with the socket's buffer
 /// this bounds the lag of a viewer on a slow line.
 const MOST_AGE: Duration = Duration::from_secs(1);
-/// Shortest time between two log lines about one viewer (s).
-const LINE_INTERVAL: f64 = 10.0;
 
 /// A queued message of a topic.
 #[derive(Debug, Clone)]
@@ -177,7 +174,6 @@ pub(crate) struct Backlog {
     viewer: SocketAddr,
     queue: Mutex<Queue>,
     filled: Notify,
-    lines: Mutex<Throttle>,
 }
 
 impl Backlog {
@@ -187,7 +183,6 @@ impl Backlog {
             viewer,
             queue: Mutex::default(),
             filled: Notify::new(),
-            lines: Mutex::new(Throttle::new(LINE_INTERVAL)),
         }
     }
 
@@ -227,10 +222,10 @@ impl Backlog {
             queue.is_closed = !queue.push_answer(message.into());
             queue.is_closed
         };
-        if is_full {
+        if is_full && let Some(more) = log_ending("answers not read") {
             tracing::warn!(
                 "the viewer at {} does not read its answers: at most {MOST_ANSWERS} answers and {MOST_ANSWER_BYTES} bytes \
-                 are queued; its connection is closed",
+                 are queued; its connection is closed{more}",
                 self.viewer
             );
         }
@@ -259,11 +254,10 @@ impl Backlog {
         if dropped == 0 {
             return;
         }
-        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
-        if lines.pass(monotonic::now() as f64 * 1e-9).is_some() {
+        if let Some(more) = log_ending("slow viewer") {
             tracing::warn!(
                 "the viewer at {} is too slow for what it subscribes to: {} of its oldest messages have been dropped so far; \
-                 subscribe to fewer topics",
+                 subscribe to fewer topics{more}",
                 self.viewer,
                 self.lock().dropped
             );
@@ -282,9 +276,11 @@ pub(crate) struct Closed;
 impl Drop for Backlog {
     fn drop(&mut self) {
         let dropped = self.lock().dropped;
-        if dropped > 0 {
+        if dropped > 0
+            && let Some(more) = log_ending("slow viewer gone")
+        {
             tracing::info!(
-                "the viewer at {} has disconnected; {dropped} messages had been dropped for it",
+                "the viewer at {} has disconnected; {dropped} messages had been dropped for it{more}",
                 self.viewer
             );
         }

@@ -12,7 +12,6 @@ use std::time::Duration;
 
 use axum::extract::ConnectInfo;
 use axum::{Extension, Router};
-use flexdrill_realtime::monotonic;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use rustix::process::{Resource, getrlimit};
@@ -21,7 +20,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::{AbortHandle, Id, JoinSet};
 use tokio::time::Sleep;
 
-use flexdrill_text::Throttle;
+use flexdrill_text::log_ending;
 
 /// Largest number of connections that are not WebSockets: a page uses up to six.
 const MOST: usize = 64;
@@ -39,8 +38,6 @@ const STALL: Duration = Duration::from_secs(20);
 const SEND_BUFFER: usize = 128 << 10;
 /// Pause after the system has refused a connection, so that repeated refusals do not load the processor.
 const REFUSED: Duration = Duration::from_millis(100);
-/// Shortest time between two log lines of one kind (s).
-const LINE_INTERVAL: f64 = 10.0;
 
 /// Serves requests until `end` completes, then closes all connections except the WebSockets.
 ///
@@ -50,7 +47,6 @@ pub async fn serve(listener: std::net::TcpListener, router: Router, end: impl Fu
     let listener = TcpListener::from_std(listener)?;
     let most = most_connections();
     let mut open = Open::default();
-    let (mut full, mut refused) = (Throttle::new(LINE_INTERVAL), Throttle::new(LINE_INTERVAL));
     let mut end = std::pin::pin!(end);
     loop {
         tokio::select! {
@@ -62,7 +58,7 @@ pub async fn serve(listener: std::net::TcpListener, router: Router, end: impl Fu
             accepted = listener.accept() => match accepted {
                 Ok((stream, from)) => {
                     if let Some(address) = open.make_room(most)
-                        && let Some(more) = full.ending(monotonic::now() as f64 * 1e-9)
+                        && let Some(more) = log_ending("connections full")
                     {
                         tracing::warn!(
                             "{most} connections are open, which is the most; the oldest one from {address} was closed for a \
@@ -72,7 +68,7 @@ pub async fn serve(listener: std::net::TcpListener, router: Router, end: impl Fu
                     open.add(from.ip(), connection(stream, from, router.clone()));
                 }
                 Err(error) => {
-                    if let Some(more) = refused.ending(monotonic::now() as f64 * 1e-9) {
+                    if let Some(more) = log_ending("connection not accepted") {
                         tracing::warn!("a connection could not be accepted: {error}{more}");
                     }
                     tokio::time::sleep(REFUSED).await;

@@ -5,13 +5,12 @@
 //! that steers sends the token in the URL, the only field that the protocol has for it.
 
 use std::net::{IpAddr, SocketAddr};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use axum::body::Body;
 use axum::extract::{ConnectInfo, Request};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
-use flexdrill_realtime::monotonic;
 use hyper_util::rt::TokioIo;
 use tokio::sync::Semaphore;
 use tokio_tungstenite::tungstenite::handshake::derive_accept_key;
@@ -21,7 +20,7 @@ use crate::hub::Hub;
 use crate::session::{Session, Subprotocol, next_number};
 use crate::steering::{Pilot, Steering, Viewer};
 use crate::{Token, WrongTokens};
-use flexdrill_text::{Throttles, printable};
+use flexdrill_text::{log_ending, printable};
 
 /// Largest number of viewers. Each costs one file handle and, when slow, some megabytes.
 pub(crate) const MOST_VIEWERS: usize = 32;
@@ -34,8 +33,6 @@ const SUBPROTOCOLS: [(&str, Subprotocol); 2] = [
 const OLD_SUBPROTOCOL: &str = "foxglove.websocket.v1";
 /// Foxglove's own viewer in a browser.
 const FOXGLOVE_APP: &str = "https://app.foxglove.dev";
-/// Shortest time between two log lines about refused viewers of one kind (s).
-const LINE_INTERVAL: f64 = 10.0;
 
 /// Admits viewers to the topics of a hub.
 pub struct Gateway {
@@ -45,7 +42,6 @@ pub struct Gateway {
     seats: Arc<Semaphore>,
     origins: Vec<String>,
     wrong_tokens: WrongTokens,
-    lines: Mutex<Throttles<&'static str>>,
 }
 
 impl Gateway {
@@ -59,7 +55,6 @@ impl Gateway {
             seats: Arc::new(Semaphore::new(MOST_VIEWERS)),
             origins: origins.to_vec(),
             wrong_tokens: WrongTokens::default(),
-            lines: Mutex::new(Throttles::new(LINE_INTERVAL)),
         })
     }
 
@@ -83,7 +78,7 @@ impl Gateway {
                 "a page of {} requested the live data and was refused; --allow-origin admits a viewer",
                 printable(origin)
             );
-            self.log("origin", &why);
+            log("origin", &why);
             return Err((StatusCode::FORBIDDEN, why));
         }
         let known = SUBPROTOCOLS
@@ -91,7 +86,7 @@ impl Gateway {
             .find(|(name, _)| has_word(headers, &header::SEC_WEBSOCKET_PROTOCOL, name));
         let Some((name, subprotocol)) = known else {
             let why = refusal_of_subprotocol(text(headers, &header::SEC_WEBSOCKET_PROTOCOL).unwrap_or_default());
-            self.log("subprotocol", &why);
+            log("subprotocol", &why);
             return Err((StatusCode::BAD_REQUEST, why));
         };
         let key = text(headers, &header::SEC_WEBSOCKET_KEY).filter(|_| {
@@ -109,7 +104,7 @@ impl Gateway {
         let steering = self.steering(request.uri(), address).await?;
         let Ok(seat) = Arc::clone(&self.seats).try_acquire_owned() else {
             let why = format!("{MOST_VIEWERS} live viewers are connected, the largest number allowed; close one");
-            self.log("seats", &why);
+            log("seats", &why);
             return Err((StatusCode::SERVICE_UNAVAILABLE, why));
         };
         let upgrade = hyper::upgrade::on(&mut request);
@@ -145,7 +140,7 @@ impl Gateway {
             None => {
                 let why = "a viewer sent a token, but steering is off: start with --allow-control, or remove ?token= to look \
                            only";
-                self.log("token", why);
+                log("token", why);
                 Err((StatusCode::FORBIDDEN, why.to_owned()))
             }
             Some((token, steering)) if token.is(offered) => Ok(Some(steering)),
@@ -162,12 +157,12 @@ impl Gateway {
             || text(headers, &header::ORIGIN)
                 .is_some_and(|origin| origin == FOXGLOVE_APP || self.origins.iter().any(|known| known == origin))
     }
+}
 
-    fn log(&self, kind: &'static str, why: &str) {
-        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(more) = lines.ending(kind, monotonic::now() as f64 * 1e-9) {
-            tracing::warn!("{why}{more}");
-        }
+/// One line per kind of refused viewers in ten seconds.
+fn log(kind: &'static str, why: &str) {
+    if let Some(more) = log_ending(kind) {
+        tracing::warn!("{why}{more}");
     }
 }
 

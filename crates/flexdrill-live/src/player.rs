@@ -13,7 +13,7 @@ use crate::backlog::Backlog;
 use crate::hub::Hub;
 use flexdrill_bag::{Bag, BagMessage};
 use flexdrill_messages::{AlarmList, Message as _};
-use flexdrill_text::printable;
+use flexdrill_text::{log_ending, printable};
 
 /// After a seek, viewers get the newest message of each topic from this long before the new time (ns). Every topic of
 /// the node that is not latched has at least one message per second.
@@ -299,7 +299,11 @@ fn next_readable(bag: &mut Bag) -> Option<BagMessage> {
     loop {
         match bag.next()? {
             Ok(message) => return Some(message),
-            Err(error) => tracing::warn!("{}", printable(&error.to_string())),
+            Err(error) => {
+                if let Some(more) = log_ending("defect of the bag") {
+                    tracing::warn!("{}{more}", printable(&error.to_string()));
+                }
+            }
         }
     }
 }

@@ -20,6 +20,7 @@ use crate::dds::frames::Peer;
 use crate::dds::plan::MOST_REPLY;
 use crate::dds::port::{PortBuilder, Request, Requests};
 use flexdrill_messages::{MOST_PADDING, from_cdr_body, to_cdr_body};
+use flexdrill_text::log_ending;
 
 /// Bytes that rmw_cyclonedds puts before a request and expects before its reply: client id and sequence number.
 const CYCLONE_HEADER: usize = 16;
@@ -219,11 +220,13 @@ impl ServiceServer {
         };
         interpret::<Req>(mapping, &received.body)
             .map_err(|why| {
-                tracing::warn!(
-                    "service {}: a request of {} bytes could not be read: {why}",
-                    self.name,
-                    received.body.len()
-                );
+                if let Some(more) = log_ending(format!("{} unreadable", self.name)) {
+                    tracing::warn!(
+                        "service {}: a request of {} bytes could not be read: {why}{more}",
+                        self.name,
+                        received.body.len()
+                    );
+                }
             })
             .ok()
     }
@@ -235,12 +238,19 @@ impl ServiceServer {
         };
         match encoded(response, MOST_REPLY - CYCLONE_HEADER) {
             Ok((body, told)) => {
-                if let Some(why) = told {
-                    tracing::warn!("service {}: {why}", self.name);
+                if let Some(why) = told
+                    && let Some(more) = log_ending(format!("{} shortened", self.name))
+                {
+                    tracing::warn!("service {}: {why}{more}", self.name);
                 }
                 bytes.extend(body);
             }
-            Err(error) => return tracing::error!("service {}: the reply could not be encoded: {error}", self.name),
+            Err(error) => {
+                if let Some(more) = log_ending(format!("{} not encoded", self.name)) {
+                    tracing::error!("service {}: the reply could not be encoded: {error}{more}", self.name);
+                }
+                return;
+            }
         }
         self.requests.reply(asked, bytes);
     }

@@ -16,6 +16,7 @@ use flexdrill_messages::outputs::{self, ParameterChange};
 use flexdrill_realtime::link::{Command, Gauges, RequestEnd, RunState, Settings};
 use flexdrill_ros2::parameters::{Parameter, ParameterStore, ParameterValue, Refusal};
 use flexdrill_ros2::service::asked_by;
+use flexdrill_text::log_ending;
 pub use services::serve;
 
 /// Least time between two checkpoints: each one delays the solver for a moment.
@@ -240,7 +241,12 @@ impl Control {
         if let Some(restore) = self.restore.get() {
             restore()?;
         }
-        tracing::info!("reset: the model returns to its state after the start{}", asked_by());
+        if let Some(more) = log_ending("reset") {
+            tracing::info!(
+                "reset: the model returns to its state after the start{}{more}",
+                asked_by()
+            );
+        }
         self.send(Command::Reset).map(drop)
     }
 
@@ -258,7 +264,10 @@ impl Control {
             _ => {}
         }
         self.send(Command::Pause(pause))?;
-        tracing::info!("{}{}", if pause { "paused" } else { "resumed" }, asked_by());
+        let done = if pause { "paused" } else { "resumed" };
+        if let Some(more) = log_ending(done) {
+            tracing::info!("{done}{}{more}", asked_by());
+        }
         Ok(())
     }
 

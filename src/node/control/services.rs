@@ -14,6 +14,7 @@ use flexdrill_realtime::link::RunState;
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::PortBuilder;
 use flexdrill_ros2::service::{ServiceMapping, ServiceServer, Task, at_once, shared};
+use flexdrill_text::log_ending;
 
 impl Control {
     pub(super) fn answer_reset(&self) -> TriggerResponse {
@@ -57,9 +58,17 @@ impl Control {
             Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
         });
         let result = saved.await.unwrap_or_else(|error| Err(error.into()));
-        match &result {
-            Ok(message) => tracing::info!("checkpoint saved: {message}"),
-            Err(why) => tracing::warn!("no checkpoint: {why}"),
+        match (
+            &result,
+            log_ending(if result.is_ok() {
+                "checkpoint saved"
+            } else {
+                "no checkpoint"
+            }),
+        ) {
+            (Ok(message), Some(more)) => tracing::info!("checkpoint saved: {message}{more}"),
+            (Err(why), Some(more)) => tracing::warn!("no checkpoint: {why}{more}"),
+            (_, None) => {}
         }
         answer(result)
     }

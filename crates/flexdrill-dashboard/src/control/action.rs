@@ -11,6 +11,7 @@ use flexdrill_ros2::args::NodeIdentity;
 use flexdrill_ros2::client::{CallError, ServiceClient};
 use flexdrill_ros2::dds::plan::Offer;
 use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
+use flexdrill_text::{log_ending, printable};
 
 /// Longest name of an operator (characters).
 const LONGEST_NAME: usize = 100;
@@ -118,12 +119,17 @@ impl Control {
                 answer.map(|UnshelveAlarmResponse { success, message }| (success, message))
             }
             Action::Reset => {
-                tracing::info!("{operator_name} requests a reset");
+                if let Some(more) = log_ending("requests a reset") {
+                    tracing::info!("{operator_name} requests a reset{more}");
+                }
                 let answer = parts.reset.call(monitor, &TriggerRequest::default()).await;
                 answer.map(|TriggerResponse { success, message }| (success, message))
             }
             Action::Pause(data) => {
-                tracing::info!("{operator_name} requests to {}", if data { "pause" } else { "resume" });
+                let verb = if data { "pause" } else { "resume" };
+                if let Some(more) = log_ending(verb) {
+                    tracing::info!("{operator_name} requests to {verb}{more}");
+                }
                 let answer = parts.pause.call(monitor, &SetBoolRequest { data }).await;
                 answer.map(|SetBoolResponse { success, message }| (success, message))
             }
@@ -145,9 +151,10 @@ impl Control {
 pub(crate) fn checked_name(operator: &str) -> Result<String, Refused> {
     let name = operator.trim();
     let length = name.chars().count();
-    if length == 0 || length > LONGEST_NAME || name.chars().any(char::is_control) {
+    if length == 0 || length > LONGEST_NAME || printable(name) != name {
         return Err(Refused::Wrong(format!(
-            "the operator's name has {length} characters; it must have 1 to {LONGEST_NAME}, and no control characters"
+            "the operator's name has {length} characters; it must have 1 to {LONGEST_NAME}, and no control characters or marks \
+             of direction"
         )));
     }
     Ok(name.to_owned())
@@ -160,7 +167,7 @@ mod tests {
     #[test]
     fn a_request_needs_the_operators_name() {
         assert_eq!(checked_name(" Kim ").unwrap(), "Kim");
-        for wrong in ["", "  ", "a\nb", &"x".repeat(101)] {
+        for wrong in ["", "  ", "a\nb", "Kim \u{202e}mmiK", &"x".repeat(101)] {
             assert!(checked_name(wrong).is_err(), "{wrong}");
         }
     }

@@ -7,6 +7,7 @@ use super::text::{capital, duration, location, number, percent};
 use crate::incidents::{Incident, seconds};
 use crate::reading::Summary;
 use flexdrill_messages::words;
+use flexdrill_text::printable;
 
 /// Largest number of incidents listed; the worst ones, if there are more.
 const ROWS: usize = 60;
@@ -74,7 +75,7 @@ fn row(incident: &Incident) -> Markup {
                 None => "to the end",
             } }
             td { (priority(incident.priority)) }
-            td { (capital(&incident.worst.name)) @if !incident.acknowledged_by.is_empty() { small { " acknowledged by " (incident.acknowledged_by) } } }
+            td { (capital(&incident.worst.name)) @if !incident.acknowledged_by.is_empty() { small { " acknowledged by " (printable(&incident.acknowledged_by)) } } }
             td { (location(incident.worst.body, incident.worst.measured_depth, incident.worst.inclination)) }
             td { (incident.worst.evidence) }
         }

@@ -18,6 +18,7 @@ use crate::dds::plan::{Offer, dds_type_name};
 use crate::dds::port::{PortBuilder, TopicPublisher};
 use crate::service::{self, ServiceMapping, ServiceServer, Task, at_once};
 use flexdrill_messages::to_cdr_body;
+use flexdrill_text::log_ending;
 
 /// Applies a set of values as a whole, or refuses it. The arguments are the store with the new values, the changed
 /// parameters, and the requester.
@@ -100,7 +101,9 @@ impl Parameters {
     pub fn set_from(&self, from: &[Parameter], changes: &[Parameter], requester: &str) -> Result<bool, Refusal> {
         let result = self.apply(from, changes, requester);
         if let Err(reason) = &result {
-            tracing::warn!("a parameter change was refused: {reason}; asked for by {requester}");
+            if let Some(more) = log_ending("parameter refused") {
+                tracing::warn!("a parameter change was refused: {reason}; asked for by {requester}{more}");
+            }
         }
         result
     }
@@ -126,7 +129,12 @@ impl Parameters {
         };
         for (Parameter { name, value }, before) in changed.iter().zip(before) {
             let before = before.map_or_else(String::new, |before| format!(", was {}", show(&before)));
-            tracing::info!("parameter {name} is {}{before}: asked for by {requester}", show(value));
+            if let Some(more) = log_ending(format!("parameter {name}")) {
+                tracing::info!(
+                    "parameter {name} is {}{before}: asked for by {requester}{more}",
+                    show(value)
+                );
+            }
         }
         if let Some(observer) = self.observer.get() {
             observer(&changed);

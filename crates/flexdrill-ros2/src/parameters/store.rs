@@ -326,7 +326,11 @@ mod tests {
             assert_eq!(new.number("friction.inner"), Some(0.4));
             assert_eq!((changed.len(), changed[0].name.as_str()), (1, "friction.inner"));
             new.set_range("friction.inner", range(0.0, 0.5));
-            Err(ConfigError::UnknownKey { key: "friction".into() }.into())
+            Err(ConfigError::UnknownKey {
+                key: "friction".into(),
+                meant: None,
+            }
+            .into())
         });
         assert!(refused.is_err());
         assert_eq!(store.describe("friction.inner").floating_point_range[0].to_value, 1.0);

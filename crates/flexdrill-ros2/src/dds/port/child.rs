@@ -19,6 +19,7 @@ use crate::dds::frames::{self, Beat, FromSide, LogLevel, Stall, ToSide};
 use crate::dds::plan::{GuidPrefix, Plan};
 use crate::dds::side::{LAST_REPLIES, SUBCOMMAND};
 use flexdrill_realtime::monotonic;
+use flexdrill_text::log_ending;
 
 /// Longest write before the state of the process is checked.
 const WRITE: Duration = Duration::from_millis(100);
@@ -323,7 +324,9 @@ impl ChildReader {
              readers get theirs",
             stall.topic
         );
-        tracing::warn!("{text}");
+        if let Some(more) = log_ending("stalled reader") {
+            tracing::warn!("{text}{more}");
+        }
         self.shared.health().stalled = Some((monotonic::now(), text));
     }
 }

@@ -77,7 +77,7 @@ struct RequestFilter {
 }
 
 /// Least time between two lines about refused requests (s).
-const REFUSAL_INTERVAL: f64 = 1.0;
+const REFUSAL_INTERVAL: f64 = flexdrill_text::LOG_INTERVAL;
 
 impl Shared {
     fn health(&self) -> MutexGuard<'_, Health> {

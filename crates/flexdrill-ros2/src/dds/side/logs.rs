@@ -1,4 +1,4 @@
-//! Log lines of the DDS library. Errors are forwarded to the node's log, a few per second. One kind of debug line names a
+//! Log lines of the DDS library. Errors are forwarded to the node's log, one per place in the library and ten seconds. One kind of debug line names a
 //! reader that does not acknowledge samples, and one kind of error shows that discovery is jammed.
 
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -9,6 +9,7 @@ use log::{Level, LevelFilter, Log, Metadata, Record};
 
 use super::outlet::Outlet;
 use crate::dds::frames::LogLevel;
+use flexdrill_text::log_ending;
 
 /// Target of the lines in which RustDDS names the readers to which it sends samples again.
 const REPAIR_TARGET: &str = "rustdds::rtps::writer";
@@ -18,8 +19,6 @@ const REPAIR_LINE: (&str, &str) = ("Repair data send to ", ". ReaderProxy");
 const BROKEN_ANNOUNCEMENT: &str = "spdp_receive:";
 /// Broken announcements within this time were in the queue together.
 const TOGETHER: Duration = Duration::from_millis(2);
-/// Most lines per second in the log: the library writes one for every broken packet.
-const MOST_LINES: u32 = 5;
 /// Most readers remembered.
 const MOST_REPAIRED: usize = 256;
 
@@ -30,16 +29,7 @@ struct SideLog {
     level: LevelFilter,
     watchers: AtomicU32,
     repaired: Mutex<Vec<String>>,
-    throttle: Mutex<Throttle>,
     jam: Mutex<Jam>,
-}
-
-/// Lines of the present second.
-#[derive(Default)]
-struct Throttle {
-    began: Option<Instant>,
-    passed: u32,
-    held_back: u64,
 }
 
 /// Announcements that could not be decoded.
@@ -67,7 +57,6 @@ pub(super) fn start(outlet: &Outlet) {
         level,
         watchers: AtomicU32::new(0),
         repaired: Mutex::default(),
-        throttle: Mutex::default(),
         jam: Mutex::default(),
     });
     if log::set_logger(log).is_ok() {
@@ -104,24 +93,6 @@ impl Drop for RepairWatch {
         {
             log::set_max_level(log.level);
         }
-    }
-}
-
-impl Throttle {
-    /// How many lines were held back since the last one, if a line may be logged at `now`.
-    fn pass(&mut self, now: Instant) -> Option<u64> {
-        if self
-            .began
-            .is_none_or(|began| now.saturating_duration_since(began) >= Duration::from_secs(1))
-        {
-            (self.began, self.passed) = (Some(now), 0);
-        }
-        if self.passed < MOST_LINES {
-            self.passed += 1;
-            return Some(std::mem::take(&mut self.held_back));
-        }
-        self.held_back += 1;
-        None
     }
 }
 
@@ -174,23 +145,24 @@ impl Log for SideLog {
                 self.note_broken_announcement(now);
             }
             let passed = if self.level == LevelFilter::Error {
-                self.throttle.lock().unwrap_or_else(PoisonError::into_inner).pass(now)
+                // The library writes a line for every broken packet.
+                log_ending(place(record))
             } else {
                 // RUST_LOG requests all lines.
-                Some(0)
+                Some(String::new())
             };
-            if let Some(held_back) = passed {
-                let more = if held_back > 0 {
-                    format!(" ({held_back} more lines of the DDS library since the last one)")
-                } else {
-                    String::new()
-                };
+            if let Some(more) = passed {
                 self.outlet.log(level, format!("{}: {line}{more}", record.target()));
             }
         }
     }
 
     fn flush(&self) {}
+}
+
+/// The place in the library that writes a line: the cause, whatever a peer has sent.
+fn place(record: &Record<'_>) -> String {
+    format!("{}:{}", record.target(), record.line().unwrap_or_default())
 }
 
 fn repaired_reader(line: &str) -> Option<&str> {
@@ -202,14 +174,19 @@ fn repaired_reader(line: &str) -> Option<&str> {
 mod tests {
     use super::*;
 
+    /// The library writes a line for every broken packet; the place is the cause, whatever the packet holds.
     #[test]
-    fn a_flood_of_lines_is_counted_not_written() {
-        let mut throttle = Throttle::default();
-        let start = Instant::now();
-        let passed = (0..1000).filter(|_| throttle.pass(start).is_some()).count();
-        assert_eq!(passed, 5);
-        assert_eq!(throttle.pass(start + Duration::from_secs(1)), Some(995));
-        assert_eq!(throttle.pass(start + Duration::from_secs(1)), Some(0));
+    fn lines_of_one_place_are_one_cause() {
+        let passed = (0..1000).filter(|number| {
+            let text = format_args!("packet {number} is broken");
+            let record = Record::builder()
+                .target("a test's library")
+                .line(Some(7))
+                .args(text)
+                .build();
+            log_ending(place(&record)).is_some()
+        });
+        assert_eq!(passed.count(), 1);
     }
 
     #[test]
