@@ -69,6 +69,7 @@ recording=$(find "$scratch/recordings" -mindepth 1 -maxdepth 1 -type d)
 
 say "what belongs to it"
 for file in etc/flexdrill/environment usr/lib/systemd/system/flexdrill.service usr/lib/sysusers.d/flexdrill.conf \
+    usr/lib/systemd/system/flexdrill-dashboard.service usr/lib/systemd/system/flexdrill-bridge.service \
     usr/share/flexdrill/flexdrill.schema.json usr/share/man/man1/flexdrill.1.gz usr/share/man/man1/flexdrill-run.1.gz \
     usr/share/bash-completion/completions/flexdrill; do
     [ -s "$scratch/root/$file" ] || fail "the package lacks $file"
@@ -78,14 +79,16 @@ for script in postinst postrm; do sh -n "$scratch/control/$script"; done
 bash -n "$scratch/root/usr/share/bash-completion/completions/flexdrill"
 
 if command -v systemd-analyze >/dev/null; then
-    # The unit names /usr/bin/flexdrill; here it is looked at where it was unpacked.
-    sed "s|/usr/bin/flexdrill|$installed|; s/^User=.*/User=root/; s/^Group=.*/Group=root/" \
-        "$scratch/root/usr/lib/systemd/system/flexdrill.service" >"$scratch/flexdrill.service"
-    said=$(systemd-analyze verify --man=no "$scratch/flexdrill.service" 2>&1) || fail "systemd-analyze verify: $said"
-    [ -z "$said" ] || say "systemd-analyze verify: $said"
-    # 0 is closed, 10 is open; a service that has the network cannot be below 1.
-    systemd-analyze security --offline=yes --threshold=25 "$scratch/flexdrill.service" | tail -n 1 ||
-        fail "flexdrill.service is more open than it was"
+    for unit in flexdrill flexdrill-dashboard flexdrill-bridge; do
+        # The unit names /usr/bin/flexdrill; here it is looked at where it was unpacked.
+        sed "s|/usr/bin/flexdrill|$installed|; s/^User=.*/User=root/; s/^Group=.*/Group=root/" \
+            "$scratch/root/usr/lib/systemd/system/$unit.service" >"$scratch/$unit.service"
+        said=$(systemd-analyze verify --man=no "$scratch/$unit.service" 2>&1) || fail "systemd-analyze verify: $said"
+        [ -z "$said" ] || say "systemd-analyze verify: $said"
+        # 0 is closed, 10 is open; a service that has the network cannot be below 1.
+        systemd-analyze security --offline=yes --threshold=25 "$scratch/$unit.service" | tail -n 1 ||
+            fail "$unit.service is more open than it was"
+    done
 else
     not_checked "the unit file: no systemd-analyze here"
 fi

@@ -16,10 +16,13 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-import numpy as np
-from mcap.reader import make_reader
-from mcap_ros2.decoder import DecoderFactory
-from ruamel.yaml import YAML
+try:
+    import numpy as np
+    from mcap.reader import make_reader
+    from mcap_ros2.decoder import DecoderFactory
+    from ruamel.yaml import YAML
+except ImportError as missing:
+    raise SystemExit(f"{missing.name} is missing: pip install mcap==1.6.0 mcap-ros2-support==0.6.0 numpy ruamel.yaml") from None
 
 read_yaml = YAML(typ="safe", pure=True).load
 RPM = 2 * np.pi / 60

@@ -1,4 +1,4 @@
-"""Reads a recording with rosbags and plots orbits and forces (pip install rosbags==0.11.9 matplotlib==3.10.8).
+"""Reads a recording with rosbags and plots orbits and forces (pip install rosbags==0.11.9 matplotlib==3.10.8 numpy).
 
     flexdrill replay config/field_logs/demo.csv --out run        # or: flexdrill run --record run
     python3 docs/examples/plot_recording.py run --out run.png
@@ -10,12 +10,15 @@ record` has made is read in the same way.
 import argparse
 from pathlib import Path
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")  # into a file; leave it out to plot on a screen
-import matplotlib.pyplot as plt
-import numpy as np
-from rosbags.highlevel import AnyReader
+    matplotlib.use("Agg")  # into a file; leave it out to plot on a screen
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from rosbags.highlevel import AnyReader
+except ImportError as missing:
+    raise SystemExit(f"{missing.name} is missing: pip install rosbags==0.11.9 matplotlib==3.10.8 numpy") from None
 
 
 def read(bag, names):

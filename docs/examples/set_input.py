@@ -9,11 +9,14 @@ import os
 import time
 from dataclasses import dataclass
 
-from cyclonedds.domain import DomainParticipant
-from cyclonedds.idl import IdlStruct, annotations
-from cyclonedds.idl.types import float64
-from cyclonedds.pub import DataWriter
-from cyclonedds.topic import Topic
+try:
+    from cyclonedds.domain import DomainParticipant
+    from cyclonedds.idl import IdlStruct, annotations
+    from cyclonedds.idl.types import float64
+    from cyclonedds.pub import DataWriter
+    from cyclonedds.topic import Topic
+except ImportError as missing:
+    raise SystemExit(f"{missing.name} is missing: pip install cyclonedds==11.0.1") from None
 
 
 @dataclass

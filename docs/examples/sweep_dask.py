@@ -5,14 +5,17 @@
 
 DIR must be the same folder on every worker's machine. Every task computes a part of the points; a task whose worker is
 lost runs again on another one, and computes only what has no result yet. Needs the package `distributed` here and on the
-workers, and the program `flexdrill` (or FLEXDRILL_BINARY) there.
+workers (pip install distributed), and the program `flexdrill` (or FLEXDRILL_BINARY) there.
 """
 
 import os
 import subprocess
 import sys
 
-from distributed import Client, as_completed
+try:
+    from distributed import Client, as_completed
+except ImportError as missing:
+    raise SystemExit(f"{missing.name} is missing: pip install distributed") from None
 
 
 def work(program: str, folder: str, part: int, parts: int) -> str:

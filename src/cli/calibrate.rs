@@ -6,6 +6,7 @@ use anyhow::Context as _;
 use clap::Args;
 
 use super::WrongUse;
+use super::built_in;
 use super::numbers;
 use super::progress::Progress;
 use super::source::{SourceArgs, is_bag};
@@ -65,7 +66,7 @@ pub(super) struct CalibrateArgs {
 /// # Errors
 /// When log or configuration cannot be read, nothing can be fitted, or a file cannot be written.
 pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
-    let config = Config::load(&args.config)?;
+    let (config, _) = built_in::load(&args.config)?;
     let samples = read(args, &config)?;
     let windows = windows::find(&samples, &WindowSettings::default());
     tell_windows(&samples, &windows);

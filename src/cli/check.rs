@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::built_in;
 use crate::cli::output::{say, say_text};
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::{JointKind, TorsionalMode};
@@ -32,7 +33,7 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
         say!("{}", serde_json::to_string_pretty(&flexdrill_config::json_schema())?);
         return Ok(());
     };
-    let config = Config::load(path)?;
+    let (config, _) = built_in::load(path)?;
     if args.full {
         say_text!("{}", config.to_yaml()?);
     } else {

@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::progress::Progress;
-use super::{WrongUse, numbers, signals};
+use super::{WrongUse, built_in, numbers, signals};
 use crate::ahead::keep_priority;
 use crate::cli::output::say;
 use crate::map::study::{self, Question};
 use crate::map::{picture, table};
 use flexdrill_alarms::Priority;
-use flexdrill_config::Config;
 use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::envelope::Envelope;
 use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, WEIGHT_ON_BIT};
@@ -125,7 +124,7 @@ fn grid(text: &str) -> Result<[usize; 2], String> {
 /// interrupted, or when no member of any run ended: then the map has the causes, and there is no envelope. Otherwise a run
 /// that fails is part of the map.
 pub fn run(args: &MapArgs) -> anyhow::Result<()> {
-    let config = Config::load(&args.config)?;
+    let (config, _) = built_in::load(&args.config)?;
     let config = flexdrill_bench::changed(config, None, &args.set)?;
     let question = question(args)?;
     let plan = study::plan(&args.config.display().to_string(), &config, &question)?;

@@ -6,7 +6,7 @@ use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use super::{WrongUse, numbers};
+use super::{WrongUse, built_in, numbers};
 use crate::cli::output::{say, tell};
 use crate::reach::{Kept, Load, Plan, picture, study, table};
 use flexdrill_config::{Config, Law};
@@ -60,7 +60,7 @@ const MOST_LINKS: usize = 500;
 /// When the configuration is refused or cannot be lengthened as asked, or a file cannot be written. A run without a
 /// steady result is part of the results.
 pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
-    let config = Config::load(&args.config)?;
+    let (config, _) = built_in::load(&args.config)?;
     let plan = plan(args, &config)?;
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     if config.contact.outer.friction == FrictionLaw::Separate {

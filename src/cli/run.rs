@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use clap::Args;
 
-use super::built_in::BuiltIn;
+use super::built_in::{self, BuiltIn};
 use super::{WrongUse, numbers, record_name, signals};
 use crate::alarms::state_file;
 use crate::bag::Losses;
@@ -167,8 +167,10 @@ fn chosen_config<'a>(option: Option<&'a Path>, named: Option<(&'a str, &str)>) -
 
 /// The configuration and the name of its source.
 pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Config, String)> {
-    let name = path.map_or_else(|| DEFAULT_CONFIG_NAME.to_owned(), |path| path.display().to_string());
-    Ok((BuiltIn::Default.or_file(path)?, name))
+    Ok(match path {
+        Some(path) => built_in::load(path)?,
+        None => (BuiltIn::Default.or_file(None)?, DEFAULT_CONFIG_NAME.to_owned()),
+    })
 }
 
 fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {

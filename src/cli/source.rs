@@ -9,8 +9,9 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 
 use super::WrongUse;
+use super::built_in::DemoLog;
 use crate::bag::{self, BagError};
-use crate::cli::output::tell_text;
+use crate::cli::output::{tell, tell_text};
 use crate::field_log::{self, InputSequence, Mapping, Position};
 use crate::messages::RigMeasured;
 use crate::messages::builtin_interfaces::Time;
@@ -84,6 +85,9 @@ pub(super) struct SourceArgs {
 /// # Errors
 /// When it cannot be read.
 pub(super) fn is_bag(path: &Path) -> anyhow::Result<bool> {
+    if DemoLog::at(path).is_some() {
+        return Ok(false);
+    }
     match bag::open(path) {
         Ok(_) => Ok(true),
         Err(BagError::NotABag { .. }) if path.is_file() => Ok(false),
@@ -158,16 +162,26 @@ impl SourceArgs {
     /// # Errors
     /// When log or mapping cannot be read.
     pub(super) fn log(&self, path: &Path) -> anyhow::Result<InputSequence> {
-        let mapping_file = match &self.mapping {
-            Some(file) => file.clone(),
-            None => only_mapping_in_folder_of(path)?,
+        let demo = DemoLog::at(path);
+        let mapping = match (&self.mapping, &demo) {
+            (Some(file), _) => Mapping::load(file)?,
+            (None, Some(demo)) => demo.mapping()?,
+            (None, None) => Mapping::load(only_mapping_in_folder_of(path)?)?,
         };
-        let mapping = Mapping::load(&mapping_file)?;
         let range = field_log::Range {
             from: self.from,
             to: self.to,
         };
-        let (sequence, report) = field_log::read_range(path, &mapping, &range)?;
+        let (sequence, report) = match demo {
+            Some(demo) => {
+                tell!(
+                    "{} is no file here: the built-in demonstration log is used",
+                    path.display()
+                );
+                field_log::read_bytes(demo.name(), demo.content(), &mapping, &range)?
+            }
+            None => field_log::read_range(path, &mapping, &range)?,
+        };
         tell_text!("{report}");
         Ok(sequence)
     }

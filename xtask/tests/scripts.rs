@@ -76,3 +76,31 @@ fn the_time_that_is_left_follows_the_share_that_is_done() {
     // Steps of an earlier build took no time: the one step that is done took all of these 100 s.
     assert!(time_left("380 390 400 100").contains("minutes left"));
 }
+
+/// What a user sees who has not installed anything: the packages, and no trace of calls.
+#[test]
+fn examples_name_the_packages_that_they_need() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples");
+    let mut tried = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "py") {
+            continue;
+        }
+        // Isolated, and without the packages of the machine.
+        let output = Command::new("python3").args(["-I", "-S"]).arg(&path).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(said.contains(" is missing: pip install "), "{}: {said}", path.display());
+        assert!(!said.contains("Traceback"), "{}: {said}", path.display());
+        let text = std::fs::read_to_string(&path).unwrap();
+        let needs = said.trim().rsplit_once("pip install ").unwrap().1;
+        let begin = text.split("import ").next().unwrap_or_default();
+        assert!(
+            begin.contains(needs),
+            "{}: its text does not name {needs}",
+            path.display()
+        );
+        tried += 1;
+    }
+    assert!(tried >= 4, "{tried}");
+}

@@ -36,10 +36,12 @@ pub enum ConfigError {
         problems: Vec<Problem>,
     },
     /// A key asked for by name (a parameter, a command line override) does not exist.
-    #[error("{key}: no such key in the configuration")]
+    #[error("{key}: no such key in the configuration{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
     UnknownKey {
         /// Dotted path.
         key: String,
+        /// Dotted path of the key that was probably meant, if one is similar.
+        meant: Option<String>,
     },
     /// A value set by name has the wrong type.
     #[error("{key} = {value}: {message}")]

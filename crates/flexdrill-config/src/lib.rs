@@ -272,9 +272,12 @@ impl Config {
         let mut schema = self.schema.clone();
         for (key, value) in values {
             let (key, value) = (key.as_ref(), value.into());
-            let node = tree
-                .pointer_mut(&pointer(key))
-                .ok_or_else(|| ConfigError::UnknownKey { key: key.to_string() })?;
+            let Some(node) = tree.pointer_mut(&pointer(key)) else {
+                return Err(ConfigError::UnknownKey {
+                    key: key.to_string(),
+                    meant: meant(key, &self.to_tree()),
+                });
+            };
             let wanted = kind(node);
             let mistyped = wanted != kind(&value);
             *node = value.clone();
@@ -451,6 +454,36 @@ fn hex_of(bytes: &[u8]) -> String {
 }
 
 /// The JSON pointer of a dotted key.
+/// The dotted path of the number, word or list of `tree` that was probably meant by `key`: misspelt, or in another section.
+fn meant(key: &str, tree: &Value) -> Option<String> {
+    let mut known = Vec::new();
+    leaves(tree, "", &mut known);
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let misspelt = reading::nearest(key, known.iter().map(String::as_str)).map(str::to_owned);
+    misspelt.or_else(|| {
+        let mut elsewhere = known.iter().filter(|path| last(path) == last(key));
+        // Several sections with the key are no hint.
+        elsewhere.next().filter(|_| elsewhere.next().is_none()).cloned()
+    })
+}
+
+/// The dotted paths of all values that are no mapping.
+fn leaves(tree: &Value, path: &str, into: &mut Vec<String>) {
+    match tree {
+        Value::Object(map) => {
+            for (key, value) in map {
+                let below = if path.is_empty() {
+                    key.clone()
+                } else {
+                    format!("{path}.{key}")
+                };
+                leaves(value, &below, into);
+            }
+        }
+        _ => into.push(path.to_owned()),
+    }
+}
+
 fn pointer(key: &str) -> String {
     format!("/{}", key.replace('.', "/"))
 }

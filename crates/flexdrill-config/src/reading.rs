@@ -57,7 +57,7 @@ pub fn alias_limits() -> serde_saphyr::options::AliasLimits {
 fn syntax_error(name: &str, text: &str, lines: &Lines, required: &[&str], error: &serde_saphyr::Error) -> ConfigError {
     let (mut line, mut column) = error.location().map_or((0, 0), |place| (place.line(), place.column()));
     let mut key = lines.key_at(line, column).to_string();
-    let mut message = plain_message(error);
+    let mut message = unknown_message(error).unwrap_or_else(|| plain_message(error));
     if let serde_saphyr::Error::SerdeMissingField { field, .. } = error.without_snippet() {
         // The reader notices a missing key only at the end of its parent, or later.
         let missing = required.iter().find(|path| {
@@ -94,6 +94,31 @@ fn plain_message(error: &serde_saphyr::Error) -> String {
     let text = error.without_snippet().to_string();
     let end = text.find(" at line ").unwrap_or(text.len());
     text[..end].trim_end_matches([',', ':', ' ']).to_string()
+}
+
+/// The message on a key or a word that is unknown, with the nearest known one.
+fn unknown_message(error: &serde_saphyr::Error) -> Option<String> {
+    let (what, word, expected) = match error.without_snippet() {
+        serde_saphyr::Error::SerdeUnknownField { field, expected, .. } => ("field", field, expected),
+        serde_saphyr::Error::SerdeUnknownVariant { variant, expected, .. } => ("variant", variant, expected),
+        _ => return None,
+    };
+    let near = nearest(word, expected.iter().copied())?;
+    Some(format!(
+        "unknown {what} `{word}`; did you mean `{near}`? Expected one of {}",
+        expected.join(", ")
+    ))
+}
+
+/// The known word that was probably meant; none where no word is similar.
+pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    /// Largest edit distance of a misspelt word, as on the command line.
+    const LARGEST_DISTANCE: usize = 2;
+    let (distance, near) = known
+        .map(|known| (strsim::damerau_levenshtein(word, known), known))
+        .min()?;
+    // A short word with every letter changed is another word.
+    (distance <= LARGEST_DISTANCE && distance < word.chars().count()).then_some(near)
 }
 
 fn wanted_scalar(message: &str) -> Option<&'static str> {

@@ -68,7 +68,18 @@ fn all_problems_are_reported_at_once() {
 fn unknown_keys_are_refused() {
     let error = error_of(&(GOOD.to_string() + "solver:\n  tim_step: 1e-4\n"));
     assert!(
-        error.starts_with("rig.yaml:11:3: solver.tim_step: unknown field `tim_step`"),
+        error.starts_with("rig.yaml:11:3: solver.tim_step: unknown field `tim_step`; did you mean `time_step`?"),
+        "{error}"
+    );
+    let error = error_of(&(GOOD.to_string() + "inputs: {driver: {policy: frist}}\n"));
+    assert!(
+        error.contains("unknown variant `frist`; did you mean `first`?"),
+        "{error}"
+    );
+    // No guess where no key is similar.
+    let error = error_of(&(GOOD.to_string() + "colour: red\n"));
+    assert!(
+        error.contains("unknown field `colour`") && !error.contains("did you mean"),
         "{error}"
     );
 }
@@ -194,8 +205,15 @@ fn values_change_by_key_and_are_checked() {
     );
     assert!(matches!(
         config.with_value("contact.inner.nose", 1.0),
-        Err(ConfigError::UnknownKey { .. })
+        Err(ConfigError::UnknownKey { meant: None, .. })
     ));
+    for (wrong, right) in [
+        ("contact.inner.friction_axail", "contact.inner.friction_axial"),
+        ("solver.links", "tool.links"),
+    ] {
+        let error = config.with_value(wrong, 1.0).unwrap_err().to_string();
+        assert!(error.ends_with(&format!("did you mean {right}?")), "{error}");
+    }
     assert!(matches!(
         config.with_value("solver.gamma", "x"),
         Err(ConfigError::WrongType { .. })

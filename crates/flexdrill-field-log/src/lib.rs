@@ -41,7 +41,7 @@ pub use mapping::{
 pub use mapping::{SpeedUnit, TorqueColumn, TorqueUnit, WeightUnit};
 pub use measured::{MeasuredRow, MeasuredSequence};
 pub use range::{Position, Range};
-pub use read::{read, read_range};
+pub use read::{read, read_bytes, read_range};
 pub use report::{Issue, IssueKind, Report, Summary, Tare, TorqueSummary};
 pub use sequence::{InputSequence, TimedInput};
 pub use time_format::TimeFormat;

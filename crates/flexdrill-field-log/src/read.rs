@@ -33,8 +33,21 @@ pub fn read_range(
     let path = path.as_ref();
     let name = path.display().to_string();
     let content = content_of(path, &name)?;
+    read_bytes(name, &content, mapping, range)
+}
+
+/// As [`read_range`], of the bytes of a log; errors name it `name`.
+///
+/// # Errors
+/// As [`read_range`].
+pub fn read_bytes(
+    name: String,
+    content: &[u8],
+    mapping: &Mapping,
+    range: &Range,
+) -> Result<(InputSequence, Report), FieldLogError> {
     let mut issues = Issues::default();
-    let mut table = read_table(&name, &content, mapping, &mut issues)?;
+    let mut table = read_table(&name, content, mapping, &mut issues)?;
     let tares = clean_and_weigh(&mut table.rows, mapping, &mut issues);
 
     let rows = &table.rows;
