@@ -147,6 +147,8 @@ struct Exchange {
     stop: Option<Arc<AtomicBool>>,
     /// Ends the running forecast, which yields to goals and searches.
     forecast: Option<Arc<AtomicBool>>,
+    /// Whether no goal interrupts the search and the forecast.
+    kept: bool,
 }
 
 /// What is asked and what was found.
@@ -215,6 +217,25 @@ impl Advisor {
         let mut exchange = self.lock();
         exchange.interrupt();
         stop(&mut exchange.forecast);
+    }
+
+    /// As [`Advisor::interrupt`], for a goal that has come; a turn that is kept goes on.
+    pub fn yield_to_goal(&self) {
+        let mut exchange = self.lock();
+        if !exchange.kept {
+            exchange.interrupt();
+            stop(&mut exchange.forecast);
+        }
+    }
+
+    /// Begins or ends a turn that no goal interrupts.
+    pub fn keep(&self, kept: bool) {
+        self.lock().kept = kept;
+    }
+
+    /// Whether no goal interrupts the search and the forecast now.
+    pub fn is_kept(&self) -> bool {
+        self.lock().kept
     }
 
     /// Lets what is asked count as settled.
@@ -465,6 +486,22 @@ mod tests {
             assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
         }
         assert!(advisor.due().is_none());
+    }
+
+    /// A client that sends goals without end would otherwise end every search that begins.
+    #[test]
+    fn a_turn_that_is_kept_does_not_give_way_to_goals_and_ends_with_the_node() {
+        let advisor = asked(SETTLED);
+        let (_, search) = advisor.due().unwrap();
+        advisor.yield_to_goal();
+        assert!(search.load(Ordering::Relaxed));
+        advisor.keep(true);
+        let (_, search) = advisor.due().unwrap();
+        let forecast = advisor.forecasts();
+        advisor.yield_to_goal();
+        assert!(!search.load(Ordering::Relaxed) && !forecast.load(Ordering::Relaxed));
+        advisor.interrupt();
+        assert!(search.load(Ordering::Relaxed) && forecast.load(Ordering::Relaxed));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The standing forecast, between the thread that looks ahead and the publisher's thread, which knows what came.
 
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use super::what_if_messages::of_alarm;
 use crate::ahead::{Forecast, HORIZON, Held, Signal, widened};
@@ -8,6 +9,7 @@ use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::diagnostic_msgs::DiagnosticStatus;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{self as messages, ForecastBand};
 
@@ -24,18 +26,62 @@ pub struct Issued {
     pub forecast: Result<Forecast, String>,
 }
 
-/// The newest forecast, until the publisher takes it.
+/// A forecast is late after so long without one: three times the interval of forecasts.
+const LATE: Duration = Duration::from_secs(90);
+
+/// What the look-ahead does while no forecast comes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Busy {
+    /// The node starts.
+    #[default]
+    Starting,
+    /// Model time stands still.
+    StandsStill,
+    /// It answers goals of `~/what_if`.
+    Goals,
+    /// It searches for advice on an alarm.
+    Advice,
+    /// It makes the forecast.
+    Forecast,
+}
+
+impl Busy {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Starting => "the node has just started",
+            Self::StandsStill => "model time stands still",
+            Self::Goals => "the look-ahead answers goals of ~/what_if; cancel those that are not needed",
+            Self::Advice => "the look-ahead searches for advice on an alarm",
+            Self::Forecast => "the computer is busy with other work, or searches for advice interrupt the forecast",
+        }
+    }
+}
+
+/// The newest forecast, until the publisher takes it, and what the look-ahead does meanwhile.
 #[derive(Debug, Default)]
-pub struct Forecasts(Mutex<Option<Issued>>);
+pub struct Forecasts {
+    newest: Mutex<Option<Issued>>,
+    busy: Mutex<Busy>,
+}
 
 impl Forecasts {
     /// Leaves a forecast for the publisher.
     pub fn put(&self, issued: Issued) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(issued);
+        *self.newest.lock().unwrap_or_else(PoisonError::into_inner) = Some(issued);
+    }
+
+    /// Says what the look-ahead does now.
+    pub fn note(&self, busy: Busy) {
+        *self.busy.lock().unwrap_or_else(PoisonError::into_inner) = busy;
     }
 
     fn take(&self) -> Option<Issued> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+        self.newest.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn why_none(&self, since: Duration) -> String {
+        let busy = *self.busy.lock().unwrap_or_else(PoisonError::into_inner);
+        format!("no forecast for {} s: {}", since.as_secs(), busy.words())
     }
 }
 
@@ -44,8 +90,11 @@ pub struct ForecastDesk {
     forecasts: Arc<Forecasts>,
     time_step: f64,
     held: Held,
-    /// Time (s of the run) and step of the newest frame.
-    now: (f64, u64),
+    /// When the newest forecast came, and when its absence was last reported.
+    came: Instant,
+    missed: Instant,
+    /// Ticks and step of the newest frame.
+    newest: [u64; 2],
     /// Speed (rad/s) and weight (N) that are asked for.
     asked: Option<[f64; 2]>,
     /// What the published forecast is of, until it is given up.
@@ -66,11 +115,14 @@ struct Minute {
 impl ForecastDesk {
     /// A desk that takes `forecasts`.
     pub fn new(forecasts: Arc<Forecasts>, config: &Config) -> Self {
+        let now = Instant::now();
         Self {
             forecasts,
             time_step: config.solver.time_step,
             held: Held::new(&config.inputs),
-            now: (0.0, 0),
+            came: now,
+            missed: now,
+            newest: [0; 2],
             asked: None,
             standing: None,
         }
@@ -84,7 +136,7 @@ impl ForecastDesk {
     /// Takes what came.
     pub fn observe(&mut self, frame: &Frame) {
         let time = frame.ticks as f64 * self.time_step;
-        self.now = (time, frame.snapshot.step);
+        self.newest = [frame.ticks, frame.snapshot.step];
         if frame.ends_interval.contacts {
             self.held.peaks(time, &frame.snapshot);
         }
@@ -93,10 +145,10 @@ impl ForecastDesk {
         }
     }
 
-    /// What is to be published, as a message: the forecast that has arrived, or why the published one is given up. `instant`
-    /// gives the time of a tick (ns).
+    /// What is to be published, as a message: the forecast that has arrived, why the published one is given up, or after
+    /// [`LATE`] why none has arrived. `instant` gives the time of a tick (ns).
     pub fn take(&mut self, frame_id: &str, instant: impl Fn(u64) -> i64) -> Option<messages::Forecast> {
-        let Some(issued) = self.forecasts.take() else {
+        let Some(issued) = self.issued(Instant::now()) else {
             let minute = self.standing?;
             let why = self.gone(&minute)?;
             self.standing = None;
@@ -138,7 +190,8 @@ impl ForecastDesk {
 
     /// Why a forecast is not one of the next minute at the speed and weight that are asked for; `None` where it is.
     fn gone(&self, minute: &Minute) -> Option<String> {
-        let (time, step) = self.now;
+        let [ticks, step] = self.newest;
+        let time = ticks as f64 * self.time_step;
         let words =
             |[speed, weight]: [f64; 2]| format!("{:.1} r/min and {:.1} kN", rad_per_s_to_rpm(speed), n_to_kn(weight));
         let made_for = words(minute.targets);
@@ -158,6 +211,41 @@ impl ForecastDesk {
             ))
         } else {
             None
+        }
+    }
+
+    /// What is to be published at `now`.
+    fn issued(&mut self, now: Instant) -> Option<Issued> {
+        if let Some(issued) = self.forecasts.take() {
+            (self.came, self.missed) = (now, now);
+            return Some(issued);
+        }
+        if now.duration_since(self.missed) < LATE {
+            return None;
+        }
+        self.missed = now;
+        let [ticks, step] = self.newest;
+        Some(Issued {
+            ticks,
+            step,
+            targets: [f64::NAN; 2],
+            forecast: Err(self.forecasts.why_none(now.duration_since(self.came))),
+        })
+    }
+
+    /// The item of `/diagnostics` on the look-ahead of the node with this name. The alarms alone decide levels.
+    pub fn item(&self, node: &str, now: Instant) -> DiagnosticStatus {
+        let since = now.duration_since(self.came);
+        DiagnosticStatus {
+            level: DiagnosticStatus::OK,
+            name: format!("{node}: look_ahead"),
+            message: if since < LATE {
+                format!("the newest forecast came {} s ago", since.as_secs())
+            } else {
+                self.forecasts.why_none(since)
+            },
+            hardware_id: "flexdrill".into(),
+            ..DiagnosticStatus::default()
         }
     }
 
@@ -319,5 +407,34 @@ mod tests {
         assert_eq!(taken(&mut desk).unwrap().0, 4);
         at(&mut desk, 1.0);
         assert!(taken(&mut desk).unwrap().1.contains("was reset"));
+    }
+
+    #[test]
+    fn a_forecast_that_stays_away_is_reported_with_its_reason() {
+        let (mut desk, forecasts) = desk();
+        let begin = desk.came;
+        let after = |seconds: u64| begin + Duration::from_secs(seconds);
+        forecasts.note(Busy::Goals);
+        assert!(desk.issued(after(89)).is_none());
+        let why = desk.issued(after(90)).unwrap().forecast.unwrap_err();
+        assert!(
+            why.starts_with("no forecast for 90 s") && why.contains("~/what_if"),
+            "{why}"
+        );
+        assert_eq!(desk.item("/twin", after(95)).message, why.replace("90 s", "95 s"));
+        // It is reported again, and one that comes ends it.
+        assert!(desk.issued(after(100)).is_none() && desk.issued(after(180)).is_some());
+        forecasts.put(Issued {
+            ticks: 1,
+            step: 1,
+            targets: [0.0; 2],
+            forecast: Err("the model failed".to_owned()),
+        });
+        assert_eq!(desk.issued(after(190)).unwrap().ticks, 1);
+        assert!(desk.issued(after(279)).is_none());
+        assert_eq!(
+            desk.item("/twin", after(191)).message,
+            "the newest forecast came 1 s ago"
+        );
     }
 }

@@ -28,6 +28,7 @@ mod setup;
 mod sinks;
 mod states;
 mod thinned;
+mod turns;
 pub mod viewers;
 mod what_if;
 mod what_if_messages;

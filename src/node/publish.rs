@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::alarms::{self, AlarmDesk};
 use super::clocks::Clocks;
@@ -35,7 +35,7 @@ use flexdrill_messages::{CdrError, Residuals, TwinStatus, to_cdr};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::Monitor;
-use flexdrill_text::{Throttle, Throttles};
+use flexdrill_text::{Throttle, Throttles, log_ending};
 
 /// How often the rings are polled: the delay that publishing adds.
 const POLL: Duration = Duration::from_millis(1);
@@ -181,7 +181,9 @@ impl Publisher {
         while let Ok(event) = self.parts.end.events.pop() {
             worked = true;
             if let Err(error) = self.publish_event(event) {
-                tracing::error!("a message could not be encoded: {error}");
+                if let Some(more) = log_ending("message not encoded") {
+                    tracing::error!("a message could not be encoded: {error}{more}");
+                }
             }
         }
         while let Ok(time) = self.parts.end.step_times.pop() {
@@ -293,8 +295,10 @@ impl Publisher {
                 Ok(())
             }
             LoopEvent::Recovered => {
-                if std::mem::take(&mut self.failure_logged) {
-                    tracing::info!("the model runs again");
+                if std::mem::take(&mut self.failure_logged)
+                    && let Some(more) = log_ending("the model runs again")
+                {
+                    tracing::info!("the model runs again{more}");
                 }
                 self.failure = None;
                 Ok(())
@@ -378,15 +382,19 @@ impl Publisher {
     fn log_lateness(&mut self, status: &TwinStatus) {
         match status.pace {
             TwinStatus::PACE_FAR_BEHIND if !self.late => {
-                tracing::warn!(
-                    "not in real time: {}; close other programs and viewers, set solver.step: fixed for the next run, or \
-                     use a computer with faster cores",
-                    not_in_real_time(status.pace_factor)
-                );
+                if let Some(more) = log_ending("not in real time") {
+                    tracing::warn!(
+                        "not in real time: {}; close other programs and viewers, set solver.step: fixed for the next run, \
+                         or use a computer with faster cores{more}",
+                        not_in_real_time(status.pace_factor)
+                    );
+                }
                 self.late = true;
             }
             TwinStatus::PACE_KEPT if self.late => {
-                tracing::info!("the model keeps real time again");
+                if let Some(more) = log_ending("real time again") {
+                    tracing::info!("the model keeps real time again{more}");
+                }
                 self.late = false;
             }
             _ => {}
@@ -397,8 +405,10 @@ impl Publisher {
     /// nodes receive the rig's inputs and publish on the same topics.
     fn log_namesakes(&mut self, status: &TwinStatus) {
         if status.namesake.is_empty() {
-            if std::mem::take(&mut self.namesake) {
-                tracing::info!("the other node with the name of this one has gone");
+            if std::mem::take(&mut self.namesake)
+                && let Some(more) = log_ending("namesake gone")
+            {
+                tracing::info!("the other node with the name of this one has gone{more}");
             }
             return;
         }
@@ -430,9 +440,13 @@ impl Publisher {
             now: self.parts.clocks.age_time(),
             residuals: self.residuals.as_ref(),
         };
+        let node = &self.parts.node_name;
+        let mut status = diagnostics::items(node, &self.newest_status, &rig, &self.motion, &alarms);
+        let look_ahead = self.parts.forecasts.as_ref();
+        status.extend(look_ahead.map(|desk| desk.item(node, Instant::now())));
         let message = DiagnosticArray {
             header: self.header(),
-            status: diagnostics::items(&self.parts.node_name, &self.newest_status, &rig, &self.motion, &alarms),
+            status,
         };
         self.parts.send_message(&topics::DIAGNOSTICS, &message, self.instant());
     }

@@ -67,12 +67,15 @@ impl SampleReceiver {
             return;
         }
         let mut warned = self.warned.lock().unwrap_or_else(PoisonError::into_inner);
-        if warned.len() < MOST_WARNED && warned.insert(id) {
+        if warned.len() < MOST_WARNED
+            && warned.insert(id)
+            && let Some(more) = log_ending(format!("zeros on {}", topic.name))
+        {
             let peer = self.dds.writers().into_iter().flatten().find(|peer| peer.id == id.0);
             let who = peer.map_or_else(|| "a publisher".to_owned(), |peer| peer.to_string());
             tracing::warn!(
                 "{}: {who} leaves values at 0 and does not say in the field `given` which of its values are measured: they are \
-                 not used. Set `given`, or set values that are not measured to NaN",
+                 not used. Set `given`, or set values that are not measured to NaN{more}",
                 topic.name
             );
         }

@@ -1,7 +1,8 @@
 //! The action `~/what_if`: what the tool would do under other speeds and weights, from the present state of the live run.
 //!
-//! One goal runs at a time, on threads of low priority; up to [`MOST_WAITING`] wait. ROS 2 has no words for a goal that is
-//! not accepted: the reason is in the log, and in the answer to a client that asks for the result nevertheless.
+//! One goal runs at a time, on threads of low priority; up to [`MOST_WAITING`] wait. The search for advice and the forecast
+//! run when no goal is open, and have turns next to goals ([`turns`]). ROS 2 has no words for a goal that is not accepted:
+//! the reason is in the log, and in the answer to a client that asks for the result nevertheless.
 
 use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
@@ -14,8 +15,9 @@ use super::NodeError;
 use super::advisor::Advisor;
 use super::clocks::Clocks;
 use super::control::Control;
-use super::forecast::{Forecasts, Issued};
+use super::forecast::{Busy, Forecasts, Issued};
 use super::states::SavedRun;
+use super::turns::{self, Turn, Turns};
 use super::what_if_messages::{feedback, goal, of_candidate, sentence};
 use crate::ahead::{Start, forecast, look_ahead, search};
 use flexdrill_config::Config;
@@ -31,6 +33,7 @@ use flexdrill_ros2::action::{Accepted, ActionEnds, Begun, GoalId, Goals};
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
 use flexdrill_ros2::service::{ServiceMapping, Task, asked_by, at_once};
+use flexdrill_text::log_ending;
 
 /// Goals that may wait while one runs.
 const MOST_WAITING: usize = 4;
@@ -110,11 +113,15 @@ impl WhatIf {
         let id = request.goal_id.uuid;
         let refusal = match self.take(id, stamp.clone(), request.goal) {
             Ok(before) => {
-                tracing::info!("what if: a goal is accepted, {before} before it{}", asked_by());
+                if let Some(more) = log_ending("goal accepted") {
+                    tracing::info!("what if: a goal is accepted, {before} before it{}{more}", asked_by());
+                }
                 None
             }
             Err(why) => {
-                tracing::warn!("what if: a goal is refused: {why}{}", asked_by());
+                if let Some(more) = log_ending("goal refused") {
+                    tracing::warn!("what if: a goal is refused: {why}{}{more}", asked_by());
+                }
                 Some(why)
             }
         };
@@ -132,10 +139,10 @@ impl WhatIf {
         goal(&asked)
             .check(&self.control.config())
             .map_err(|error| error.to_string())?;
-        // A question of a person comes before the search for advice.
-        self.advisor.interrupt();
         match self.change(|goals| goals.accept(id, stamp, asked)) {
             Accepted::Waits(before) => {
+                // A question of a person comes before the search for advice, unless that has its turn.
+                self.advisor.yield_to_goal();
                 *self.accepted.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
                 Ok(before)
             }
@@ -214,6 +221,11 @@ impl WhatIf {
         self.goals().is_waiting() || self.is_ending()
     }
 
+    /// Whether a goal runs or waits.
+    fn is_open(&self) -> bool {
+        self.goals().is_open()
+    }
+
     /// What is to be done next; waits a moment for it.
     fn next(&self) -> Next {
         let mut goals = self.goals();
@@ -242,7 +254,11 @@ fn unbegun() -> WhatIfResult {
 fn publish(to: &TopicPublisher, message: &impl serde::Serialize) {
     match to_cdr_body(message) {
         Ok(body) => to.publish(body),
-        Err(error) => tracing::error!("what if: a message could not be encoded: {error}"),
+        Err(error) => {
+            if let Some(more) = log_ending("goal not encoded") {
+                tracing::error!("what if: a message could not be encoded: {error}{more}");
+            }
+        }
     }
 }
 
@@ -280,7 +296,9 @@ pub fn serve(
                 .serve(at_once(move |request: WhatIfSendGoalRequest| accepting.accept(request))),
         ),
         Box::pin(ends.cancel_goal.serve(at_once(move |request: CancelGoalRequest| {
-            tracing::info!("what if: goals are cancelled{}", asked_by());
+            if let Some(more) = log_ending("goals cancelled") {
+                tracing::info!("what if: goals are cancelled{}{more}", asked_by());
+            }
             cancelling.change(|goals| goals.cancel(&request, unbegun))
         }))),
         Box::pin(
@@ -310,17 +328,52 @@ pub struct Answering {
 impl Answering {
     /// Answers goals until the node ends.
     pub fn run(self) {
+        std::thread::scope(|scope| {
+            let others = std::thread::Builder::new().name("advice".to_owned());
+            if let Err(error) = others.spawn_scoped(scope, || self.take_turns())
+                && let Some(more) = log_ending("no thread for advice")
+            {
+                tracing::error!("no thread for advice and forecast: {error}; there are none{more}");
+            }
+            self.answer_goals();
+        });
+    }
+
+    /// Searches for advice and forecasts until the node ends: while no goal is open, and in turns next to goals.
+    fn take_turns(&self) {
+        let (mut tool, mut forecast_at, mut turns) = (None, Instant::now(), Turns::default());
+        while !self.what_if.is_ending() {
+            let turn = turns.next(self.what_if.is_open(), Instant::now());
+            let Some(turn) = turn else {
+                self.note(Busy::Goals);
+                std::thread::sleep(IDLE);
+                continue;
+            };
+            self.advisor.keep(turn == Turn::Kept);
+            self.advise(&mut tool);
+            self.forecast(&mut tool, &mut forecast_at);
+            self.advisor.keep(false);
+            if turn == Turn::Kept {
+                turns.ended(Instant::now());
+            }
+            std::thread::sleep(IDLE);
+        }
+    }
+
+    /// Says what the look-ahead does, for the case that no forecast comes.
+    fn note(&self, busy: Busy) {
+        if let Some(forecasts) = &self.forecasts {
+            forecasts.note(busy);
+        }
+    }
+
+    fn answer_goals(&self) {
         // The tool is built once, when the first goal comes.
         let mut tool = None;
-        let mut forecast_at = Instant::now();
         loop {
             let begun = match self.what_if.next() {
                 Next::Goal(begun) => begun,
-                Next::Nothing => {
-                    self.advise(&mut tool);
-                    self.forecast(&mut tool, &mut forecast_at);
-                    continue;
-                }
+                Next::Nothing => continue,
                 Next::End => return,
             };
             self.what_if.change(|_| ());
@@ -328,7 +381,9 @@ impl Answering {
             let (status, result) = match self.answer(&begun, &mut tool) {
                 Ok(result) => (GoalStatus::STATUS_SUCCEEDED, result),
                 Err(message) => {
-                    tracing::warn!("what if: {message}");
+                    if let Some(more) = log_ending("goal aborted") {
+                        tracing::warn!("what if: {message}{more}");
+                    }
                     let result = WhatIfResult {
                         message,
                         ..WhatIfResult::default()
@@ -336,11 +391,13 @@ impl Answering {
                     (GoalStatus::STATUS_ABORTED, result)
                 }
             };
-            tracing::info!(
-                "what if: answered after {:.1} s: {}",
-                began.elapsed().as_secs_f64(),
-                result.message
-            );
+            if let Some(more) = log_ending("goal answered") {
+                tracing::info!(
+                    "what if: answered after {:.1} s: {}{more}",
+                    began.elapsed().as_secs_f64(),
+                    result.message
+                );
+            }
             self.what_if.change(|goals| goals.end(begun.id, status, result));
         }
     }
@@ -352,13 +409,17 @@ impl Answering {
         goal.check(&config).map_err(|error| error.to_string())?;
         let standing = self.control.stands_still();
         let (start, applied, ticks) = self.start(&config, tool)?;
-        let mut told = Instant::now();
-        let mut first = true;
+        let (began, mut told) = (Instant::now(), Instant::now());
+        let (mut first, mut stopped_by) = (true, "cancelled");
         let threads = config.look_ahead.threads as usize;
         let answer = look_ahead(&start, &goal, threads, &begun.stop, |progress| {
             if first || told.elapsed() >= FEEDBACK_INTERVAL {
                 (first, told) = (false, Instant::now());
                 publish(&self.what_if.feedback, &feedback(begun.id, &progress));
+            }
+            if turns::is_over(began.elapsed(), self.what_if.is_wanted()) && !begun.stop.load(Ordering::Relaxed) {
+                stopped_by = "ended after ten minutes, since other goals wait";
+                begun.stop.store(true, Ordering::Relaxed);
             }
         });
         Ok(WhatIfResult {
@@ -366,8 +427,11 @@ impl Answering {
             from_step: applied.step,
             complete: !answer.stopped,
             message: match standing {
-                Some(why) => format!("{why}; these runs begin at its present state. {}", sentence(&answer)),
-                None => sentence(&answer),
+                Some(why) => format!(
+                    "{why}; these runs begin at its present state. {}",
+                    sentence(&answer, stopped_by)
+                ),
+                None => sentence(&answer, stopped_by),
             },
             answers: answer.candidates.iter().map(of_candidate).collect(),
         })
@@ -399,11 +463,14 @@ impl Answering {
         let Some((asked, stop)) = self.advisor.due() else {
             return;
         };
+        self.note(Busy::Advice);
         let config = self.control.config();
         let start = match self.start(&config, tool) {
             Ok((start, ..)) => start,
             Err(message) => {
-                tracing::warn!("advice on {}: {message}", asked.leading.alarm.name());
+                if let Some(more) = log_ending("no advice") {
+                    tracing::warn!("advice on {}: {message}{more}", asked.leading.alarm.name());
+                }
                 return self.advisor.answer(asked, None);
             }
         };
@@ -412,15 +479,17 @@ impl Answering {
         if stop.load(Ordering::Relaxed) {
             return;
         }
-        tracing::info!(
-            "advice on {} after {:.1} s: {}",
-            asked.leading.alarm.name(),
-            began.elapsed().as_secs_f64(),
-            tested.map_or_else(
-                || "no change of speed or weight within the limits ends it in 9 of 10 runs".to_owned(),
-                |tested| tested.to_string()
-            )
-        );
+        let alarm = asked.leading.alarm.name();
+        if let Some(more) = log_ending(format!("advice on {alarm}")) {
+            tracing::info!(
+                "advice on {alarm} after {:.1} s: {}{more}",
+                began.elapsed().as_secs_f64(),
+                tested.map_or_else(
+                    || "no change of speed or weight within the limits ends it in 9 of 10 runs".to_owned(),
+                    |tested| tested.to_string()
+                )
+            );
+        }
         self.advisor.answer(asked, tested);
     }
 
@@ -429,12 +498,16 @@ impl Answering {
         let Some(forecasts) = &self.forecasts else {
             return;
         };
-        if Instant::now() < *at || self.gauges.run_state() != RunState::Running {
+        if self.gauges.run_state() != RunState::Running {
+            return forecasts.note(Busy::StandsStill);
+        }
+        if Instant::now() < *at {
             return;
         }
+        forecasts.note(Busy::Forecast);
         let stop = self.advisor.forecasts();
-        // A goal that came before the flag was there is not kept waiting.
-        if self.what_if.is_wanted() {
+        // A goal that came before the flag was there is not kept waiting, and neither is the end of the node.
+        if self.what_if.is_ending() || (self.what_if.is_open() && !self.advisor.is_kept()) {
             return;
         }
         let began = Instant::now();
@@ -453,7 +526,9 @@ impl Answering {
                 }
             }
             Err(why) => {
-                tracing::warn!("forecast: {why}");
+                if let Some(more) = log_ending("no forecast") {
+                    tracing::warn!("forecast: {why}{more}");
+                }
                 Issued {
                     ticks: self.gauges.ticks.load(Ordering::Relaxed),
                     step: self.gauges.step.load(Ordering::Relaxed),

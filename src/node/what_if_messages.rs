@@ -41,7 +41,7 @@ pub(super) fn feedback(id: GoalId, progress: &Progress) -> WhatIfFeedbackMessage
 }
 
 /// What was found, per candidate in the order of the goal.
-pub(super) fn sentence(answer: &Answer) -> String {
+pub(super) fn sentence(answer: &Answer, stopped_by: &str) -> String {
     let each = answer.candidates.iter().map(|of| {
         let (rpm, kn) = (of.candidate.rotary_speed, of.candidate.weight_on_bit);
         let found = match (of.any_alarm.of, of.any_alarm.seen) {
@@ -54,7 +54,7 @@ pub(super) fn sentence(answer: &Answer) -> String {
     });
     let each = each.collect::<Vec<_>>().join("; ");
     if answer.stopped {
-        format!("cancelled; until then: {each}")
+        format!("{stopped_by}; until then: {each}")
     } else {
         each
     }
