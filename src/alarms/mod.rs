@@ -35,7 +35,7 @@ pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};
 pub use request::Request;
-pub use rig::in_words;
+pub use rig::{Followed, in_words};
 pub use set::AlarmSet;
 pub(crate) use tool::called_at;
 
@@ -163,8 +163,11 @@ impl AlarmBook {
 
     /// Observes the comparison of rig and twin at the stamp of its snapshot. A standing alarm outlasts connections and
     /// other times in which nothing can be judged; a condition that has not annunciated begins again after them.
-    pub fn observe_rig(&mut self, compared: &Compared, bit_depth: f64, stamp: Time) {
-        match rig::finding(compared, bit_depth) {
+    /// `followed` is the friction that the twin has followed the rig to.
+    pub fn observe_rig(&mut self, compared: &Compared, followed: &Followed, bit_depth: f64, stamp: Time) {
+        let differs =
+            rig::finding(compared, bit_depth).filter(|finding| finding.priority.is_some() || !followed.is_far());
+        match differs.or_else(|| followed.finding()) {
             Some(finding) => {
                 self.rig_judged = stamp;
                 self.observe([(AlarmId::RigDisagrees, finding)], stamp);

@@ -59,6 +59,70 @@ const fn what_to_do(cause: Option<Cause>) -> &'static str {
     }
 }
 
+/// Factor of the friction, either way, beyond which a twin that follows the rig no longer is the tool of its configuration:
+/// the range in which friction wanders in an hour of drilling lies within it.
+const FAR: f64 = 1.25;
+
+/// The friction that the twin has followed the rig to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Followed {
+    /// Factor in force and configured factor.
+    pub factors: [f64; 2],
+    /// Whether a limit stops the following.
+    pub at_limit: bool,
+}
+
+impl Default for Followed {
+    /// A twin that follows nothing.
+    fn default() -> Self {
+        Self {
+            factors: [1.0; 2],
+            at_limit: false,
+        }
+    }
+}
+
+impl Followed {
+    fn ratio(&self) -> f64 {
+        self.factors[0] / self.factors[1]
+    }
+
+    /// Whether the comparison with the rig says little, because the twin was moved far to agree with it.
+    pub(super) fn is_far(&self) -> bool {
+        self.at_limit || !(1.0 / FAR..=FAR).contains(&self.ratio())
+    }
+
+    /// The finding on it, where it is far.
+    pub(super) fn finding(&self) -> Option<Finding> {
+        if !self.is_far() {
+            return None;
+        }
+        let [applied, configured] = self.factors.map(|factor| number(factor, 2).unwrap_or_default());
+        let limit = if self.at_limit { ", where a limit stops it" } else { "" };
+        Some(Finding {
+            priority: Some(Priority::Low),
+            value: self.ratio(),
+            threshold: if self.ratio() < 1.0 { 1.0 / FAR } else { FAR },
+            unit: "",
+            evidence: format!(
+                "The twin agrees with the rig only with a friction factor of {applied}{limit}; {configured} is configured."
+            ),
+            cause: "Likely friction has changed, the torque sensor drifts, or the bit takes another torque.".to_owned(),
+            consequence:
+                "Whirl and stick-slip are judged with that friction: with too little of it a whirl that goes on has \
+                          no alarm."
+                    .to_owned(),
+            what_to_do: what_to_do(Some(Cause::FrictionHigher)).to_owned(),
+            what_the_engineer_can_do:
+                "Compare the torque off bottom with that of the last connections. If the sensor is \
+                                       right, fit the friction to a log of today with flexdrill calibrate; if not, set \
+                                       calibration.follow to false and the factor back."
+                    .to_owned(),
+            ..Finding::default()
+        })
+    }
+}
+
 /// The finding on a comparison; `None` while nothing can be judged. `bit_depth` (m) is NaN where the rig does not give it.
 pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
     let (quantity, worst) = compared.worst()?;
@@ -156,6 +220,29 @@ mod tests {
             lost.evidence
         );
         assert!(lost.what_to_do.starts_with("Do not add weight"), "{}", lost.what_to_do);
+    }
+
+    /// A torque that drifts by a quarter moves the friction of a twin that follows, after which the two agree.
+    #[test]
+    fn a_twin_that_agrees_because_it_was_moved_far_says_so() {
+        let at = |factor: f64, at_limit: bool| Followed {
+            factors: [factor, 1.0],
+            at_limit,
+        };
+        for near in [0.8, 1.0, 1.25] {
+            assert_eq!(at(near, false).finding(), None, "{near}");
+        }
+        for far in [0.5, 0.79, 1.26, 2.0] {
+            let finding = at(far, false).finding().unwrap();
+            assert_eq!(finding.priority, Some(Priority::Low));
+            assert!(finding.evidence.contains("1.00 is configured"), "{}", finding.evidence);
+        }
+        let stopped = at(1.1, true).finding().unwrap();
+        assert!(
+            stopped.evidence.contains("where a limit stops it"),
+            "{}",
+            stopped.evidence
+        );
     }
 
     #[test]

@@ -53,6 +53,8 @@ pub(super) struct Pushed {
     pub(super) moved: Option<[[f64; 2]; 2]>,
     /// The limit that has begun to stop it.
     pub(super) stopped: Option<String>,
+    /// Whether a limit stops it.
+    pub(super) at_limit: bool,
 }
 
 impl Estimate {
@@ -124,6 +126,7 @@ impl Estimate {
         }
         Pushed {
             stopped: (self.stopped && !before).then(|| message.following_held.clone()),
+            at_limit: self.stopped,
             message,
             moved: moved.and_then(|moved| moved.to).map(|to| [applied, to]),
         }

@@ -15,7 +15,7 @@ use flexdrill_core::inputs::{InputState, MeasuredKind};
 use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
 use flexdrill_core::twin::{Frame, Snapshot};
 
-use crate::alarms::in_words;
+use crate::alarms::{Followed, in_words};
 use crate::messages;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Measured;
@@ -97,6 +97,24 @@ pub struct Comparison {
     pub moved: Option<[[f64; 2]; 2]>,
     /// The limit that has begun to stop them, in words.
     pub stopped: Option<String>,
+    /// Whether a limit stops them.
+    pub at_limit: bool,
+}
+
+impl Comparison {
+    /// The friction that the twin has followed the rig to.
+    pub fn followed(&self) -> Followed {
+        if !self.message.following {
+            return Followed::default();
+        }
+        Followed {
+            factors: [
+                self.message.applied_friction_factor,
+                self.message.configured_friction_factor,
+            ],
+            at_limit: self.at_limit,
+        }
+    }
 }
 
 /// The comparison of a run.
@@ -204,6 +222,7 @@ impl RigComparison {
             message: pushed.message,
             moved: pushed.moved,
             stopped: pushed.stopped,
+            at_limit: pushed.at_limit,
         })
     }
 }

@@ -118,7 +118,8 @@ impl AlarmDesk {
 
     /// Judges the comparison of rig and twin, at the stamp of its snapshot, and enters what was adjusted.
     pub fn observe_rig(&mut self, comparison: &Comparison, bit_depth: f64, stamp: Time) {
-        self.book.observe_rig(&comparison.compared, bit_depth, stamp);
+        self.book
+            .observe_rig(&comparison.compared, &comparison.followed(), bit_depth, stamp);
         self.book.observe_adjusted(&comparison.message, stamp);
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use flexdrill::alarms::{AlarmBook, AlarmId};
+use flexdrill::alarms::{AlarmBook, AlarmId, Followed};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill_alarms::Priority;
 use flexdrill_calibration::monitor::Compared;
@@ -44,7 +44,8 @@ impl Bench {
         for _ in 0..seconds {
             self.now += SECOND;
             self.book.advance(self.now);
-            self.book.observe_rig(&compared(measured), 1234.0, self.now);
+            self.book
+                .observe_rig(&compared(measured), &Followed::default(), 1234.0, self.now);
         }
         self.book.active(AlarmId::RigDisagrees)
     }

@@ -285,10 +285,10 @@ fn what_if_is_asked_with_the_token_and_its_answers_are_for_all() {
     }
     // The node's words on a question that is out of its bounds.
     std::thread::sleep(Duration::from_secs(1));
-    assert_eq!(
-        server.post("what_if", TOKEN, question(&[point(1e6)], 10.0, 2)).0,
-        200,
-        "accepted, as every goal"
+    let (code, said) = server.post("what_if", TOKEN, question(&[point(1e6)], 10.0, 2));
+    assert!(
+        code == 409 && text(&said).contains("inputs.rotary_speed"),
+        "{code} {said}"
     );
     let refused = server.body_with("/api/what_if", |asked| asked["running"] == false);
     assert!(

@@ -131,7 +131,11 @@ fn goals_out_of_bounds_are_not_accepted_and_cancelled_ones_end_at_once() {
         );
     }
     // The log has one line of the kind in ten seconds.
-    assert!(twin.said().contains("a goal is refused: a horizon of"), "{}", twin.said());
+    assert!(
+        twin.said().contains("a goal is refused: a horizon of"),
+        "{}",
+        twin.said()
+    );
 
     // One runs, four wait, the sixth is refused; all are cancelled at once.
     for number in 10..15 {

@@ -66,9 +66,59 @@ pub struct HardBound {
     pub low: Option<f64>,
     /// Greatest value; none where no hard limit is.
     pub high: Option<f64>,
-    /// Dotted path of the hard limit.
+    /// Where the limit comes from.
     pub limit: String,
     unit: &'static str,
+}
+
+/// Groups of thresholds of alarms, and the factor by which a client may raise one above its configured value. Beyond it,
+/// one call would end an alarm whose motion goes on. Thresholds may be lowered: that calls earlier.
+const THRESHOLDS: ([&str; 3], f64) = (
+    ["whirl.backward_cycles.", "whirl.forward_power.", "whirl.lasting_turns."],
+    1.25,
+);
+/// Coefficients of friction, and the factor by which a client may move one from its configured value either way: the range
+/// in which a calibration looks for it. Without friction nothing whirls backward, and a twin without it is silent.
+const FRICTION: ([&str; 5], f64) = (
+    [
+        "contact.inner.friction_tangential",
+        "contact.inner.friction_axial",
+        "contact.outer.friction_tangential",
+        "contact.outer.friction_axial",
+        "tool.bit.friction_factor",
+    ],
+    2.0,
+);
+
+/// The bounds near the configured values of what decides whether an alarm is raised.
+fn near_the_configuration(numbers: &[super::NumberKey]) -> Vec<HardBound> {
+    let bound = |number: &super::NumberKey, low: Option<f64>, high: Option<f64>, words: String| HardBound {
+        key: number.key.clone(),
+        low,
+        high,
+        limit: words,
+        unit: number.unit,
+    };
+    let (groups, most) = THRESHOLDS;
+    let thresholds = numbers
+        .iter()
+        .filter(|number| groups.iter().any(|group| number.key.starts_with(group)));
+    let thresholds = thresholds.map(|number| {
+        let words = format!("alarms depend on it: at most {most} times its configured value");
+        bound(number, None, Some(most * number.value), words)
+    });
+    let (keys, factor) = FRICTION;
+    let friction = numbers
+        .iter()
+        .filter(|number| keys.contains(&number.key.as_str()) && number.value > 0.0);
+    let friction = friction.flat_map(|number| {
+        let words = |side: &str| format!("alarms depend on it: {side} its configured value");
+        [
+            bound(number, Some(number.value / factor), None, words("at least half")),
+            bound(number, None, Some(factor * number.value), words("at most twice")),
+        ]
+    });
+    thresholds.chain(friction).collect()
 }
 
 /// Where the hard limits of a configuration lie for each live parameter.
@@ -209,11 +259,12 @@ impl HardBounds {
                 key,
                 low,
                 high,
-                limit: format!("inputs.hard_limits.{limit}"),
+                limit: format!("the hard limit inputs.hard_limits.{limit}"),
                 unit: own.unit,
             })
         };
-        Self(rows.into_iter().filter_map(bound).collect())
+        let near = near_the_configuration(&numbers);
+        Self(rows.into_iter().filter_map(bound).chain(near).collect())
     }
 
     /// Whether a configuration that parameters have changed keeps them.
@@ -241,7 +292,7 @@ impl HardBounds {
                 unit: bound.unit,
                 bound: words,
                 reason: format!(
-                    "the hard limit {}, which holds while the twin runs; start it again with another configuration",
+                    "{}, which holds while the twin runs; start it again with another configuration",
                     bound.limit
                 ),
             });

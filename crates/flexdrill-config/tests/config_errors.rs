@@ -343,6 +343,45 @@ fn live_parameters_stop_at_the_hard_limits() {
     assert_eq!(bounds.cut("whirl.hysteresis", [0.0, 1.0]), [0.0, 1.0]);
 }
 
+/// One call must not end an alarm whose motion goes on: what decides whether it is raised stays near the configuration.
+#[test]
+fn what_alarms_depend_on_stays_near_its_configured_value() {
+    let config = Config::from_text("rig.yaml", GOOD).unwrap();
+    let bounds = HardBounds::of(&config);
+    let value = |key: &str| {
+        config
+            .numbers()
+            .into_iter()
+            .find(|number| number.key == key)
+            .unwrap()
+            .value
+    };
+    let check = |key: &str, value: f64| bounds.check(&config.with_value(key, value).unwrap());
+    for (key, least, most) in [
+        ("whirl.backward_cycles.critical", None, 1.25),
+        ("whirl.forward_power.warning", None, 1.25),
+        ("whirl.lasting_turns.critical", None, 1.25),
+        ("contact.inner.friction_tangential", Some(0.5), 2.0),
+        ("contact.outer.friction_axial", Some(0.5), 2.0),
+        ("tool.bit.friction_factor", Some(0.5), 2.0),
+    ] {
+        let own = value(key);
+        check(key, most * own).unwrap();
+        let refused = check(key, 1.01 * most * own).unwrap_err().to_string();
+        assert!(
+            refused.contains(key) && refused.contains("alarms depend on it"),
+            "{refused}"
+        );
+        match least {
+            Some(least) => {
+                check(key, least * own).unwrap();
+                check(key, 0.99 * least * own).unwrap_err();
+            }
+            None => assert_eq!(bounds.cut(key, [0.0, 1e9])[0], 0.0, "{key} may be lowered"),
+        }
+    }
+}
+
 /// Otherwise a configuration that has run so far would be refused, or could not be set back to itself.
 #[test]
 fn what_the_configuration_itself_asks_for_is_within_its_hard_limits() {

@@ -280,7 +280,8 @@ impl Player {
             cdr: &to_cdr(&comparison.message)?,
         };
         write(&mut self.recorder, &self.topics, encoded)?;
-        self.alarms.observe_rig(&comparison.compared, samples.bit_depth, stamp);
+        self.alarms
+            .observe_rig(&comparison.compared, &comparison.followed(), samples.bit_depth, stamp);
         self.alarms.observe_adjusted(&comparison.message, stamp);
         self.tally.rig.observe(&comparison.message);
         if let Some(stopped) = comparison.stopped {

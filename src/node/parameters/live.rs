@@ -6,7 +6,7 @@ pub const USE_SIM_TIME: &str = "use_sim_time";
 pub const CONFIG_FILE: &str = "config_file";
 
 /// Keys of parameters that may change while running: exact, or a group that ends with a dot.
-const LIVE: [&str; 18] = [
+const LIVE: [&str; 17] = [
     "calibration.friction_factor",
     "calibration.torque_tare_nm",
     "contact.inner.friction_tangential",
@@ -21,7 +21,6 @@ const LIVE: [&str; 18] = [
     "whirl.backward_cycles.",
     "whirl.forward_power.",
     "whirl.lasting_turns.",
-    "whirl.gate_speed_rpm",
     "whirl.hysteresis",
     "outputs.rates.",
     "outputs.exaggeration",
@@ -54,6 +53,8 @@ pub fn is_live(key: &str) -> bool {
 /// Why a parameter that is not live cannot change.
 pub(super) fn why_fixed(key: &str) -> String {
     let what = match key.split('.').next().unwrap_or_default() {
+        // One call would end every alarm of whirl while the pipe whirls.
+        "whirl" if key == "whirl.gate_speed_rpm" => "below it no alarm of whirl is judged",
         _ if key.starts_with("inputs.hard_limits.") => "no parameter may exceed it while the node runs",
         "well" | "tool" | "masses" => "it is part of the geometry that the model is built from",
         "solver" => "the time step and the solver's limits are fixed when the model is built",
@@ -92,6 +93,7 @@ mod tests {
             ("inputs.standpipe_pressure.assumed_mpa", false),
             ("inputs.driver.policy", false),
             ("whirl.backward_cycles.warning", true),
+            ("whirl.gate_speed_rpm", false),
             ("outputs.rates.bit_state", true),
             ("use_sim_time", false),
         ] {
