@@ -1,6 +1,7 @@
 //! What is asked.
 
 use flexdrill_config::Config;
+use flexdrill_text::{beyond, six_digits};
 
 /// Most candidates of a goal: more is a map, not a question.
 pub const MOST_CANDIDATES: usize = 16;
@@ -62,7 +63,7 @@ pub enum GoalError {
     )]
     ModelTime(f64),
     /// An input out of its limits.
-    #[error("candidate {candidate}: {value} {unit} is not within {least} to {most} {unit} ({key})")]
+    #[error("candidate {candidate}: {} ({key})", not_within(.value, .least, .most, .unit))]
     Input {
         /// Number of the candidate, from 1.
         candidate: usize,
@@ -87,6 +88,13 @@ pub enum GoalError {
         /// Of this.
         unit: &'static str,
     },
+}
+
+/// A value and its limits in words.
+fn not_within(value: &f64, least: &f64, most: &f64, unit: &str) -> String {
+    let bound = if value > most { most } else { least };
+    let [value, least, most] = [beyond(*value, *bound), six_digits(*least), six_digits(*most)];
+    format!("{value} {unit} is not within {least} to {most} {unit}")
 }
 
 impl Goal {
@@ -143,5 +151,27 @@ impl Goal {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refused_input_has_no_meaningless_digits() {
+        let error = GoalError::Input {
+            candidate: 1,
+            // 13.5 klbf.
+            value: 13.5 * 4.448_221_615_260_5,
+            least: 0.1 + 0.2,
+            most: 60.0,
+            unit: "kN",
+            key: "inputs.weight_on_bit",
+        };
+        assert_eq!(
+            error.to_string(),
+            "candidate 1: 60.051 kN is not within 0.3 to 60 kN (inputs.weight_on_bit)"
+        );
     }
 }

@@ -23,7 +23,7 @@ use flexdrill_fit::overlay::{self, Provenance};
 use flexdrill_fit::points::{self, Cover, Point};
 use flexdrill_fit::unknowns::Unknowns;
 use flexdrill_fit::{Study, StudySettings, study};
-use flexdrill_text::printable;
+use flexdrill_text::{counted, printable};
 
 /// File of the twin's points, by which an interrupted calibration goes on.
 const POINTS: &str = "points.csv";
@@ -164,7 +164,7 @@ fn tell_windows(samples: &[Sample], windows: &Windows) {
         count(Motion::Drilling)
     );
     for (reason, samples) in windows.left_out_by_reason() {
-        say!("  left out: {samples} samples, {reason}");
+        say!("  left out: {}, {reason}", counted(samples as u64, "sample"));
     }
 }
 

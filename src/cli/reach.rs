@@ -12,6 +12,7 @@ use crate::reach::{Kept, Load, Plan, picture, study, table};
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::FrictionLaw;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, rpm_to_rad_per_s};
+use flexdrill_text::counted;
 
 /// Computes torque and weight at the bit against the length of the hole, with rotation and without, and writes them as
 /// reach.csv and reach.svg.
@@ -86,8 +87,8 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
         say!("{line}");
     }
     say!(
-        "{} runs in {:.0} s: {} and {}",
-        rows.len(),
+        "{} in {:.0} s: {} and {}",
+        counted(rows.len() as u64, "run"),
         progress.elapsed(),
         args.out.join("reach.csv").display(),
         args.out.join("reach.svg").display()

@@ -23,7 +23,7 @@ use super::{WrongUse, numbers, source};
 use crate::bag;
 use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
-use flexdrill_text::printable;
+use flexdrill_text::{counted, printable};
 
 /// Run a bag or a field log through the model as fast as possible, into a bag.
 ///
@@ -129,7 +129,11 @@ fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
     let joints = episodes::Joints(player.joint_stations().to_vec());
     let (recording, mut tally) = player.finish()?;
-    say!("wrote {} messages to {}", recording.messages, recording.path.display());
+    say!(
+        "wrote {} to {}",
+        counted(recording.messages, "message"),
+        recording.path.display()
+    );
     tally.print(wall, time_step);
     say_text!("{}", tally.alarms);
     let found = tally.episodes();

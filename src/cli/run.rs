@@ -23,6 +23,7 @@ use crate::ros::service::ServiceMapping;
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
 use flexdrill_ros2::logging;
+use flexdrill_text::counted;
 
 /// Name of the configuration of a node without a given one.
 const DEFAULT_CONFIG_NAME: &str = BuiltIn::Default.name();
@@ -298,8 +299,8 @@ fn print_summary(summary: &RunSummary) {
             files => format!(" and {} more", files - 1),
         };
         say!(
-            "recorded {} messages to {}{files}",
-            recording.messages,
+            "recorded {} to {}{files}",
+            counted(recording.messages, "message"),
             recording.path.display()
         );
         if recording.lost > 0 {
@@ -307,12 +308,15 @@ fn print_summary(summary: &RunSummary) {
                 refused: 0,
                 ..recording.losses
             };
-            say!("{} messages are missing in the recording: {lost}", recording.lost);
+            say!(
+                "{} missing in the recording: {lost}",
+                counted(recording.lost, "message")
+            );
         }
         if recording.doubtful > 0 {
             say!(
-                "{} messages of the recording may be lost: the disk failed to sync them",
-                recording.doubtful
+                "perhaps lost: {} of the recording, which the disk failed to sync",
+                counted(recording.doubtful, "message")
             );
         }
     }

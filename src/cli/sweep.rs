@@ -12,6 +12,7 @@ use crate::cli::output::{say, tell};
 use crate::map::{point, program, study};
 use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::{Chunk, Directory, Spec};
+use flexdrill_text::counted;
 
 /// Runs the twin over a table of values, on as many machines as share a directory.
 ///
@@ -110,13 +111,13 @@ fn plan(args: &PlanArgs) -> anyhow::Result<()> {
     let plan = directory.plan();
     let time = plan.len() as f64 * f64::from(plan.runs.members) * plan.runs.horizon;
     say!(
-        "{}: {} points ({} rows of {} values, {} starts, {} seeds), at most {:.1} h of model time",
+        "{}: {} ({} of {}, {}, {}), at most {:.1} h of model time",
         args.dir.display(),
-        plan.len(),
-        plan.rows.len(),
-        plan.keys.len(),
-        plan.starts.len(),
-        plan.seeds.len(),
+        counted(plan.len() as u64, "point"),
+        counted(plan.rows.len() as u64, "row"),
+        counted(plan.keys.len() as u64, "value"),
+        counted(plan.starts.len() as u64, "start"),
+        counted(plan.seeds.len() as u64, "seed"),
         time / 3600.0
     );
     Ok(())
@@ -139,16 +140,16 @@ fn work(args: &WorkArgs) -> anyhow::Result<()> {
     })?;
     progress.done();
     say!(
-        "{} points: {} computed in {:.0} s, {} had a result",
-        numbers.len(),
+        "{}: {} computed in {:.0} s, {} had a result",
+        counted(numbers.len() as u64, "point"),
         worked.ran,
         progress.elapsed(),
         worked.present
     );
     anyhow::ensure!(
         !stop.load(Ordering::Relaxed),
-        "stopped: {} points of this part have no result; the same command goes on",
-        worked.left
+        "stopped: {} of this part without a result; the same command goes on",
+        counted(worked.left as u64, "point")
     );
     Ok(())
 }
@@ -167,19 +168,22 @@ fn status(dir: &Path) -> anyhow::Result<()> {
     say!("done        {} ({} with a failed member)", status.done, status.failed);
     say!("missing     {}", status.missing());
     say!(
-        "unfinished  {} files of workers that write or were killed",
-        status.unfinished
+        "unfinished  {} of workers that write or were killed",
+        counted(status.unfinished as u64, "file")
     );
     if status.foreign > 0 {
-        say!("foreign     {} files that are no point of this plan", status.foreign);
+        say!(
+            "foreign     {} not of this plan",
+            counted(status.foreign as u64, "file")
+        );
     }
     for (file, damage) in &status.damaged {
         tell!("damaged: {}: {damage}", file.display());
     }
     anyhow::ensure!(
         status.damaged.is_empty(),
-        "{} damaged files, left alone: remove them and run flexdrill sweep work again",
-        status.damaged.len()
+        "{}, left alone: remove what is damaged and run flexdrill sweep work again",
+        counted(status.damaged.len() as u64, "damaged file")
     );
     Ok(())
 }
@@ -189,7 +193,11 @@ fn collect(args: &CollectArgs) -> anyhow::Result<()> {
     let table = directory.collect(args.partial)?;
     let out = args.out.clone().unwrap_or_else(|| args.dir.join("points.csv"));
     write_whole(&out, &table)?;
-    say!("wrote {}: {} points", out.display(), directory.points().len());
+    say!(
+        "wrote {}: {}",
+        out.display(),
+        counted(directory.points().len() as u64, "point")
+    );
     Ok(())
 }
 

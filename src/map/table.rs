@@ -5,7 +5,7 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_sweep::SweepError;
 use flexdrill_sweep::envelope::Envelope;
 use flexdrill_sweep::map::{Axis, Map, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
-use flexdrill_text::table_cell;
+use flexdrill_text::{counted, table_cell};
 
 /// Whose bounds a table of an envelope has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -201,9 +201,11 @@ pub fn words(map: &Map) -> Vec<String> {
     let count = |verdict| map.cells.iter().filter(|cell| cell.verdict == verdict).count();
     let all = cells * map.starts.len();
     let mut lines = vec![format!(
-        "{cells} cells from {} starts: {} of {all} runs were made ({:.0} %).",
-        map.starts.len(),
+        "{} from {}: {} of {} made ({:.0} %).",
+        counted(cells as u64, "cell"),
+        counted(map.starts.len() as u64, "start"),
         map.runs,
+        counted(all as u64, "run"),
         100.0 * f64::from(map.runs) / all as f64
     )];
     lines.push(format!(
@@ -238,7 +240,7 @@ pub fn words(map: &Map) -> Vec<String> {
     if !leading.is_empty() {
         let named: Vec<String> = leading
             .iter()
-            .map(|(count, alarm)| format!("{alarm} in {count} runs"))
+            .map(|(count, alarm)| format!("{alarm} in {}", counted(*count as u64, "run")))
             .collect();
         lines.push(format!("Most likely alarms: {}.", named.join(", ")));
     }

@@ -7,6 +7,7 @@ use flexdrill_messages::{
     Alarm, AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
 };
 use flexdrill_ros2::action::GoalId;
+use flexdrill_text::{counted, six_digits};
 
 /// The goal that a client asks.
 pub(super) fn goal(asked: &WhatIfGoal) -> Goal {
@@ -47,10 +48,10 @@ pub(super) fn sentence(answer: &Answer, stopped_by: &str) -> String {
         let found = match (of.any_alarm.of, of.any_alarm.seen) {
             (0, _) if of.failure.is_empty() => "no member ended".to_owned(),
             (0, _) => format!("unknown: {}", of.failure),
-            (members, 0) => format!("no alarm in {members} look-aheads"),
-            (members, seen) => format!("alarms in {seen} of {members} look-aheads"),
+            (members, 0) => format!("no alarm in {}", counted(members.into(), "look-ahead")),
+            (members, seen) => format!("alarms in {seen} of {}", counted(members.into(), "look-ahead")),
         };
-        format!("{rpm} r/min and {kn} kN: {found}")
+        format!("{} r/min and {} kN: {found}", six_digits(rpm), six_digits(kn))
     });
     let each = each.collect::<Vec<_>>().join("; ");
     if answer.stopped {

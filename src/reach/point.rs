@@ -212,6 +212,8 @@ struct Judged {
     means: [f64; 4],
     ranges: [f64; 4],
     limits: [f64; 4],
+    /// Number of means so far.
+    windows: usize,
     is_steady: bool,
 }
 
@@ -230,6 +232,7 @@ impl Judged {
             means,
             ranges,
             limits,
+            windows: windows.len(),
             is_steady,
         }
     }
@@ -239,9 +242,18 @@ impl Judged {
             (0..4).max_by(|&a, &b| (self.ranges[a] / self.limits[a]).total_cmp(&(self.ranges[b] / self.limits[b])));
         let k = worst.unwrap_or(0);
         let unit = if k < 2 { "N" } else { "N m" };
+        let (figure, range, limit) = (FIGURES[k], self.ranges[k], self.limits[k]);
+        if range <= limit {
+            return format!(
+                "not judged after {time:.1} s: {} of the {} means that a judgement needs were taken (the largest variation \
+                 so far is within its limit); --seconds gives it longer",
+                self.windows,
+                WINDOWS + 1
+            );
+        }
         format!(
-            "not steady after {time:.1} s: the mean {} varies by {:.1} {unit}, allowed are {:.1} {unit}",
-            FIGURES[k], self.ranges[k], self.limits[k]
+            "not steady after {time:.1} s: the mean {figure} varies by {range:.1} {unit}, more than the {limit:.1} {unit} of \
+             a steady one"
         )
     }
 }
@@ -379,8 +391,13 @@ mod tests {
         assert!(!judged.is_steady);
         let text = judged.unsteady(15.0);
         assert!(
-            text.contains("weight at the bit varies by 400.0 N, allowed are 300.0 N"),
+            text.contains("weight at the bit varies by 400.0 N, more than the 300.0 N of a steady one"),
             "{text}"
         );
+        // What varies within its limits is not the reason.
+        let early = Judged::of(&windows[1..3], &load);
+        assert!(!early.is_steady);
+        let text = early.unsteady(6.0);
+        assert!(text.starts_with("not judged after 6.0 s: 2 of the "), "{text}");
     }
 }

@@ -3,6 +3,7 @@
 use flexdrill_core::units::n_to_kn;
 
 use super::{Plan, Row};
+use flexdrill_text::counted;
 
 /// Columns of the table.
 const COLUMNS: &str = "length_m,links,friction,rotates,state,weight_at_kickoff_kn,weight_at_bit_kn,\
@@ -70,17 +71,20 @@ pub(super) fn middle(plan: &Plan) -> f64 {
         .unwrap_or(f64::NAN)
 }
 
-/// The value at the middle friction and the range over all, of the points that are known.
-fn over_friction(rows: &[&Row], middle: f64, of: impl Fn(&Row) -> Option<f64>) -> String {
+/// The value at the middle friction and the range over all, of the points that are known, with the unit of what is known.
+fn over_friction(rows: &[&Row], middle: f64, unit: &str, of: impl Fn(&Row) -> Option<f64>) -> String {
     let known: Vec<f64> = rows.iter().filter_map(|row| of(row)).collect();
     let at = rows.iter().find(|row| row.friction == middle).and_then(|row| of(row));
     let first = at.map_or("unknown".to_owned(), |value| format!("{value:.2}"));
-    if rows.len() < 2 || known.is_empty() {
+    if known.is_empty() {
         return first;
+    }
+    if rows.len() < 2 {
+        return format!("{first} {unit}");
     }
     let low = known.iter().copied().fold(f64::MAX, f64::min);
     let high = known.iter().copied().fold(f64::MIN, f64::max);
-    format!("{first} ({low:.2} to {high:.2})")
+    format!("{first} ({low:.2} to {high:.2}) {unit}")
 }
 
 /// The results in words, a line each.
@@ -104,12 +108,11 @@ pub fn words(plan: &Plan, rows: &[Row]) -> Vec<String> {
         let top = |row: &Row| row.found.as_ref().ok().map(|found| found.torque[0]);
         let weight = |row: &Row| row.found.as_ref().ok().map(|found| n_to_kn(found.weight[1]));
         lines.push(format!(
-            "{length:6.2} m: torque at the bit {} N m of {} N m at the kick-off; weight at the bit {} kN with rotation, {} \
-             kN without.",
-            over_friction(&turning, middle, torque),
-            over_friction(&turning, middle, top),
-            over_friction(&turning, middle, weight),
-            over_friction(&standing, middle, weight),
+            "{length:6.2} m: torque at the bit {}, at the kick-off {}; weight at the bit {} with rotation, {} without.",
+            over_friction(&turning, middle, "N m", torque),
+            over_friction(&turning, middle, "N m", top),
+            over_friction(&turning, middle, "kN", weight),
+            over_friction(&standing, middle, "kN", weight),
         ));
     }
     lines.push(onset(rows, "The guide buckles sideways", |row| {
@@ -122,8 +125,9 @@ pub fn words(plan: &Plan, rows: &[Row]) -> Vec<String> {
     let still: Vec<f64> = rows.iter().filter(slow).map(|row| row.length).collect();
     if let (Some(first), count) = (still.first(), still.len()) {
         lines.push(format!(
-            "At {count} points with rotation, the first at {first:.2} m, the bit hardly advances: the guide sticks, and \
-             its friction depends on how the weight was put on."
+            "At {} with rotation, the first at {first:.2} m, the bit hardly advances: the guide sticks, and its friction \
+             depends on how the weight was put on.",
+            counted(count as u64, "point")
         ));
     }
     for row in rows {
@@ -160,5 +164,34 @@ fn onset(rows: &[Row], what: &str, at: impl Fn(&Row) -> Option<f64>) -> String {
             row.friction,
             rotation(row.rotates)
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reach::soft_string::SoftString;
+
+    #[test]
+    fn what_is_unknown_has_no_unit() {
+        let soft = SoftString {
+            weight_at_bit: 0.0,
+            torque_at_bit: 0.0,
+            torque_at_top: 0.0,
+        };
+        let row = Row {
+            length: 5.0,
+            links: 30,
+            friction: 0.2,
+            rotates: true,
+            soft,
+            found: Err("a step failed".to_owned()),
+        };
+        let failed = |_: &Row| None;
+        assert_eq!(over_friction(&[&row], 0.2, "N m", failed), "unknown");
+        assert_eq!(over_friction(&[&row, &row], 0.2, "N m", failed), "unknown");
+        assert_eq!(over_friction(&[&row], 0.2, "N m", |_| Some(12.0)), "12.00 N m");
+        let both = over_friction(&[&row, &row], 0.2, "N m", |_| Some(12.0));
+        assert_eq!(both, "12.00 (12.00 to 12.00) N m");
     }
 }

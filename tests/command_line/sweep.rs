@@ -81,7 +81,7 @@ fn parts_are_parts_and_what_is_refused_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let path = planned(&folder.path().join("sweep"));
     let said = run(&["sweep", "work"], &path, &["--chunk", "1/8"]);
-    assert!(said.contains("1 points: 1 computed"), "{said}");
+    assert!(said.contains("1 point: 1 computed"), "{said}");
     // A scheduler's array may have more tasks than there are points.
     let said = run(&["sweep", "work"], &path, &["--chunk", "9/20"]);
     assert!(said.contains("0 points: 0 computed"), "{said}");

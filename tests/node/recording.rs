@@ -170,10 +170,7 @@ fn counts(said: &str) -> (u64, u64) {
         words.filter_map(|word| word.parse().ok()).next().unwrap()
     };
     let line = |text: &str| said.lines().find(|line| line.contains(text));
-    (
-        number(line("recorded ")),
-        number(line("messages are missing in the recording")),
-    )
+    (number(line("recorded ")), number(line("missing in the recording")))
 }
 
 /// Messages in a bag, and whether all its files have an end.

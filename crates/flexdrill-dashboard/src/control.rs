@@ -19,7 +19,7 @@ use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{RigInputs, TwinStatus, to_cdr_body};
 use flexdrill_ros2::dds::port::Monitor;
-use flexdrill_text::log_ending;
+use flexdrill_text::{beyond, log_ending, six_digits};
 
 /// Time between two samples.
 pub(crate) const PERIOD: Duration = Duration::from_millis(100);
@@ -106,9 +106,12 @@ impl Control {
             .zip([("rotary_speed_rpm", "r/min"), ("weight_on_bit_kn", "kN")])
         {
             if !(limit.min..=limit.max).contains(value) {
+                let bound = if *value > limit.max { limit.max } else { limit.min };
                 return Err(Refused::Wrong(format!(
-                    "{name} is {value}; it must be between {} and {} {unit}",
-                    limit.min, limit.max
+                    "{name} is {}; it must be between {} and {} {unit}",
+                    beyond(*value, bound),
+                    six_digits(limit.min),
+                    six_digits(limit.max)
                 )));
             }
         }
@@ -146,7 +149,11 @@ impl Control {
             });
             steering.ended = None;
         }
-        Ok(format!("towards {} r/min and {} kN", target[0], target[1]))
+        Ok(format!(
+            "towards {} r/min and {} kN",
+            six_digits(target[0]),
+            six_digits(target[1])
+        ))
     }
 
     /// Stops steering.

@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use flexdrill_sweep::map::{Axis, Map, OfStart, Start, Verdict};
+use flexdrill_text::counted;
 
 use crate::page::STYLE;
 
@@ -61,10 +62,10 @@ fn facts(map: &Map) -> Markup {
             .zip(last)
             .map(|(first, last)| format!("{} to {}", number(*first), number(*last)));
         format!(
-            "{} {}, {} values",
+            "{} {}, {}",
             ends.unwrap_or_default(),
             axis.unit,
-            axis.values.len()
+            counted(axis.values.len() as u64, "value")
         )
     };
     html! {
@@ -73,7 +74,7 @@ fn facts(map: &Map) -> Markup {
             dt { (map.y.name) } dd { (span(&map.y)) }
             dt { "Runs" } dd {
                 (map.runs) " of " (map.cells.len() * map.starts.len()) ", each judged over " (number(map.horizon))
-                " s, at most " (map.members) " members" @if map.run_all { ", all of them run" } ", seed " (map.seed)
+                " s, at most " (counted(map.members.into(), "member")) @if map.run_all { ", all of them run" } ", seed " (map.seed)
             }
             dt { "Alarms" } dd {
                 "of " (map.priority.name()) " priority or higher, expected where their chance is above "

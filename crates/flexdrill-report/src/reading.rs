@@ -19,6 +19,7 @@ use flexdrill_messages::{
     AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions, RigInputs,
     SessionInfo, Transfer, TwinStatus, WhirlState,
 };
+use flexdrill_text::counted;
 
 /// Largest number of damaged parts listed.
 const NAMED: usize = 20;
@@ -286,7 +287,10 @@ impl Reader {
         missing.extend(cuts);
         missing.extend(damaged.iter().take(NAMED).map(|damage| format!("Left out: {damage}.")));
         if damaged.len() > NAMED {
-            missing.push(format!("{} more damaged parts were left out.", damaged.len() - NAMED));
+            missing.push(format!(
+                "Left out: {} more.",
+                counted((damaged.len() - NAMED) as u64, "damaged part")
+            ));
         }
         missing.extend(gaps.iter().map(|gap| format!("Lost during the recording: {gap}.")));
         for known in OUTPUTS.iter().filter(|known| !roles.has(known)) {
@@ -294,20 +298,22 @@ impl Reader {
         }
         missing.extend(self.unreadable.iter().map(|unreadable| {
             format!(
-                "{} messages of {} cannot be read; the first: {}.",
-                unreadable.count, unreadable.known.name, unreadable.first
+                "Left out: {} of {} that cannot be read; the first: {}.",
+                counted(unreadable.count, "message"),
+                unreadable.known.name,
+                unreadable.first
             )
         }));
         if self.backwards > 0 {
             missing.push(format!(
-                "{} messages have stamps from before the beginning; the curves leave them out.",
-                self.backwards
+                "Left out of the curves: {} with a stamp from before the beginning.",
+                counted(self.backwards, "message")
             ));
         }
         if summary.locations.other_mesh > 0 {
             missing.push(format!(
-                "{} messages have another mesh than the first and are left out.",
-                summary.locations.other_mesh
+                "Left out: {} with another mesh than the first.",
+                counted(summary.locations.other_mesh, "message")
             ));
         }
         if summary.runs > 1 {

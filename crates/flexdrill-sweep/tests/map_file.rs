@@ -163,6 +163,15 @@ fn the_words_say_how_many_members_ran_and_what_these_exclude() {
         words.starts_with("In each run 20 of at most 20 members ended. No alarm in 20"),
         "{words}"
     );
+    // One is singular.
+    map.members = 1;
+    for start in map.cells.iter_mut().flat_map(|cell| &mut cell.starts) {
+        if start.state == State::Known {
+            start.members = 1;
+        }
+    }
+    let words = map.members_in_words();
+    assert!(words.starts_with("In each run 1 of at most 1 member ended."), "{words}");
 }
 
 #[test]

@@ -1,11 +1,13 @@
-//! Text for terminals and logs: escapes for text that others wrote, a rate limit for log lines, and dates.
+//! Text for terminals and logs: escapes for text that others wrote, a rate limit for log lines, dates, counts and numbers.
 //!
 //! The crate knows nothing of the twin; every other crate that prints may use it.
 
 mod date;
+mod number;
 mod printable;
 mod throttle;
 
 pub use date::{compact_date_time, date_time, time_of_day};
+pub use number::{beyond, counted, six_digits};
 pub use printable::{printable, printable_lines, table_cell};
 pub use throttle::{LOG_INTERVAL, Throttle, Throttles, log_ending};

@@ -336,14 +336,7 @@ impl Tally {
             row("joints at their limit", "never".into());
         }
         if let Some(last) = &self.last {
-            let share = if last.drive == 0.0 {
-                String::new()
-            } else {
-                format!(
-                    ", {:.2} % of the drive's work",
-                    100.0 * (last.energy_error / last.drive).abs()
-                )
-            };
+            let share = share_of_drive(last.energy_error, last.drive);
             row("model quality", self.quality.text());
             row("energy error", format!("{:.3} J{share}", last.energy_error));
             row("fastest ageing", self.wear.joints());
@@ -402,5 +395,30 @@ fn location(snapshot: &Snapshot, station: usize, body: Body) -> ToolLocation {
         body,
         measured_depth: at(&snapshot.contacts.measured_depth),
         inclination: at(&snapshot.contacts.inclination),
+    }
+}
+
+/// An energy (J) next to the work of the drive (J), in words. A drive that has hardly turned has done next to no work:
+/// a share of that says nothing.
+fn share_of_drive(energy: f64, drive: f64) -> String {
+    let share = (energy / drive).abs();
+    match share {
+        _ if !share.is_finite() => String::new(),
+        share if share > 1.0 => format!(", more than the drive's work of {:.3} J", drive.abs()),
+        share => format!(", {:.2} % of the drive's work", 100.0 * share),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_energy_is_no_share_of_next_to_nothing() {
+        assert_eq!(share_of_drive(1.0, 200.0), ", 0.50 % of the drive's work");
+        assert_eq!(share_of_drive(-1.0, 200.0), ", 0.50 % of the drive's work");
+        assert_eq!(share_of_drive(10.2, 2.2e-16), ", more than the drive's work of 0.000 J");
+        assert_eq!(share_of_drive(1.0, 0.0), "");
+        assert_eq!(share_of_drive(0.0, 0.0), "");
     }
 }

@@ -32,6 +32,8 @@ pub(super) fn percent(share: f64) -> String {
         // A non-zero share is never rounded to 0 %, and a partial one never to 100 %.
         value if value > 0.0 && value < 0.1 => "below 0.1 %".to_owned(),
         value if value > 99.9 && value < 100.0 => "above 99.9 %".to_owned(),
+        // A share of next to nothing has no digits that mean anything.
+        value if value.abs() > 1000.0 => if value > 0.0 { "above 1000 %" } else { "below −1000 %" }.to_owned(),
         value => format!("{} %", number((value * 10.0).round() / 10.0)),
     }
 }
@@ -108,6 +110,9 @@ mod tests {
             (0.5657, "56.6 %"),
             (0.9999, "above 99.9 %"),
             (1.0, "100 %"),
+            (10.0, "1000 %"),
+            (4.6e16, "above 1000 %"),
+            (-11.0, "below −1000 %"),
         ];
         for (share, text) in shares {
             assert_eq!(percent(share), text);

@@ -389,7 +389,8 @@ impl Map {
             true => "; the others failed",
             false => "; a run ends early once its members decide every alarm",
         };
-        let mut text = format!("In each run {ended} of at most {} members ended{why}.", self.members);
+        let members = if self.members == 1 { "member" } else { "members" };
+        let mut text = format!("In each run {ended} of at most {} {members} ended{why}.", self.members);
         if let Some((least, chance)) = self.excluded() {
             let excludes = format!(
                 " No alarm in {least} excludes chances above {:.0} %: a clear cell may have up to that.",
