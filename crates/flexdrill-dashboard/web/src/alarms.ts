@@ -39,7 +39,7 @@ export function isActive(alarm: Alarm): boolean {
  * over. Messages without a field of their own for this say it in the evidence.
  */
 function isLessSevere(alarm: Alarm): boolean {
-  return /\bless severe since\b/i.test(alarm.evidence);
+  return /\bless severe since\b/i.test(alarm.evidence) && !/\bended at\b/i.test(alarm.evidence);
 }
 
 /** Whether the condition is met now, at whatever priority: neither ended nor only held in case it returns. */

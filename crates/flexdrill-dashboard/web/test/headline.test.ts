@@ -169,6 +169,8 @@ test("a condition below its published priority stands, at most at the next lower
   assert.ok(Number.isNaN(endedAt(less)));
   assert.equal(stateNow(live([less]), "si").word, "ACT SOON");
   assert.equal(levelNow({ ...less, priority: Alarm.LOW }), Alarm.LOW);
+  // First less severe, then over.
+  assert.ok(!isMet({ ...less, evidence: "Seen. Less severe since 07:08:34; ended at 07:09:13, being watched." }));
   assert.equal(levelNow(ended("backward whirl")), 0);
 });
 
