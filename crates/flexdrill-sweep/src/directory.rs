@@ -182,7 +182,7 @@ impl Directory {
                 Err(damage) => Found::Damaged(damage),
             }),
             Err(reason) if reason.kind() == ErrorKind::NotFound => Ok(Found::Missing),
-            Err(_) if !is_regular(&file) => Ok(Found::Damaged(Damage::NotAFile)),
+            Err(_) if is_another_kind(&file) => Ok(Found::Damaged(Damage::NotAFile)),
             Err(reason) => Err(SweepError::Read { path: file, reason }),
         }
     }
@@ -323,8 +323,9 @@ fn is_link(path: &Path) -> bool {
     std::fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink())
 }
 
-fn is_regular(path: &Path) -> bool {
-    std::fs::symlink_metadata(path).is_ok_and(|found| found.is_file())
+/// Whether there is something that is no regular file.
+fn is_another_kind(path: &Path) -> bool {
+    std::fs::symlink_metadata(path).is_ok_and(|found| !found.is_file())
 }
 
 /// A complete file on the disk, without its name yet.
