@@ -112,7 +112,9 @@ fn requests_are_carried_out_once_whatever_restarts() {
     let Some(network) = Network::new() else { return };
     let Some(mut peer) = network.peer() else { return };
     let start = || {
-        let mut twin = network.twin(&["--ros-args", "--log-level", "flexdrill_ros2::dds:=debug"]);
+        // At this level the log has every reset, also those that follow another within ten seconds.
+        let levels = ["flexdrill_ros2::dds:=debug", "flexdrill::node::control:=debug"];
+        let mut twin = network.twin(&["--ros-args", "--log-level", levels[0], "--log-level", levels[1]]);
         twin.wait_for("model time runs");
         twin
     };

@@ -241,11 +241,10 @@ impl Control {
         if let Some(restore) = self.restore.get() {
             restore()?;
         }
-        if let Some(more) = log_ending("reset") {
-            tracing::info!(
-                "reset: the model returns to its state after the start{}{more}",
-                asked_by()
-            );
+        let text = "reset: the model returns to its state after the start";
+        match log_ending("reset") {
+            Some(more) => tracing::info!("{text}{}{more}", asked_by()),
+            None => tracing::debug!("{text}{}", asked_by()),
         }
         self.send(Command::Reset).map(drop)
     }
