@@ -144,13 +144,29 @@ fn each_reason_is_told_and_counted() {
             "rig/weight_on_bit_kn: 61 kN refused: above the maximum of 60 kN (inputs.weight_on_bit)",
         ),
         (6.0, 9.5, "its time is 0.5 s before that of the last good sample"),
+        // Readings that were converted have fifteen digits, a sentence has those that mean something.
+        (
+            6.0,
+            10.0 - 0.1 - 0.2,
+            "its time is 0.3 s before that of the last good sample",
+        ),
+        (
+            17.637 * 4.448_221_615_260_5,
+            11.0,
+            "rig/weight_on_bit_kn: 78.453 kN refused: above the maximum of 60 kN",
+        ),
+        (
+            60.000_1,
+            11.0,
+            "rig/weight_on_bit_kn: 60.0001 kN refused: above the maximum of 60 kN",
+        ),
     ];
     for (value, time, words) in cases {
         let sentence = conditioner.offer(WeightOnBit, value, time).unwrap_err().to_string();
         assert!(sentence.contains(words), "{sentence}");
     }
-    assert_eq!(conditioner.counts(WeightOnBit).rejected, [2, 1, 0, 1, 1, 0, 0, 0]);
-    assert_eq!(conditioner.counts(WeightOnBit).rejected_total(), 5);
+    assert_eq!(conditioner.counts(WeightOnBit).rejected, [2, 1, 0, 3, 2, 0, 0, 0]);
+    assert_eq!(conditioner.counts(WeightOnBit).rejected_total(), 8);
     assert_eq!(conditioner.counts(WeightOnBit).accepted, 1);
     assert_eq!(conditioner.last_good(WeightOnBit), Some(5.0));
     let sentence = conditioner.offer(RotarySpeed, -1.0, 0.0).unwrap_err().to_string();

@@ -82,16 +82,35 @@ impl RejectionReason {
     }
 }
 
+/// The value to a thousandth, which is more than any sensor of a rig resolves; never a negative zero.
+fn thousandths(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
+impl Rejection {
+    /// The value for a sentence: to a thousandth, but where that would no longer be beyond the bound.
+    fn shown(&self) -> f64 {
+        let rounded = thousandths(self.value);
+        let is_within = match self.reason {
+            RejectionReason::AboveMaximum { max } => rounded <= max,
+            RejectionReason::BelowMinimum { min } => rounded >= min,
+            RejectionReason::Negative { tare_error } => rounded >= -tare_error,
+            _ => false,
+        };
+        if is_within { self.value } else { rounded }
+    }
+}
+
 impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (name, unit) = (self.kind.name(), self.kind.unit());
         match self.route {
-            InputRoute::Plain => write!(f, "{}: {} {unit} refused: ", self.kind.topic(), self.value),
+            InputRoute::Plain => write!(f, "{}: {} {unit} refused: ", self.kind.topic(), self.shown()),
             InputRoute::Stamped => write!(
                 f,
                 "{}: {name} {} {unit} refused: ",
                 InputRoute::STAMPED_TOPIC,
-                self.value
+                self.shown()
             ),
         }?;
         match self.reason {
@@ -103,6 +122,8 @@ impl fmt::Display for Rejection {
             RejectionReason::BelowMinimum { min } => write!(f, "below the minimum of {min} {unit} (inputs.{name})"),
             RejectionReason::AboveMaximum { max } => write!(f, "above the maximum of {max} {unit} (inputs.{name})"),
             RejectionReason::TimeBackwards { by } => {
+                // The shortest time that is shown is not 0.
+                let by = thousandths(by).max(1e-3);
                 write!(f, "its time is {by} s before that of the last good sample")
             }
             RejectionReason::Bad => write!(f, "its source calls it BAD"),
