@@ -245,15 +245,15 @@ impl Judged {
         let (figure, range, limit) = (FIGURES[k], self.ranges[k], self.limits[k]);
         if range <= limit {
             return format!(
-                "not judged after {time:.1} s: {} of the {} means that a judgement needs were taken (the largest variation \
-                 so far is within its limit); --seconds gives it longer",
+                "not judged after {time:.1} s: {} of the {} means that a judgement needs were taken (the largest \
+                 variation so far is within its limit); --seconds gives it longer",
                 self.windows,
                 WINDOWS + 1
             );
         }
         format!(
-            "not steady after {time:.1} s: the mean {figure} varies by {range:.1} {unit}, more than the {limit:.1} {unit} of \
-             a steady one"
+            "not steady after {time:.1} s: the mean {figure} varies by {range:.1} {unit}, more than the {limit:.1} {unit} \
+             of a steady one"
         )
     }
 }

@@ -1,4 +1,5 @@
-//! Text for terminals and logs: escapes for text that others wrote, a rate limit for log lines, dates, counts and numbers.
+//! Text for terminals and logs: escapes for text that others wrote, a rate limit for log lines, dates, counts and
+//! numbers.
 //!
 //! The crate knows nothing of the twin; every other crate that prints may use it.
 

@@ -110,7 +110,8 @@ export function standing(alarms: readonly Alarm[]): { drilling: Alarm[]; system:
 }
 
 /**
- * Level of what belongs to these alarms (0 to 3): that of the worst present condition, as in the top line. Where the alarms of the shown time are not known, `otherwise`.
+ * Level of what belongs to these alarms (0 to 3): that of the worst present condition, as in the top line. Where the
+ * alarms of the shown time are not known, `otherwise`.
  */
 export function levelOf(store: Store, ids: readonly string[], otherwise: number): number {
   const list = store.alarmsShown();

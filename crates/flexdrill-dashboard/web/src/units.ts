@@ -74,8 +74,8 @@ export function number(value: number, places: number): string {
 }
 
 /**
- * Bounds of a set point, in r/min or kN, as the display has them. They are rounded inwards to the display's digits: what
- * is shown is accepted.
+ * Bounds of a set point, in r/min or kN, as the display has them. They are rounded inwards to the display's digits:
+ * what is shown is accepted.
  */
 export function bounds(limit: { min: number; max: number }, kind: "speed" | "weight", system: System): string {
   const { unit, digits: places } = quantity(kind, system);

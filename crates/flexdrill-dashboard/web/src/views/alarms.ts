@@ -149,8 +149,8 @@ export class Alarms implements View {
       setText(
         this.figures,
         list
-          ? `${list.unacknowledged} to acknowledge · ${counted(list.annunciations_last_ten_minutes, "alarm")} in ten minutes` +
-              `${list.flood ? " – FLOOD" : ""}` +
+          ? `${list.unacknowledged} to acknowledge · ` +
+              `${counted(list.annunciations_last_ten_minutes, "alarm")} in ten minutes${list.flood ? " – FLOOD" : ""}` +
               (Number.isFinite(list.annunciations_per_hour)
                 ? ` · ${number(list.annunciations_per_hour, 1)} per hour`
                 : "")

@@ -268,7 +268,7 @@ export class WhatIfView implements View {
     this.drawn = key;
     const { unit } = quantity("weight", this.context.settings.units);
     const head = asked.running
-      ? `Question of ${asked.by}: ${counted(asked.done, "run")} of ${asked.horizon} s ${asked.done === 1 ? "has" : "have"} ended, ${asked.remaining} may follow.`
+      ? `Question of ${asked.by}, runs of ${asked.horizon} s: ${asked.done} ended, ${asked.remaining} may follow.`
       : asked.failed
         ? `Question of ${asked.by}: ${asked.message}`
         : `Question of ${asked.by}, judged over ${asked.horizon} s.`;
