@@ -201,7 +201,7 @@ impl<'a> Watched<'a> {
         self.run.look(&mut self.snapshot);
         let begun = self.snapshot.time;
         let stamp = |snapshot: &Snapshot| span(snapshot.time);
-        let mut book = AlarmBook::fresh(Arc::clone(self.config), stamp(&self.snapshot));
+        let mut book = AlarmBook::prompt(Arc::clone(self.config), stamp(&self.snapshot));
         let damage_before = damage(&self.snapshot);
         let mut alarms = vec![Called::default(); AlarmId::ALL.len()];
         let mut stood = vec![true; AlarmId::ALL.len()];

@@ -12,6 +12,7 @@ use super::sentence::{capitalized, number};
 use super::set::AlarmSet;
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Advice, InputsConfig};
+use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
 use flexdrill_core::twin::Applied;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
@@ -55,13 +56,59 @@ pub(super) struct Operating {
     pub rpm: f64,
     /// Weight on bit (kN).
     pub kn: f64,
+    /// Which of them are the twin's own.
+    pub unknown: Unknown,
 }
 
 impl Operating {
-    pub fn of(applied: &Applied) -> Self {
+    pub fn of(applied: &Applied, unknown: Unknown) -> Self {
         Self {
             rpm: rad_per_s_to_rpm(applied.rotary_speed),
             kn: n_to_kn(applied.weight_on_bit),
+            unknown,
+        }
+    }
+}
+
+/// Which of the rig's values the twin does not know: it then runs on the last one, a ramp to the safe value, or the
+/// configured start value.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Unknown {
+    /// The rotary speed.
+    pub speed: bool,
+    /// The weight on bit.
+    pub weight: bool,
+}
+
+impl Unknown {
+    /// What a conditioner does not know at an instant of its clock (s).
+    pub fn of(conditioner: &Conditioner, now: f64) -> Self {
+        let is_unknown = |kind| {
+            matches!(
+                conditioner.state(kind, now),
+                InputState::Stale | InputState::NotReceived
+            )
+        };
+        Self {
+            speed: is_unknown(InputKind::RotarySpeed),
+            weight: is_unknown(InputKind::WeightOnBit),
+        }
+    }
+
+    /// Whether it is speed or weight.
+    pub fn any(self) -> bool {
+        self.speed || self.weight
+    }
+
+    /// Two sentences to a driller; empty where both are known.
+    fn words(self) -> &'static str {
+        match (self.speed, self.weight) {
+            (false, false) => "",
+            (true, false) => "The rig's speed is unknown to the twin. Read it on the rig's own instruments. ",
+            (false, true) => "The rig's weight on bit is unknown to the twin. Read it on the rig's own instruments. ",
+            (true, true) => {
+                "The rig's speed and weight on bit are unknown to the twin. Read them on the rig's own instruments. "
+            }
         }
     }
 }
@@ -157,10 +204,42 @@ impl fmt::Display for Tested {
 /// Where advice comes from beside the rules.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Ahead {
-    /// Whether the node looks ahead for advice, so that a rule says that it is one.
-    pub is_on: bool,
+    /// What look-aheads do for advice; none where the node does not look ahead for it.
+    pub trial: Option<Trial>,
     /// What look-aheads have found for the present state.
     pub tested: Option<Tested>,
+}
+
+/// What look-aheads do for the alarms that stand.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Trial {
+    /// Nothing yet.
+    #[default]
+    Waits,
+    /// They try changes.
+    Runs {
+        /// The time that the last search took, rounded up (min); 0 before the first has ended.
+        minutes: u64,
+    },
+    /// They tried changes, and none ended the leading alarm.
+    NothingFound,
+}
+
+impl Trial {
+    /// A sentence to a driller on the limit of a rule.
+    fn words(self) -> String {
+        let now = match self {
+            Self::Waits => "the twin has not tried it out.".to_owned(),
+            Self::Runs { minutes: 0 } => "the twin is trying settings out now, which takes a few minutes.".to_owned(),
+            Self::Runs { minutes } => {
+                format!("the twin is trying settings out now, which takes about {minutes} min.")
+            }
+            Self::NothingFound => {
+                "the twin has tried other settings out, and none ended the alarm reliably.".to_owned()
+            }
+        };
+        format!(" This is a rule of thumb: {now}")
+    }
 }
 
 impl Quantity {
@@ -182,6 +261,13 @@ impl Quantity {
         match self {
             Self::Speed => now.rpm,
             Self::Weight => now.kn,
+        }
+    }
+
+    fn is_unknown(self, now: &Operating) -> bool {
+        match self {
+            Self::Speed => now.unknown.speed,
+            Self::Weight => now.unknown.weight,
         }
     }
 
@@ -266,6 +352,18 @@ impl Step {
             Quantity::Speed => ("r/min", 0),
             Quantity::Weight => ("kN", 1),
         };
+        if self.quantity.is_unknown(now) {
+            let (beyond, change) = if self.raise {
+                ("below", "raise it above")
+            } else {
+                ("above", "lower it below")
+            };
+            return format!(
+                "If the {} is {beyond} {limit} {unit}, {change} that and keep the {}.",
+                self.quantity.name(),
+                self.quantity.other().name()
+            );
+        }
         let value = number(value, digits).map_or(String::new(), |value| format!(" ({value} {unit} now)"));
         format!(
             "{verb} the {} {side} {limit} {unit}{value} and keep the {}.",
@@ -279,11 +377,22 @@ impl Step {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Demand {
     pub id: AlarmId,
-    /// The present priority of the condition; none once the condition has ended and the alarm is only held.
+    /// The priority of the alarm; none once the condition has ended and the alarm is only held.
     pub priority: Option<Priority>,
     pub rule: Advice,
     /// A shelved alarm leads only where no other alarm does.
     pub shelved: bool,
+    /// It has led so far, and leads on among alarms of the same priority: advice that changes with every alarm that comes
+    /// cannot be followed.
+    pub leads: bool,
+}
+
+/// What the driller can do about an alarm.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Action {
+    pub text: String,
+    /// The alarm whose action comes first; none for an action of its own.
+    pub follows: Option<AlarmId>,
 }
 
 /// Whether a rule has a step that changes the present inputs. `stands` says whether its alarm stands already.
@@ -291,31 +400,44 @@ pub(super) fn applies(rule: &Advice, now: &Operating, inputs: &InputsConfig, sta
     Step::of(rule).any(|step| step.applies(now, inputs, stands))
 }
 
-/// One sentence per standing alarm, in the order of `demands`.
-pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsConfig, ahead: &Ahead) -> Vec<String> {
+/// One action per alarm, in the order of `demands`.
+pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsConfig, ahead: &Ahead) -> Vec<Action> {
     let order = by_rank(demands);
-    let tested = ahead.tested.and_then(|tested| {
-        Some((
-            *order.iter().find(|demand| demand.id == tested.alarm)?,
-            Lead::Tested(tested),
-        ))
+    // An action of an alarm that an operator has put aside is none for those that stand.
+    let shelved = order.first().is_some_and(|first| first.shelved);
+    let may_lead = |demand: &Demand| demand.shelved == shelved;
+    // A change that was tried from the twin's own speed and weight says nothing of the rig's.
+    let tested = ahead.tested.filter(|_| !now.unknown.any()).and_then(|tested| {
+        let mut leading = order.iter().filter(|demand| may_lead(demand));
+        let demand = *leading.find(|demand| demand.id == tested.alarm)?;
+        Some((demand, Lead::Tested(tested)))
     });
     let lead = tested.or_else(|| {
         order
             .iter()
             .enumerate()
+            .filter(|(_, demand)| may_lead(demand))
             .find_map(|(rank, demand)| Some((*demand, lead(demand, &order[..rank], &order, now, inputs)?)))
     });
+    let note = ahead.trial.map_or(String::new(), Trial::words);
     demands
         .iter()
-        .map(|demand| sentence(demand, lead, now, inputs, ahead.is_on))
+        .map(|demand| Action {
+            text: sentence(demand, lead, now, inputs, &note),
+            follows: lead
+                .map(|(leading, _)| leading.id)
+                .filter(|leading| demand.priority.is_some() && *leading != demand.id),
+        })
         .collect()
 }
 
 /// The alarms whose conditions stand, the one that leads first.
 pub(super) fn by_rank(demands: &[Demand]) -> Vec<&Demand> {
     let mut order: Vec<&Demand> = demands.iter().filter(|demand| demand.priority.is_some()).collect();
-    order.sort_by_key(|demand| (demand.shelved, std::cmp::Reverse(demand.priority), demand.id as usize));
+    order.sort_by_key(|demand| {
+        let priority = std::cmp::Reverse(demand.priority);
+        (demand.shelved, priority, !demand.leads, demand.id as usize)
+    });
     order
 }
 
@@ -354,33 +476,36 @@ fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, i
     }
 }
 
-/// `rule` says that a limit is a rule of the configuration where advice from look-aheads may follow.
+/// `note` says that a limit is a rule of the configuration where advice from look-aheads may follow. An action of its own
+/// begins with what the twin does not know of the rig.
 fn sentence(
     demand: &Demand,
     lead: Option<(&Demand, Lead)>,
     now: &Operating,
     inputs: &InputsConfig,
-    rule: bool,
+    note: &str,
 ) -> String {
-    let rule = if rule {
-        " (A rule; look-aheads have not confirmed it.)"
-    } else {
-        ""
-    };
+    let unknown = now.unknown.words();
     let Some(priority) = demand.priority else {
         return "No further action: the alarm clears by itself unless the motion returns.".to_owned();
     };
     match lead {
         Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
-            (Lead::Stop, _) => capitalized(STOP) + ".",
-            (Lead::Own(action), _) => action.to_owned(),
+            (Lead::Stop, _) => format!("{unknown}{}.", capitalized(STOP)),
+            (Lead::Own(action), _) => format!("{unknown}{action}"),
             (Lead::Tested(tested), Priority::High) => {
-                let what = if tested.stays.is_empty() { "it" } else { leading.id.name() };
+                let what = if tested.stays.is_empty() {
+                    "it"
+                } else {
+                    leading.id.name()
+                };
                 format!("{tested} If {what} persists, {STOP}.")
             }
             (Lead::Tested(tested), _) => tested.to_string(),
-            (Lead::Step(step), Priority::High) => format!("{} If it persists, {STOP}.{rule}", step.sentence(now)),
-            (Lead::Step(step), _) => step.sentence(now) + rule,
+            (Lead::Step(step), Priority::High) => {
+                format!("{unknown}{} If it persists, {STOP}.{note}", step.sentence(now))
+            }
+            (Lead::Step(step), _) => format!("{unknown}{}{note}", step.sentence(now)),
         },
         Some((leading, Lead::Tested(tested))) if tested.ends.contains(demand.id) => {
             format!("The change advised for {} covers this alarm too.", leading.id.name())
@@ -398,11 +523,10 @@ fn sentence(
             "Follow the advice for {} first, then check this alarm again.",
             leading.id.name()
         ),
-        None => {
-            "Call the engineer: no change of speed or weight is known to end this motion. If it gets worse, pick up off \
-             bottom."
-                .to_owned()
-        }
+        None => format!(
+            "{unknown}Call the engineer: no change of speed or weight is known to end this motion. If it gets worse, pick \
+             up off bottom."
+        ),
     }
 }
 
@@ -419,16 +543,25 @@ mod tests {
             priority: Some(priority),
             rule,
             shelved: false,
+            leads: false,
         }
     }
 
+    fn at(rpm: f64, kn: f64) -> Operating {
+        Operating {
+            rpm,
+            kn,
+            unknown: Unknown::default(),
+        }
+    }
+
+    fn told(demands: &[Demand], now: &Operating, ahead: &Ahead) -> Vec<String> {
+        let actions = what_to_do(demands, now, &InputsConfig::default(), ahead);
+        actions.into_iter().map(|action| action.text).collect()
+    }
+
     fn texts(demands: &[Demand], rpm: f64, kn: f64) -> Vec<String> {
-        what_to_do(
-            demands,
-            &Operating { rpm, kn },
-            &InputsConfig::default(),
-            &Ahead::default(),
-        )
+        told(demands, &at(rpm, kn), &Ahead::default())
     }
 
     fn alone(rule: Advice, rpm: f64, kn: f64, priority: Priority) -> String {
@@ -504,6 +637,134 @@ mod tests {
         assert!(texts(&demands, 120.0, 10.0)[0].starts_with("No further action"));
     }
 
+    /// The twin's own ramp to its safe value is no speed of the rig.
+    #[test]
+    fn without_the_rigs_speed_and_weight_no_number_of_the_twin_is_given() {
+        let slower = Advice {
+            lower_rotary_speed_rpm: Some(50.0),
+            ..Advice::default()
+        };
+        let demands = [demand(AlarmId::ChaoticWhirl, HIGH, slower)];
+        let text = |speed, weight| {
+            let now = Operating {
+                unknown: Unknown { speed, weight },
+                ..at(95.0, 20.0)
+            };
+            told(&demands, &now, &Ahead::default()).remove(0)
+        };
+        assert_eq!(
+            text(true, true),
+            "The rig's speed and weight on bit are unknown to the twin. Read them on the rig's own instruments. If the \
+             speed is above 50 r/min, lower it below that and keep the weight on bit. If it persists, pick up off bottom \
+             and stop the drive."
+        );
+        assert!(text(false, true).starts_with("The rig's weight on bit is unknown to the twin. "));
+        assert!(text(false, true).contains("Lower the speed below 50 r/min (95 r/min now)"));
+        assert!(!text(true, false).contains("now)"));
+        // What was tried from the twin's own speed is not told either.
+        let tested = Tested {
+            alarm: AlarmId::ChaoticWhirl,
+            ends: [AlarmId::ChaoticWhirl].into_iter().collect(),
+            stays: AlarmSet::EMPTY,
+            from: [95.0, 20.0],
+            change: Change {
+                quantity: Quantity::Speed,
+                to: 66.0,
+            },
+            ended: 10,
+            of: 10,
+        };
+        let now = Operating {
+            unknown: Unknown {
+                speed: true,
+                weight: false,
+            },
+            ..at(95.0, 20.0)
+        };
+        let ahead = Ahead {
+            trial: Some(Trial::Waits),
+            tested: Some(tested),
+        };
+        assert!(!told(&demands, &now, &ahead)[0].contains("66 r/min"));
+    }
+
+    #[test]
+    fn a_rule_says_what_the_twin_does_about_it() {
+        let slower = Advice {
+            lower_rotary_speed_rpm: Some(50.0),
+            ..Advice::default()
+        };
+        let demands = [demand(AlarmId::ChaoticWhirl, MEDIUM, slower)];
+        let text = |trial| {
+            let ahead = Ahead {
+                trial: Some(trial),
+                tested: None,
+            };
+            told(&demands, &at(95.0, 20.0), &ahead).remove(0)
+        };
+        for (trial, end) in [
+            (Trial::Waits, "the twin has not tried it out."),
+            (
+                Trial::Runs { minutes: 0 },
+                "the twin is trying settings out now, which takes a few minutes.",
+            ),
+            (
+                Trial::Runs { minutes: 2 },
+                "the twin is trying settings out now, which takes about 2 min.",
+            ),
+            (
+                Trial::NothingFound,
+                "the twin has tried other settings out, and none ended the alarm reliably.",
+            ),
+        ] {
+            let expected = format!(
+                "Lower the speed below 50 r/min (95 r/min now) and keep the weight on bit. This is a rule of thumb: {end}"
+            );
+            assert_eq!(text(trial), expected);
+        }
+    }
+
+    /// The change that shock would ask for is put aside with it.
+    #[test]
+    fn no_alarm_refers_to_one_that_is_shelved() {
+        let lighter = Advice {
+            lower_weight_on_bit_kn: Some(8.0),
+            ..Advice::default()
+        };
+        let mut demands = [
+            demand(AlarmId::BackwardWhirl, MEDIUM, Advice::default()),
+            demand(AlarmId::Shock, MEDIUM, lighter),
+        ];
+        assert!(texts(&demands, 60.0, 20.0)[0].starts_with("Follow the advice for lateral shock"));
+        demands[1].shelved = true;
+        assert!(texts(&demands, 60.0, 20.0)[0].starts_with("Call the engineer"));
+    }
+
+    #[test]
+    fn the_alarm_that_leads_goes_on_leading_among_equals() {
+        let slower = |rpm| Advice {
+            lower_rotary_speed_rpm: Some(rpm),
+            ..Advice::default()
+        };
+        let mut demands = [
+            demand(AlarmId::BackwardWhirl, MEDIUM, slower(80.0)),
+            demand(AlarmId::StickSlip, MEDIUM, LESS),
+        ];
+        demands[1].leads = true;
+        let actions = what_to_do(&demands, &at(120.0, 10.0), &InputsConfig::default(), &Ahead::default());
+        assert_eq!(
+            [actions[0].follows, actions[1].follows],
+            [Some(AlarmId::StickSlip), None]
+        );
+        // One of a higher priority takes the lead.
+        demands[0].priority = Some(HIGH);
+        let actions = what_to_do(&demands, &at(120.0, 10.0), &InputsConfig::default(), &Ahead::default());
+        assert_eq!(
+            [actions[0].follows, actions[1].follows],
+            [None, Some(AlarmId::BackwardWhirl)]
+        );
+    }
+
     #[test]
     fn a_step_respects_the_limits_of_the_other_alarms() {
         let slow = Advice {
@@ -553,13 +814,12 @@ mod tests {
             demand(AlarmId::ChaoticWhirl, MEDIUM, Advice::default()),
             demand(AlarmId::Shock, MEDIUM, Advice::default()),
         ];
-        let now = Operating { rpm: 120.0, kn: 10.0 };
         let texts = |tested| {
             let ahead = Ahead {
-                is_on: true,
+                trial: Some(Trial::Waits),
                 tested: Some(tested),
             };
-            what_to_do(&demands, &now, &InputsConfig::default(), &ahead)
+            told(&demands, &at(120.0, 10.0), &ahead)
         };
         assert_eq!(
             texts(tested),

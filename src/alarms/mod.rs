@@ -29,7 +29,7 @@ mod tool;
 mod window;
 mod worst_moment;
 
-pub use advice::{Change, Leading, Quantity, Tested};
+pub use advice::{Change, Leading, Quantity, Tested, Trial, Unknown};
 pub use catalogue::AlarmId;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
@@ -58,6 +58,8 @@ use worst_moment::WorstMoment;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
 const SET_BACK: Time = 60_000_000_000;
+/// Longest off-delay of an alarm in a run that looks ahead (s).
+const PROMPT: f64 = 1.0;
 /// Longest time between two lists (ns).
 const LIST_INTERVAL: Time = 1_000_000_000;
 
@@ -67,13 +69,20 @@ pub struct AlarmBook {
     config: Arc<Config>,
     /// The worst moment of each alarm that stands or is not yet acknowledged.
     moments: Vec<WorstMoment>,
+    /// Whether alarms are held for an operator.
+    holds: bool,
     /// The operating point of the newest snapshot.
     operating: Operating,
     memory: node::Memory,
     /// The map of speed and weight, where one is loaded.
     window: Option<Arc<SafeWindow>>,
-    /// What look-aheads have found for the present state.
+    /// What look-aheads have found for the present state, and what they do.
     tested: Option<Tested>,
+    trial: Trial,
+    /// The alarm that leads the advice.
+    lead: Option<AlarmId>,
+    /// Which of the rig's values the twin does not know.
+    unknown: Unknown,
     /// When rig and twin were compared last in steady motion.
     rig_judged: Time,
     /// What the twin expects of the rig, as the journal has it.
@@ -108,13 +117,32 @@ impl AlarmBook {
         Self::with(system(&config), config, time)
     }
 
+    /// All alarms normal, for a run that is to find out whether a motion has ended: the alarms return within [`PROMPT`]
+    /// of it, and are not held as those of an operator are.
+    pub(crate) fn prompt(config: Arc<Config>, time: Time) -> Self {
+        let mut definitions = AlarmId::ALL.map(|id| id.define(&config.alarms)).to_vec();
+        for kind in HazardKind::ALL {
+            let delays = &mut definitions[AlarmId::of_hazard(kind) as usize].delays;
+            delays.off = delays.off.min(PROMPT);
+        }
+        let system = AlarmSystem::new(definitions, config.alarms.longest_shelving);
+        Self {
+            holds: false,
+            ..Self::with(system, config, time)
+        }
+    }
+
     fn with(system: AlarmSystem, config: Arc<Config>, time: Time) -> Self {
         let mut book = Self {
             moments: vec![WorstMoment::default(); AlarmId::ALL.len()],
+            holds: true,
             operating: Operating::default(),
             memory: node::Memory::default(),
             window: None,
             tested: None,
+            trial: Trial::default(),
+            lead: None,
+            unknown: Unknown::default(),
             rig_judged: Time::MIN,
             adjusted: Adjusted::default(),
             restored: (0..AlarmId::ALL.len())
@@ -155,9 +183,9 @@ impl AlarmBook {
         let stands = |id: AlarmId| self.system.alarm(id as usize).standing.active().is_some();
         let mut findings = tool::findings(snapshot, stamp, &self.config, stands);
         if let Some(window) = &self.window {
-            findings.push((AlarmId::KnownWindow, window::finding(window, snapshot)));
+            findings.push((AlarmId::KnownWindow, window::finding(window, snapshot, self.unknown)));
         }
-        self.operating = Operating::of(&snapshot.applied);
+        self.operating = Operating::of(&snapshot.applied, self.unknown);
         self.observe(findings, stamp);
     }
 
@@ -193,6 +221,7 @@ impl AlarmBook {
 
     /// Observes the node's own state.
     pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
+        self.set_unknown(Unknown::of(state.conditioner, state.now));
         let findings = node::findings(state, &self.config.alarms, &mut self.memory);
         self.observe(findings, time);
     }
@@ -200,8 +229,13 @@ impl AlarmBook {
     fn observe(&mut self, findings: impl IntoIterator<Item = (AlarmId, Finding)>, time: Time) {
         let mut events = Vec::new();
         for (id, finding) in findings {
+            let moment = &self.moments[id as usize];
+            let active = self.system.alarm(id as usize).standing.active();
             let observed = Observation {
-                priority: finding.priority,
+                priority: match self.holds {
+                    true => moment.held(finding.priority, active, time),
+                    false => finding.priority,
+                },
                 suppressed: finding.suppressed,
                 evidence: &finding.evidence,
             };
@@ -212,9 +246,14 @@ impl AlarmBook {
         self.keep(events);
     }
 
-    /// Takes what look-aheads have found, for as long as it holds at what is asked for.
-    pub fn set_tested(&mut self, tested: Option<Tested>) {
-        self.tested = tested;
+    /// Takes what look-aheads have found, for as long as it holds at what is asked for, and what they do.
+    pub fn set_tested(&mut self, tested: Option<Tested>, trial: Trial) {
+        (self.tested, self.trial) = (tested, trial);
+    }
+
+    /// Takes which of the rig's values the twin does not know. [`AlarmBook::observe_node`] does so too.
+    pub fn set_unknown(&mut self, unknown: Unknown) {
+        (self.unknown, self.operating.unknown) = (unknown, unknown);
     }
 
     /// The alarm of the tool's motion that leads, and all that stand; `None` while none does.
@@ -237,15 +276,18 @@ impl AlarmBook {
     fn advise(&mut self) {
         let demands = self.demands();
         let ahead = Ahead {
-            is_on: self.config.look_ahead.advice,
+            trial: self.config.look_ahead.advice.then_some(self.trial),
             tested: self.tested,
         };
-        let texts = advice::what_to_do(&demands, &self.operating, &self.config.inputs, &ahead);
-        for (demand, text) in demands.iter().zip(texts) {
+        let actions = advice::what_to_do(&demands, &self.operating, &self.config.inputs, &ahead);
+        let followed = actions.iter().find_map(|action| action.follows);
+        self.lead = followed.or_else(|| Some(advice::by_rank(&demands).first()?.id));
+        for (demand, action) in demands.iter().zip(actions) {
             let index = demand.id as usize;
-            self.moments[index].finding.what_to_do = match self.system.alarm(index).standing.active() {
-                Some(_) => text,
-                None => "No further action: acknowledge the alarm.".to_owned(),
+            let finding = &mut self.moments[index].finding;
+            (finding.what_to_do, finding.follows) = match self.system.alarm(index).standing.active() {
+                Some(_) => (action.text, action.follows),
+                None => ("No further action: acknowledge the alarm.".to_owned(), None),
             };
         }
     }
@@ -258,9 +300,10 @@ impl AlarmBook {
             if moment.is_known() {
                 demands.push(Demand {
                     id,
-                    priority: moment.counts.map(|counts| standing.active().unwrap_or(counts)),
+                    priority: standing.active().filter(|_| moment.counts.is_some()),
                     rule: tool::rule(kind, &self.config.alarms.advice),
                     shelved: standing.shelf().is_some(),
+                    leads: self.lead == Some(id),
                 });
             }
         }

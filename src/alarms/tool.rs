@@ -1,12 +1,12 @@
 //! Alarms of the tool's motion: conditions from the hazards of the analysis and from the quality of the model.
 
-use super::advice::{self, Operating};
+use super::advice::{self, Operating, Unknown};
 use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::number;
 use flexdrill_alarms::{Priority, Time, span};
 use flexdrill_config::{Advice, AdviceTable, Config};
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Hold, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
@@ -14,6 +14,10 @@ use flexdrill_core::units::rad_to_deg;
 /// Largest difference of the whirl rate from that of rolling without slip, over the latter, for whirl that is called
 /// rolling: the default of the analysis.
 const ROLLING_TOLERANCE: f64 = 0.15;
+
+/// Speed of the bit against the drive, over the drive's speed, from which it spins back. A bit that sticks rocks by a few
+/// percent about zero: the ripple of the joints. Assumption.
+const SPINS_BACK: f64 = 0.1;
 
 /// The findings of a snapshot at the instant `stamp`, one per alarm of the tool. `stands` says whether an alarm stands
 /// already.
@@ -25,7 +29,7 @@ pub(super) fn findings(
 ) -> Vec<(AlarmId, Finding)> {
     let hazards = &snapshot.hazards;
     let suppressed = hazards.drive != DriveState::Turning;
-    let now = Operating::of(&snapshot.applied);
+    let now = Operating::of(&snapshot.applied, Unknown::default());
     let instant = |time: f64| stamp.saturating_sub(span(snapshot.time - time));
     let mut findings: Vec<_> = hazards
         .list
@@ -33,11 +37,23 @@ pub(super) fn findings(
         .map(|hazard| {
             let id = AlarmId::of_hazard(hazard.kind);
             let finding = match called(hazard.kind, hazard.severity, &now, config, stands(id)) {
-                Some(priority) if !suppressed => Finding {
-                    seen: Some(instant(hazard.seen)),
-                    ended: hazard.ended.map(instant),
-                    ..describe(hazard, priority)
-                },
+                Some(priority) if !suppressed => {
+                    // A lower level that is a displayed state here is the end of the condition.
+                    let (ended, less) = match hazard.hold {
+                        Hold::Met => (None, None),
+                        Hold::Less { severity, since } => {
+                            let less = called(hazard.kind, severity, &now, config, stands(id));
+                            (Some(since), less)
+                        }
+                        Hold::Ended { at } => (Some(at), None),
+                    };
+                    Finding {
+                        seen: Some(instant(hazard.seen)),
+                        ended: ended.map(instant),
+                        less,
+                        ..describe(hazard, priority)
+                    }
+                }
                 _ => Finding::default(),
             };
             (id, Finding { suppressed, ..finding })
@@ -109,7 +125,12 @@ pub(crate) fn called_at(
     [rpm, kn]: [f64; 2],
     config: &Config,
 ) -> Option<Priority> {
-    called(kind, severity, &Operating { rpm, kn }, config, false)
+    let now = Operating {
+        rpm,
+        kn,
+        ..Operating::default()
+    };
+    called(kind, severity, &now, config, false)
 }
 
 fn describe(hazard: &Hazard, priority: Priority) -> Finding {
@@ -215,6 +236,11 @@ fn words(hazard: &Hazard) -> Words {
         HazardKind::StickSlip => Words {
             unit: "of the mean",
             evidence: match number(100.0 * hazard.value, 0) {
+                // From 1 on the mean is near zero in the swing, and a share of it says nothing to a driller.
+                Some(_) if hazard.value >= 1.0 && hazard.least_speed < -SPINS_BACK => {
+                    "Stick-slip: the bit stops and spins back before it breaks free".to_owned()
+                }
+                Some(_) if hazard.value >= 1.0 => "Stick-slip: the bit stops and then breaks free".to_owned(),
                 Some(swing) => format!(
                     "Stick-slip: the bit speed swings {swing} % above and below its mean; at 100 % the bit stops"
                 ),

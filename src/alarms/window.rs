@@ -1,5 +1,6 @@
 //! The alarm "outside the known window": where the present speed and weight are on the map that the node has loaded.
 
+use super::advice::Unknown;
 use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::{capitalized, number};
@@ -9,11 +10,12 @@ use flexdrill_core::motion::DriveState;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
-/// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged.
-pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot) -> Finding {
+/// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged, nor are a speed and
+/// weight that are the twin's own.
+pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, unknown: Unknown) -> Finding {
     let rpm = rad_per_s_to_rpm(snapshot.applied.rotary_speed).abs();
     let kn = n_to_kn(snapshot.applied.weight_on_bit);
-    let suppressed = snapshot.hazards.drive != DriveState::Turning;
+    let suppressed = snapshot.hazards.drive != DriveState::Turning || unknown.any();
     let location = window.locate(rpm, kn);
     if suppressed || matches!(location, Location::Inside | Location::OffBottom) {
         return Finding {

@@ -9,6 +9,10 @@ use flexdrill_text::time_of_day;
 /// Age of a worst moment from which on the text gives its time (ns): to a person, a younger one is the present.
 const RECENT: Time = 1_000_000_000;
 
+/// Time for which an alarm keeps its priority while its motion comes and goes with a lower one (ns): without it an
+/// operator who has acknowledged the alarm is called again with every stronger episode. Assumption.
+const PRIORITY_HELD: Time = 120_000_000_000;
+
 /// The worst moment of an alarm since its priority was reached.
 #[derive(Debug, Clone, Default)]
 pub(super) struct WorstMoment {
@@ -59,6 +63,13 @@ impl WorstMoment {
             self.reached = finding.ended.unwrap_or(time);
             self.finding = finding;
         }
+    }
+
+    /// The priority of a condition that is observed at an instant, for an alarm of the priority `active`: that of motion
+    /// that comes and goes does not fall at once.
+    pub fn held(&self, priority: Option<Priority>, active: Option<Priority>, time: Time) -> Option<Priority> {
+        let holds = self.episodes > 1 && (0..PRIORITY_HELD).contains(&time.saturating_sub(self.reached));
+        priority.map(|priority| active.filter(|_| holds).map_or(priority, |active| priority.max(active)))
     }
 
     /// Whether the condition has been observed, which after a restart takes a first observation.

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::alarms::{Leading, Tested};
+use crate::alarms::{Leading, Tested, Trial};
 use flexdrill_config::Config;
 use flexdrill_core::motion::WhirlSettings;
 use flexdrill_core::tool::LiveParameters;
@@ -143,6 +143,10 @@ struct Exchange {
     asked: Option<Asked>,
     /// The last search that came to its end, and what it found.
     answered: Option<(Asked, Option<Tested>)>,
+    /// Whether that search tried anything: the state of the run may not be had.
+    tried: bool,
+    /// How long the last search took that tried something.
+    took: Duration,
     /// Ends the running search.
     stop: Option<Arc<AtomicBool>>,
     /// Ends the running forecast, which yields to goals and searches.
@@ -205,11 +209,36 @@ impl Advisor {
         Some((asked, stop))
     }
 
-    /// Takes what a search found that was not stopped.
-    pub fn answer(&self, asked: Asked, tested: Option<Tested>) {
+    /// Takes what a search found that was not stopped, and how long it took.
+    pub fn answer(&self, asked: Asked, tested: Option<Tested>, took: Duration) {
         let mut exchange = self.lock();
         exchange.stop = None;
         exchange.answered = Some((asked, tested));
+        (exchange.tried, exchange.took) = (true, took);
+    }
+
+    /// Ends a search that could not try anything.
+    pub fn give_up(&self, asked: Asked) {
+        let mut exchange = self.lock();
+        exchange.stop = None;
+        exchange.answered = Some((asked, None));
+        exchange.tried = false;
+    }
+
+    /// What is done for the alarms of the last [`Advisor::follow`].
+    pub fn trial(&self) -> Trial {
+        let exchange = self.lock();
+        let is_answered = || {
+            let (asked, answered) = (exchange.asked.as_ref()?, exchange.answered.as_ref()?);
+            answered.0.is_for(&asked.leading, &asked.acting).then_some(answered.1)
+        };
+        match (&exchange.stop, is_answered()) {
+            (Some(_), _) => Trial::Runs {
+                minutes: exchange.took.as_secs().div_ceil(60),
+            },
+            (None, Some(None)) if exchange.tried => Trial::NothingFound,
+            (None, _) => Trial::Waits,
+        }
     }
 
     /// Stops the search and the forecast that run; they begin again later if they are due.
@@ -352,7 +381,7 @@ mod tests {
     fn answered() -> Advisor {
         let advisor = asked(SETTLED);
         let (what, _) = advisor.due().unwrap();
-        advisor.answer(what, Some(tested()));
+        advisor.answer(what, Some(tested()), Duration::from_secs(70));
         advisor
     }
 
@@ -481,7 +510,7 @@ mod tests {
             assert_eq!(advisor.follow(leading, &acting(AT)), expected);
             assert!(!stop.load(Ordering::Relaxed));
         }
-        advisor.answer(what, Some(tested()));
+        advisor.answer(what, Some(tested()), Duration::from_secs(70));
         for leading in [both, leads()] {
             assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
         }
@@ -505,6 +534,26 @@ mod tests {
     }
 
     #[test]
+    fn what_is_done_is_told_from_the_first_alarm_to_the_answer() {
+        let advisor = asked(Duration::ZERO);
+        assert_eq!(advisor.trial(), Trial::Waits);
+        wait(&advisor, SETTLED);
+        let (what, _) = advisor.due().unwrap();
+        assert_eq!(advisor.trial(), Trial::Runs { minutes: 0 });
+        advisor.answer(what, None, Duration::from_secs(70));
+        assert_eq!(advisor.trial(), Trial::NothingFound);
+        // At another speed the next search takes about as long.
+        let _ = advisor.follow(leads(), &acting([90.0, 10.0]));
+        assert_eq!(advisor.trial(), Trial::Waits);
+        wait(&advisor, SETTLED);
+        let (what, _) = advisor.due().unwrap();
+        assert_eq!(advisor.trial(), Trial::Runs { minutes: 2 });
+        // Nothing was tried where the state of the run could not be had.
+        advisor.give_up(what);
+        assert_eq!(advisor.trial(), Trial::Waits);
+    }
+
+    #[test]
     fn a_forecast_gives_way_to_goals_and_searches() {
         let advisor = asked(Duration::ZERO);
         let forecast = advisor.forecasts();
@@ -515,7 +564,7 @@ mod tests {
         let _ = advisor.follow(leads(), &acting(AT));
         assert!(forecast.load(Ordering::Relaxed));
         let (asked, _) = advisor.due().unwrap();
-        advisor.answer(asked, Some(tested()));
+        advisor.answer(asked, Some(tested()), Duration::from_secs(70));
         let forecast = advisor.forecasts();
         let _ = advisor.follow(leads(), &acting(AT));
         assert!(!forecast.load(Ordering::Relaxed), "the search has its answer");

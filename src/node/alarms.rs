@@ -112,7 +112,8 @@ impl AlarmDesk {
         self.book.observe_tool(snapshot, stamp);
         if let Some(advisor) = &self.advisor {
             let acting = Acting::new(&snapshot.applied, &self.parameters);
-            self.book.set_tested(advisor.follow(self.book.leading(), &acting));
+            let tested = advisor.follow(self.book.leading(), &acting);
+            self.book.set_tested(tested, advisor.trial());
         }
     }
 
@@ -443,9 +444,10 @@ mod tests {
             let alarm = list.alarms.into_iter().find(|alarm| alarm.id == "backward_whirl");
             alarm.unwrap().what_to_do
         };
-        assert!(advice(&mut desk).contains("A rule;"));
+        assert!(advice(&mut desk).contains("a rule of thumb: the twin has not tried it out."));
         advisor.settle();
         let (asked, _) = advisor.due().unwrap();
+        assert!(advice(&mut desk).contains("the twin is trying settings out now, which takes a few minutes."));
         let tested = Tested {
             alarm: asked.leading.alarm,
             ends: asked.leading.standing,
@@ -458,7 +460,7 @@ mod tests {
             ended: 10,
             of: 10,
         };
-        advisor.answer(asked, Some(tested));
+        advisor.answer(asked, Some(tested), Duration::from_secs(70));
         assert!(advice(&mut desk).contains("84 r/min"));
         // The same configuration, and a parameter that has nothing to do with the motion.
         desk.reconfigure(&config);
@@ -468,7 +470,10 @@ mod tests {
             config.with_value("contact.inner.friction_tangential", 1.0).unwrap(),
         ));
         let words = advice(&mut desk);
-        assert!(words.contains("A rule;") && !words.contains("84 r/min"), "{words}");
+        assert!(
+            words.contains("a rule of thumb") && !words.contains("84 r/min"),
+            "{words}"
+        );
         advisor.settle();
         assert!(advisor.due().is_some(), "it is asked for anew");
     }

@@ -471,7 +471,7 @@ impl Answering {
                 if let Some(more) = log_ending("no advice") {
                     tracing::warn!("advice on {}: {message}{more}", asked.leading.alarm.name());
                 }
-                return self.advisor.answer(asked, None);
+                return self.advisor.give_up(asked);
             }
         };
         let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
@@ -490,7 +490,7 @@ impl Answering {
                 )
             );
         }
-        self.advisor.answer(asked, tested);
+        self.advisor.answer(asked, tested, began.elapsed());
     }
 
     /// Forecasts the next minute, once that is due at `at`. A forecast that gives way to a goal or a search is made later.

@@ -7,6 +7,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::with_off_delay;
 use flexdrill::alarms::{AlarmBook, AlarmId};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmEvent, CdrError};
@@ -113,6 +114,7 @@ fn run(case: &Case, start: f64) -> Outcome {
         .and_then(|config| config.with_value("contact.inner.friction_tangential", case.friction))
         .and_then(|config| config.with_value("inputs.weight_on_bit.initial_kn", case.at[1]))
         .unwrap();
+    let config = with_off_delay(config, 1.0);
     let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut snapshot = simulation.new_snapshot();
     let steps = (LOOK / config.solver.time_step).round() as u32;

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use super::with_off_delay;
 use crate::random::Random;
 use flexdrill::ahead::{Answer, Candidate, Figure, Goal, GoalError, Start, keep_priority, look_ahead, search};
-use flexdrill::alarms::{AlarmBook, AlarmId, Quantity};
+use flexdrill::alarms::{AlarmBook, AlarmId, Quantity, Trial};
 use flexdrill::messages::outputs::schedule;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
@@ -310,11 +311,10 @@ fn followed(
     alarm: AlarmId,
     seeds: std::ops::Range<u64>,
 ) -> (String, Option<usize>) {
-    let config = Arc::new(
-        config(friction)
-            .with_value("inputs.weight_on_bit.initial_kn", kn)
-            .unwrap(),
-    );
+    let config = config(friction)
+        .with_value("inputs.weight_on_bit.initial_kn", kn)
+        .unwrap();
+    let config = Arc::new(with_off_delay(config, 1.0));
     let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut run = Run::new(simulation, schedule(&config, &config.outputs.rates));
     let inputs = Inputs {
@@ -369,7 +369,7 @@ fn followed(
         "{tested}"
     );
     assert!(tested.ends.contains(alarm) && tested.ends.union(tested.stays) == leading.standing);
-    book.set_tested(Some(tested));
+    book.set_tested(Some(tested), Trial::Waits);
     let [mut speed, mut weight] = [rpm, kn];
     match tested.change.quantity {
         Quantity::Speed => speed = tested.change.to,

@@ -169,8 +169,9 @@ fn the_worst_is_first_with_cause_consequence_and_what_to_do() {
 fn what_has_gone_is_shown_until_it_is_acknowledged() {
     let mut book = AlarmBook::fresh(config(), 0);
     show(&mut book, 10, 1, &snapshot(&[rolling()]));
-    show(&mut book, 11, 3, &snapshot(&[]));
-    let list = publish(&mut book, 14).1.unwrap();
+    // For longer than the alarm is held.
+    show(&mut book, 11, 31, &snapshot(&[]));
+    let list = publish(&mut book, 42).1.unwrap();
     let returned = &list.alarms[0];
     assert_eq!(
         (returned.id.as_str(), returned.state, returned.priority, returned.active),
@@ -184,11 +185,11 @@ fn what_has_gone_is_shown_until_it_is_acknowledged() {
     );
     assert_eq!(returned.what_to_do, "No further action: acknowledge the alarm.");
     assert_eq!(
-        book.request(&acknowledge(""), 15 * SECOND).unwrap(),
+        book.request(&acknowledge(""), 43 * SECOND).unwrap(),
         "alarms acknowledged: 1"
     );
-    show(&mut book, 15, 1, &snapshot(&[]));
-    let (events, list) = publish(&mut book, 16);
+    show(&mut book, 43, 1, &snapshot(&[]));
+    let (events, list) = publish(&mut book, 44);
     let list = list.unwrap();
     let normal = find(&list, "backward_whirl");
     assert_eq!((normal.state, normal.evidence.as_str()), (Alarm::NORMAL, ""));

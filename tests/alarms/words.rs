@@ -11,8 +11,8 @@ use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmEvent, AlarmList, CdrError};
 use flexdrill_config::Config;
-use flexdrill_core::inputs::Conditioner;
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
+use flexdrill_core::inputs::{Conditioner, InputKind};
+use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Hold, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
@@ -20,14 +20,14 @@ use flexdrill_realtime::link::RunState;
 use flexdrill_realtime::{Pace, PaceReading};
 use proptest::prelude::*;
 
-const SECOND: i64 = 1_000_000_000;
+pub(super) const SECOND: i64 = 1_000_000_000;
 
-fn config() -> Arc<Config> {
+pub(super) fn config() -> Arc<Config> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     Arc::new(Config::load(root.join("config/default.yaml")).unwrap())
 }
 
-fn snapshot(rpm: f64, kn: f64, hazards: &[Hazard]) -> Snapshot {
+pub(super) fn snapshot(rpm: f64, kn: f64, hazards: &[Hazard]) -> Snapshot {
     let mut snapshot = Snapshot::default();
     snapshot.applied.rotary_speed = rpm_to_rad_per_s(rpm);
     snapshot.applied.weight_on_bit = kn_to_n(kn);
@@ -38,7 +38,7 @@ fn snapshot(rpm: f64, kn: f64, hazards: &[Hazard]) -> Snapshot {
     snapshot
 }
 
-fn hazard(kind: HazardKind, severity: Severity) -> Hazard {
+pub(super) fn hazard(kind: HazardKind, severity: Severity) -> Hazard {
     Hazard {
         severity,
         value: 3.4,
@@ -47,16 +47,16 @@ fn hazard(kind: HazardKind, severity: Severity) -> Hazard {
     }
 }
 
-fn list(book: &AlarmBook) -> AlarmList {
+pub(super) fn list(book: &AlarmBook) -> AlarmList {
     book.list(Header::default())
 }
 
-fn find<'a>(list: &'a AlarmList, id: &str) -> &'a Alarm {
+pub(super) fn find<'a>(list: &'a AlarmList, id: &str) -> &'a Alarm {
     list.alarms.iter().find(|alarm| alarm.id == id).unwrap()
 }
 
 /// The list and all events so far.
-fn said(book: &mut AlarmBook) -> (AlarmList, Vec<AlarmEvent>) {
+pub(super) fn said(book: &mut AlarmBook) -> (AlarmList, Vec<AlarmEvent>) {
     let events = book.publish::<CdrError>(Header::default(), 0, |_| Ok(())).unwrap();
     (list(book), events)
 }
@@ -100,7 +100,7 @@ fn a_held_alarm_shows_its_worst_moment_and_when_it_ended() {
     // The motion has ended, the level is held.
     let over = Hazard {
         seen: 31.0,
-        ended: Some(37.0),
+        hold: Hold::Ended { at: 37.0 },
         ..whirl
     };
     show(&mut book, 39.0, over);
@@ -136,17 +136,22 @@ fn a_held_alarm_shows_its_worst_moment_and_when_it_ended() {
     let lower = find(&list(&book), "backward_whirl").clone();
     assert_eq!((lower.active, lower.priority, lower.value), (true, Alarm::HIGH, 3.4));
     assert!(
-        lower.evidence.ends_with("less severe since 22:13:57 UTC."),
+        lower
+            .evidence
+            .ends_with("it came 2 times since 22:13:50 UTC; less severe since 22:13:57 UTC."),
         "{}",
         lower.evidence
     );
+    // The condition stands: its end is not that of its priority.
+    assert!(!lower.ended && lower.ended_at == Time::default() && lower.episodes == 2);
+    assert_eq!(lower.less_severe_since, Time::from_nanoseconds(begin + 37 * SECOND));
     assert!(
         lower.what_to_do.starts_with("Lower the speed below 80"),
         "{}",
         lower.what_to_do
     );
-    // The journal keeps the end with the return.
-    for tenth in 0..60 {
+    // The journal keeps the end of the motion with the return, which comes after the off-delay of 30 s.
+    for tenth in 0..310 {
         show(
             &mut book,
             46.0 + f64::from(tenth) / 10.0,
@@ -158,8 +163,76 @@ fn a_held_alarm_shows_its_worst_moment_and_when_it_ended() {
         .iter()
         .find(|event| event.change == AlarmEvent::RETURNED)
         .unwrap();
-    assert_eq!(returned.ended_at, Time::from_nanoseconds(begin + 37 * SECOND));
-    assert_eq!(returned.what_to_do, "");
+    // The last look at the weaker motion, but for the rounding of its time.
+    let ended = returned.ended_at.to_nanoseconds() - begin;
+    assert!((ended - 459 * SECOND / 10).abs() < 1000, "{ended}");
+    assert_eq!((returned.what_to_do.as_str(), returned.follows.as_str()), ("", ""));
+}
+
+/// With inputs that are stale, the speed and weight of the twin are a ramp of its own.
+#[test]
+fn with_stale_inputs_the_motion_says_first_that_the_rig_is_unknown() {
+    let config = config();
+    let mut conditioner = Conditioner::new(config.inputs.rules());
+    for kind in InputKind::ALL {
+        conditioner.offer(kind, 10.0, 0.0).unwrap();
+    }
+    let mut book = AlarmBook::fresh(config, 0);
+    let mut told = |now: f64| {
+        let state = NodeState {
+            conditioner: &conditioner,
+            now,
+            drivers: Default::default(),
+            run_state: RunState::Running,
+            failure: None,
+            pace: PaceReading {
+                level: Pace::Kept,
+                factor: Some(1.0),
+            },
+            recording: None,
+            dds: Health::default(),
+            namesakes: Vec::new(),
+        };
+        let stamp = (now * 1e9) as i64;
+        book.observe_node(&state, stamp);
+        let chaos = hazard(HazardKind::ChaoticWhirl, Severity::Critical);
+        book.observe_tool(&snapshot(95.0, 10.0, &[chaos]), stamp);
+        find(&list(&book), "chaotic_whirl").what_to_do.clone()
+    };
+    assert!(told(0.5).starts_with("Lower the speed below 50 r/min (95 r/min now)"));
+    let text = told(60.0);
+    assert!(
+        text.starts_with("The rig's speed and weight on bit are unknown to the twin."),
+        "{text}"
+    );
+    assert!(!text.contains("now)") && !text.contains("95"), "{text}");
+    assert!(
+        text.contains("If the speed is above 50 r/min, lower it below that"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_bit_that_stops_is_told_without_a_share_of_its_mean() {
+    let evidence = |value: f64, least_speed: f64| {
+        let mut book = AlarmBook::fresh(config(), 0);
+        let bit = Hazard {
+            value,
+            least_speed,
+            ..hazard(HazardKind::StickSlip, Severity::Critical)
+        };
+        book.observe_tool(&snapshot(60.0, 30.0, &[bit]), SECOND);
+        find(&list(&book), "stick_slip").evidence.clone()
+    };
+    assert_eq!(
+        evidence(0.84, 0.2),
+        "Stick-slip: the bit speed swings 84 % above and below its mean; at 100 % the bit stops."
+    );
+    assert_eq!(evidence(1.2, -0.02), "Stick-slip: the bit stops and then breaks free.");
+    assert_eq!(
+        evidence(18.58, -1.3),
+        "Stick-slip: the bit stops and spins back before it breaks free."
+    );
 }
 
 /// ISA-18.2: no alarm without an action. The state stays in the hazards.
@@ -332,15 +405,24 @@ fn any_severity() -> impl Strategy<Value = Severity> {
     ]
 }
 
+fn any_hold() -> impl Strategy<Value = Hold> {
+    prop_oneof![
+        2 => Just(Hold::Met),
+        1 => (any_severity(), any_number()).prop_map(|(severity, since)| Hold::Less { severity, since }),
+        1 => any_number().prop_map(|at| Hold::Ended { at }),
+    ]
+}
+
 fn any_hazard(kind: HazardKind) -> impl Strategy<Value = Hazard> {
     (
         any_severity(),
         proptest::array::uniform8(any_number()),
         proptest::array::uniform4(any_number()),
         proptest::option::of((any_number(), any_number(), any::<bool>())),
-        proptest::option::of(any_number()),
+        any_hold(),
+        any_number(),
     )
-        .prop_map(move |(severity, a, b, place, ended)| Hazard {
+        .prop_map(move |(severity, a, b, place, hold, least_speed)| Hazard {
             kind,
             severity,
             place: place.map(|(measured_depth, inclination, pipe)| ToolLocation {
@@ -360,11 +442,12 @@ fn any_hazard(kind: HazardKind) -> impl Strategy<Value = Hazard> {
             confidence: b[0],
             since: b[1],
             seen: b[2],
-            ended,
+            hold,
+            least_speed,
         })
 }
 
-fn any_snapshot() -> impl Strategy<Value = Snapshot> {
+pub(super) fn any_snapshot() -> impl Strategy<Value = Snapshot> {
     let hazards: Vec<_> = HazardKind::ALL.into_iter().map(any_hazard).collect();
     (
         hazards,

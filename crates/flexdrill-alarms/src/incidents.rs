@@ -28,6 +28,8 @@ pub struct Occurrence<'a> {
     pub priority: u8,
     /// The operator who caused the event; empty without one.
     pub operator: &'a str,
+    /// Whether the event has an action of its own, not one that refers to another alarm's.
+    pub acts: bool,
 }
 
 /// The time in which an alarm stood.
@@ -60,7 +62,9 @@ pub struct Group<D> {
     pub duration: Time,
     /// The highest priority.
     pub priority: u8,
-    /// The details of the first event of the highest priority.
+    /// Whether `worst` has an action of its own.
+    pub acts: bool,
+    /// The details of the first event of the highest priority, of those with an action of their own where there are any.
     pub worst: D,
 }
 
@@ -73,6 +77,15 @@ pub struct Incidents<D> {
     standing: BTreeMap<String, (Time, Option<usize>)>,
     most: usize,
     more: u64,
+}
+
+impl<D: Clone> Group<D> {
+    fn take(&mut self, priority: u8, acts: bool, details: &D) {
+        if (priority, acts) > (self.priority, self.acts) {
+            (self.priority, self.acts) = (priority, acts);
+            self.worst.clone_from(details);
+        }
+    }
 }
 
 impl<D: Clone> Incidents<D> {
@@ -103,12 +116,13 @@ impl<D: Clone> Incidents<D> {
     }
 
     /// Adds an alarm that stood when the journal began, at `origin`; its duration counts from there.
-    pub fn add_standing(&mut self, begin: Time, origin: Time, alarm: &str, priority: u8, details: D) {
+    pub fn add_standing(&mut self, begin: Time, origin: Time, event: &Occurrence<'_>, details: D) {
         self.begin(
             origin.max(begin),
+            event.acts,
             Incident {
-                alarm: alarm.to_owned(),
-                priority,
+                alarm: event.alarm.to_owned(),
+                priority: event.priority,
                 begin,
                 end: None,
                 from_before: true,
@@ -123,6 +137,7 @@ impl<D: Clone> Incidents<D> {
         match event.course {
             Course::Stands if !self.standing.contains_key(event.alarm) => self.begin(
                 time,
+                event.acts,
                 Incident {
                     alarm: event.alarm.to_owned(),
                     priority: event.priority,
@@ -133,7 +148,7 @@ impl<D: Clone> Incidents<D> {
                     worst: details(),
                 },
             ),
-            Course::Stands => self.update(event.alarm, event.priority, details()),
+            Course::Stands => self.update(event, details()),
             Course::Ends => self.end(time, event.alarm),
             Course::Acknowledged => {
                 let newest = self
@@ -156,19 +171,17 @@ impl<D: Clone> Incidents<D> {
         }
     }
 
-    fn begin(&mut self, counted_from: Time, incident: Incident<D>) {
+    fn begin(&mut self, counted_from: Time, acts: bool, incident: Incident<D>) {
         let group = self.groups.entry(incident.alarm.clone()).or_insert_with(|| Group {
             times: 0,
             first: incident.begin,
             duration: 0,
             priority: incident.priority,
+            acts,
             worst: incident.worst.clone(),
         });
         group.times += 1;
-        if incident.priority > group.priority {
-            group.priority = incident.priority;
-            group.worst.clone_from(&incident.worst);
-        }
+        group.take(incident.priority, acts, &incident.worst);
         let index = (self.list.len() < self.most).then_some(self.list.len());
         self.standing.insert(incident.alarm.clone(), (counted_from, index));
         if index.is_some() {
@@ -178,18 +191,15 @@ impl<D: Clone> Incidents<D> {
         }
     }
 
-    fn update(&mut self, alarm: &str, priority: u8, details: D) {
-        if let Some(group) = self.groups.get_mut(alarm)
-            && priority > group.priority
-        {
-            group.priority = priority;
-            group.worst.clone_from(&details);
+    fn update(&mut self, event: &Occurrence<'_>, details: D) {
+        if let Some(group) = self.groups.get_mut(event.alarm) {
+            group.take(event.priority, event.acts, &details);
         }
-        let index = self.standing.get(alarm).and_then(|(_, index)| *index);
+        let index = self.standing.get(event.alarm).and_then(|(_, index)| *index);
         if let Some(incident) = index.and_then(|index| self.list.get_mut(index))
-            && priority >= incident.priority
+            && event.priority >= incident.priority
         {
-            incident.priority = priority;
+            incident.priority = event.priority;
             incident.worst = details;
         }
     }
@@ -221,7 +231,30 @@ mod tests {
             course,
             priority,
             operator: "ann",
+            acts: true,
         }
+    }
+
+    /// What the group says to do is an action, where any event of its priority has one.
+    #[test]
+    fn an_action_of_its_own_goes_before_one_that_refers_to_another_alarm() {
+        let mut incidents = Incidents::new(10);
+        let events = [
+            (1, 2, true, "soon"),
+            (2, 3, false, "follow the other one"),
+            (3, 3, true, "act"),
+            (4, 3, true, "act again"),
+            (5, 3, false, "follow again"),
+        ];
+        for (time, priority, acts, text) in events {
+            let event = Occurrence {
+                acts,
+                ..shock(Course::Stands, priority)
+            };
+            incidents.add(time, &event, || text);
+        }
+        let group = &incidents.groups()["shock"];
+        assert_eq!((group.priority, group.acts, group.worst), (3, true, "act"));
     }
 
     #[test]
@@ -259,7 +292,7 @@ mod tests {
     #[test]
     fn an_alarm_that_stood_before_the_journal_counts_from_its_begin() {
         let mut incidents = Incidents::new(10);
-        incidents.add_standing(-30, 0, "shock", 2, "old");
+        incidents.add_standing(-30, 0, &shock(Course::Stands, 2), "old");
         // Of an alarm that stands, a second begin is none.
         incidents.add(3, &shock(Course::Stands, 2), || "same");
         incidents.add(4, &shock(Course::Ends, 2), || "");

@@ -39,7 +39,7 @@ section! {
         /// The energy errors of the steps make the motion doubtful.
         model_quality: ToolAlarm = ToolAlarm::default(), below;
         /// Speed and weight are outside the part of the map (`map.file`) in which no alarm must be expected.
-        known_window: ToolAlarm = ToolAlarm { on_delay: 5.0, ..ToolAlarm::default() }, below;
+        known_window: ToolAlarm = ToolAlarm { on_delay: 5.0, off_delay: 1.0, ..ToolAlarm::default() }, below;
         /// What the rig measures is beyond the band that the twin expects.
         rig_disagrees: ToolAlarm = ToolAlarm { on_delay: 10.0, off_delay: 30.0, ..ToolAlarm::default() }, below;
         /// The rotary speed is not received, refused or stale.
@@ -74,7 +74,7 @@ section! {
         /// Time for which a level must stand before the alarm annunciates (s).
         on_delay: f64 = 0.0, within(0.0, 600.0), "s", "levels have their own duration; longer would call too late";
         /// Time for which it must be absent before the alarm returns to normal (s).
-        off_delay: f64 = 1.0, within(0.0, 600.0), "s", "levels have their own hold-off; longer says nothing of now";
+        off_delay: f64 = 30.0, within(0.0, 600.0), "s", "motion that comes and goes within it is one alarm; longer says nothing of now";
     }
 }
 

@@ -12,7 +12,9 @@ mod synthetic_orbits;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use flexdrill_core::motion::{Severity, StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlSettings};
+use flexdrill_core::motion::{
+    Alarm, AlarmThresholds, Hold, Severity, StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlSettings,
+};
 use flexdrill_core::tool::Body;
 use proptest::prelude::*;
 use support::Random;
@@ -382,6 +384,33 @@ fn a_second_line_does_not_make_a_whirl_doubtful() {
     assert!(bench.report.confidence[0] > 0.85, "{}", bench.report.confidence[0]);
 }
 
+/// A level that is held for a weaker motion is not held for one that has ended.
+#[test]
+fn a_held_level_says_whether_its_motion_is_weaker_or_has_ended() {
+    let thresholds = AlarmThresholds {
+        levels: [1.0, 2.0, 4.0],
+        hysteresis: 0.1,
+        hold_off: 20.0,
+    };
+    let mut level = Alarm::default();
+    let mut hold = |from: u32, to: u32, value: f64| {
+        for tenth in from..to {
+            level.update(f64::from(tenth) / 10.0, 0.1, value, &thresholds);
+        }
+        assert_eq!(level.severity(), Severity::Critical);
+        level.hold(f64::from(to - 1) / 10.0)
+    };
+    assert_eq!(hold(0, 21, 5.0), Hold::Met);
+    // Within 1.5 s it still counts.
+    assert_eq!(hold(21, 30, 2.5), Hold::Met);
+    let (severity, since) = (Severity::Warning, 2.0);
+    assert_eq!(hold(30, 41, 2.5), Hold::Less { severity, since });
+    assert_eq!(hold(41, 50, 0.0), Hold::Less { severity, since });
+    assert_eq!(hold(50, 61, 0.0), Hold::Ended { at: 4.0 });
+    // It is back.
+    assert_eq!(hold(61, 62, 5.0), Hold::Met);
+}
+
 /// Rolling backward whirl that turns into forward whirl: for as long as the level is held, the hazard and the warning
 /// keep the figures of the worst moment and not those of the forward whirl, and say when the motion ended.
 #[test]
@@ -392,7 +421,7 @@ fn a_held_level_keeps_its_worst_moment_and_says_when_it_ended() {
     let mut bench = Bench::new();
     bench.run(SPEED, 12.0, backward);
     let stands = bench.analysis.backward();
-    assert_eq!((stands.severity, stands.ended), (Severity::Critical, None));
+    assert_eq!((stands.severity, stands.hold), (Severity::Critical, Hold::Met));
     let (mut held, mut ended) = (0, None);
     while bench.analysis.backward().severity == Severity::Critical {
         let time = 12.0 + f64::from(held) * SAMPLE_INTERVAL;
@@ -403,7 +432,9 @@ fn a_held_level_keeps_its_worst_moment_and_says_when_it_ended() {
             assert!((hazard.whirl_ratio / rolling - 1.0).abs() < 0.05, "{hazard:?}");
             assert!((hazard.value / (1.0 - rolling) - 1.0).abs() < 0.05, "{hazard:?}");
             assert!((level.whirl_ratio / rolling - 1.0).abs() < 0.05, "{level:?}");
-            ended = hazard.ended.or(ended);
+            if let Hold::Ended { at } = hazard.hold {
+                ended = Some(at);
+            }
         }
         assert!(held < 4000, "the level never falls");
     }

@@ -622,7 +622,7 @@ pub mod flexdrill {
         /// Zero while it stands at the alarm's priority, and once it has ended.
         pub less_severe_since: super::builtin_interfaces::Time,
         /// Number of times that the condition has come since the alarm was normal or the node began: 1 for a condition that stands
-        /// without a pause, more for one that comes and goes. Zero while the alarm is normal.
+        /// without a pause, more for an intermittent one. Zero while the alarm is normal.
         pub episodes: u32,
         /// Id of the alarm whose action comes first: what_to_do refers to it. Empty for an alarm with an action of its own.
         pub follows: std::string::String,
@@ -820,8 +820,10 @@ pub mod flexdrill {
         pub header: super::std_msgs::Header,
         /// Number of events so far, across restarts: the sequence of the newest AlarmEvent.
         pub sequence: u64,
-        /// All alarms, including normal ones, in this order: active unacknowledged, active acknowledged, returned, shelved,
-        /// suppressed, normal, out of service; within each state the driller's before those of the computer, then by priority.
+        /// All alarms, including normal ones, in this order: active ones whose condition stands, active ones whose condition has
+        /// ended, returned, shelved, suppressed, normal, out of service. Within each group the driller's before those of the
+        /// computer, those with an action of their own before those that follow another alarm's, then by priority, and the
+        /// unacknowledged before the acknowledged. So the first one stands if any stands, and its what_to_do is an action.
         pub alarms: Vec<Alarm>,
         /// Number of alarms to be acknowledged.
         pub unacknowledged: u32,

@@ -18,6 +18,7 @@ impl AlarmEvent {
             },
             priority: self.priority,
             operator: &self.operator_name,
+            acts: self.follows.is_empty(),
         }
     }
 }

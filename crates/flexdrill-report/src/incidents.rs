@@ -98,8 +98,14 @@ impl Incidents {
         // A recording that began later does not have the events of the alarms that stood already.
         if self.newest.is_none() && !self.has_events {
             for alarm in list.alarms.iter().filter(|alarm| alarm.active) {
-                self.log
-                    .add_standing(since(alarm), 0, &alarm.id, alarm.priority, Details::from(alarm));
+                let standing = life::Occurrence {
+                    alarm: &alarm.id,
+                    course: life::Course::Stands,
+                    priority: alarm.priority,
+                    operator: "",
+                    acts: alarm.follows.is_empty(),
+                };
+                self.log.add_standing(since(alarm), 0, &standing, Details::from(alarm));
             }
         }
         self.newest = Some(list);
@@ -169,7 +175,7 @@ impl Incidents {
                 ..group.clone()
             })
         });
-        counted.max_by_key(|group| (group.priority, group.times))
+        counted.max_by_key(|group| (group.priority, group.acts, group.times))
     }
 }
 

@@ -47,7 +47,7 @@ impl fmt::Display for AlarmTally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let groups = self.incidents.groups();
         let mut rows: Vec<_> = AlarmId::ALL.into_iter().filter_map(|id| groups.get(id.id())).collect();
-        rows.sort_by_key(|group| std::cmp::Reverse((group.priority, group.times)));
+        rows.sort_by_key(|group| std::cmp::Reverse((group.priority, group.acts, group.times)));
         if rows.is_empty() {
             return writeln!(f, "  alarms                 none");
         }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::player::Player;
+use crate::alarms::Unknown;
 use crate::cli::output::tell;
 use crate::cli::progress::Progress;
 use crate::cli::source::Samples;
@@ -77,6 +78,7 @@ pub(super) fn replay(
             let followed = player.config().with_values("what follows the rig", values)?;
             player.reconfigure(followed);
         }
+        player.set_unknown(Unknown::of(&conditioner, now));
         let inputs = RunInputs {
             live: player.config().live(),
             inputs: conditioner.targets(now),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use anyhow::{Context as _, bail};
 
 use super::summary::Tally;
-use crate::alarms::AlarmBook;
+use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::cli::output::tell;
 use crate::cli::source::MeasuredSample;
@@ -195,6 +195,11 @@ impl Player {
             self.rig.restart();
         }
         if first || inputs.reset { self.capture() } else { Ok(()) }
+    }
+
+    /// Takes which of the rig's values are not known.
+    pub(super) fn set_unknown(&mut self, unknown: Unknown) {
+        self.alarms.set_unknown(unknown);
     }
 
     /// Takes one step.

@@ -69,13 +69,22 @@ pub(super) fn headline(alarm: &Alarm) -> String {
     } else {
         ""
     };
+    let episodes = match alarm.episodes {
+        0 | 1 => String::new(),
+        times => format!(", came {times} times"),
+    };
+    let ended = if alarm.active && alarm.ended {
+        ", condition ended"
+    } else {
+        ""
+    };
     let earlier = if alarm.from_earlier_run {
         ", since an earlier run"
     } else {
         ""
     };
     format!(
-        "{addressee}{} {}, {}{location}{chatters}{earlier}",
+        "{addressee}{} {}, {}{ended}{location}{episodes}{chatters}{earlier}",
         words::alarm_priority(alarm.priority).to_uppercase(),
         alarm.name,
         words::alarm_state(alarm.state)
@@ -114,6 +123,27 @@ mod tests {
             "Backward whirl. Joint fatigue. Lower the speed. Engineer: Add lubricant."
         );
         assert_eq!(sentences(&Alarm::default()), "");
+    }
+
+    #[test]
+    fn only_a_condition_that_has_ended_is_called_ended() {
+        let alarm = Alarm {
+            name: "backward whirl".into(),
+            state: Alarm::ACTIVE_UNACKNOWLEDGED,
+            priority: Alarm::HIGH,
+            active: true,
+            episodes: 4,
+            ..Alarm::default()
+        };
+        assert_eq!(
+            headline(&alarm),
+            "HIGH backward whirl, active, unacknowledged, came 4 times"
+        );
+        let ended = Alarm { ended: true, ..alarm };
+        assert_eq!(
+            headline(&ended),
+            "HIGH backward whirl, active, unacknowledged, condition ended, came 4 times"
+        );
     }
 
     #[test]

@@ -164,6 +164,7 @@ impl Board {
                 &mut alarm.consequence,
                 &mut alarm.what_to_do,
                 &mut alarm.what_the_engineer_can_do,
+                &mut alarm.follows,
             ] {
                 escape(text);
             }

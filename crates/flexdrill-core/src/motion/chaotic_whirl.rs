@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
-use super::hazards::ended;
+use super::hazards::Hold;
 use super::hysteresis::{Alarm, AlarmThresholds};
 
 /// Number of blocks in the sliding window.
@@ -54,9 +54,8 @@ pub struct ChaoticWhirlLevel {
     pub station: usize,
     /// Model time of power, share and station (s).
     pub seen: f64,
-    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None
-    /// while it is held, and while the level is OK.
-    pub ended: Option<f64>,
+    /// Whether the condition of the level is met.
+    pub hold: Hold,
     /// Model time at which the level was reached (s).
     pub since: f64,
 }
@@ -140,7 +139,7 @@ impl ChaoticWhirlWatch {
             };
         }
         (self.level.severity, self.level.since) = (now, self.alarm.since());
-        self.level.ended = ended(now, self.alarm.met(), time);
+        self.level.hold = self.alarm.hold(time);
     }
 
     /// The station with the largest dissipation; all dissipations decay by one block of the window.

@@ -103,18 +103,61 @@ pub struct Hazard {
     pub since: f64,
     /// Model time of location and figures (s).
     pub seen: f64,
-    /// Model time at which the condition of the level was last met (s), once that is [`ENDED_AFTER`] ago: only the
-    /// hold-off holds the level then. None while the condition is met, and while the level is OK.
-    pub ended: Option<f64>,
+    /// Whether the condition of the level is met.
+    pub hold: Hold,
+    /// Least speed of the bit in the window over the mean speed of the drive, in the drive's sense, for stick-slip: below
+    /// 0 the bit spins back. NaN for other hazards.
+    pub least_speed: f64,
 }
 
 /// Time (s) after which the condition of a level counts as ended: a turn of the tool at 40 r/min, so that a bouncing
 /// pipe does not end and begin with every turn. Assumption.
 pub const ENDED_AFTER: f64 = 1.5;
 
-/// When the condition of a level ended: `met` is when it was met last, `now` the present (both model time, s).
-pub(crate) fn ended(severity: Severity, met: f64, now: f64) -> Option<f64> {
-    (severity > Severity::Ok && now - met >= ENDED_AFTER).then_some(met)
+/// What holds a level: its condition, or the hold-off alone.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub enum Hold {
+    /// The condition of the level is met, or was within [`ENDED_AFTER`]; the level may be OK.
+    #[default]
+    Met,
+    /// The condition of a lower level only.
+    Less {
+        /// That level, above OK.
+        severity: Severity,
+        /// Model time at which the condition of the level itself was met last (s).
+        since: f64,
+    },
+    /// No condition: the motion has ended.
+    Ended {
+        /// Model time at which the condition of any level was met last (s).
+        at: f64,
+    },
+}
+
+impl Hold {
+    /// What holds a level at model time `now` (s), where the conditions of WATCH, WARNING and CRITICAL were last met at
+    /// model time `met` (s).
+    pub(super) fn of(severity: Severity, met: [f64; 3], now: f64) -> Self {
+        Self::with_gaps(severity, met, now, |_| ENDED_AFTER)
+    }
+
+    /// The same with the time (s) after which the condition of a level counts as ended.
+    pub(super) fn with_gaps(severity: Severity, met: [f64; 3], now: f64, gap: impl Fn(Severity) -> f64) -> Self {
+        let levels = || {
+            Severity::RAISED
+                .into_iter()
+                .zip(met)
+                .filter(|(level, _)| *level <= severity)
+        };
+        let last = |(level, met): &(Severity, f64)| now - met < gap(*level);
+        match (levels().next_back(), levels().rev().find(last)) {
+            (Some((_, since)), Some((lower, _))) if lower < severity => Self::Less { severity: lower, since },
+            (Some(_), None) => Self::Ended {
+                at: levels().map(|(_, met)| met).fold(f64::NEG_INFINITY, f64::max),
+            },
+            _ => Self::Met,
+        }
+    }
 }
 
 impl Hazard {
@@ -135,7 +178,8 @@ impl Hazard {
             confidence: 1.0,
             since: 0.0,
             seen: 0.0,
-            ended: None,
+            hold: Hold::Met,
+            least_speed: f64::NAN,
         }
     }
 }

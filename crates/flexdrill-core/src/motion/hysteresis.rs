@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
+use super::hazards::Hold;
 
 /// A level between the conditions that raise it and the weaker ones that hold it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -12,8 +13,8 @@ pub(super) struct Hysteresis {
     pub(super) since: f64,
     /// Time for which the conditions that hold the level have not been met (s).
     unmet_for: f64,
-    /// Model time at which they were met last (s).
-    pub(super) met: f64,
+    /// Model time at which the conditions that hold WATCH, WARNING and CRITICAL were met last (s).
+    pub(super) met: [f64; 3],
 }
 
 /// Result of an update.
@@ -38,30 +39,28 @@ impl Hysteresis {
         held: Severity,
         hold_off: f64,
     ) -> Transition {
+        for (level, met) in Severity::RAISED.into_iter().zip(&mut self.met) {
+            if level <= raised.max(held) {
+                *met = time;
+            }
+        }
         if raised > self.level {
-            *self = Self {
-                level: raised,
-                since: time,
-                unmet_for: 0.0,
-                met: time,
-            };
+            self.reach(raised, time);
             return Transition::Rose;
         }
         if held >= self.level {
             self.unmet_for = 0.0;
-            self.met = time;
             return Transition::Stands;
         }
         self.unmet_for += elapsed;
         if self.unmet_for >= hold_off {
-            *self = Self {
-                level: held,
-                since: time,
-                unmet_for: 0.0,
-                met: time,
-            };
+            self.reach(held, time);
         }
         Transition::Fades
+    }
+
+    fn reach(&mut self, level: Severity, time: f64) {
+        (self.level, self.since, self.unmet_for) = (level, time, 0.0);
     }
 }
 
@@ -134,9 +133,9 @@ impl Alarm {
         self.hysteresis.since
     }
 
-    /// Model time at which the condition of the level was met last (s).
-    pub fn met(&self) -> f64 {
-        self.hysteresis.met
+    /// What holds the level at model time `now` (s).
+    pub fn hold(&self, now: f64) -> Hold {
+        Hold::of(self.severity(), self.hysteresis.met, now)
     }
 
     /// The present level.

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
-use super::hazards::ended;
+use super::hazards::Hold;
 use super::hysteresis::{Alarm, AlarmThresholds};
 
 /// How the stops are judged.
@@ -49,9 +49,8 @@ pub struct JointLoadLevel {
     pub since: f64,
     /// Model time of that moment (s).
     pub seen: f64,
-    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago. None
-    /// while it is held, and while all is well.
-    pub ended: Option<f64>,
+    /// Whether the condition of the level is met.
+    pub hold: Hold,
 }
 
 /// Watches the stops of all joints.
@@ -104,7 +103,7 @@ impl JointLoadWatch {
             (self.level.ratio, self.level.joint, self.level.seen) = (ratio, worst.1, time);
         }
         (self.level.severity, self.level.since) = (now, self.alarm.since());
-        self.level.ended = ended(now, self.alarm.met(), time);
+        self.level.hold = self.alarm.hold(time);
     }
 
     /// The level of the joints' stops.

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
-use super::hazards::ended;
+use super::hazards::Hold;
 use super::hysteresis::{Alarm, AlarmThresholds};
 
 /// How a load is judged.
@@ -32,8 +32,8 @@ pub struct LoadLevel {
     pub since: f64,
     /// Model time of that load (s).
     pub seen: f64,
-    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](super::ENDED_AFTER) ago.
-    pub ended: Option<f64>,
+    /// Whether the condition of the level is met.
+    pub hold: Hold,
 }
 
 /// Watches the load of all parts. After its construction it does not allocate.
@@ -85,7 +85,7 @@ impl LoadWatch {
             (self.level.ratio, self.level.part, self.level.seen) = (ratio, worst.1, time);
         }
         (self.level.severity, self.level.since) = (now, self.alarm.since());
-        self.level.ended = ended(now, self.alarm.met(), time);
+        self.level.hold = self.alarm.hold(time);
     }
 
     /// The level of the load.

@@ -45,8 +45,7 @@ pub use chaotic_whirl::{ChaoticWhirlLevel, ChaoticWhirlSettings, ChaoticWhirlWat
 pub use contact_statistics::{ContactStatistics, Means, RootMeanSquare};
 pub use drive::DriveState;
 pub use episodes::{Episode, EpisodeKind, EpisodeLog, Observation, ToolLocation};
-pub(crate) use hazards::ended;
-pub use hazards::{ENDED_AFTER, Hazard, HazardKind, Hazards};
+pub use hazards::{ENDED_AFTER, Hazard, HazardKind, Hazards, Hold};
 pub use hysteresis::{Alarm, AlarmThresholds};
 pub use joint_load::{JointLoadLevel, JointLoadSettings, JointLoadWatch};
 pub use load_watch::{LoadLevel, LoadSettings, LoadWatch};

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::hazards::Hold;
 use crate::tool::Body;
 
 /// Kinds of motion, in the words of D-WIS where it has one. The discriminants are those of the messages.
@@ -177,7 +178,6 @@ pub struct ShockLevel {
     pub since: f64,
     /// Model time of that impulse (s).
     pub seen: f64,
-    /// Model time of the last impulse that held the level (s), once the time since then exceeds the mean interval of
-    /// the holding impulses. None before, and while the level is OK.
-    pub ended: Option<f64>,
+    /// Whether impulses still hold the level: the last one counts for the mean interval of the holding impulses.
+    pub hold: Hold,
 }

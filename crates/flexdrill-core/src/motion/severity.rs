@@ -124,8 +124,8 @@ impl StationSeverity {
         &self.worst
     }
 
-    /// Model time at which the conditions of the level were met last (s).
-    pub(super) fn met(&self) -> f64 {
+    /// Model time at which the conditions of WATCH, WARNING and CRITICAL were met last (s).
+    pub(super) fn met(&self) -> [f64; 3] {
         self.hysteresis.met
     }
 

@@ -9,7 +9,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::hazards::ENDED_AFTER;
+use super::hazards::{ENDED_AFTER, Hold};
 use super::hysteresis::{AlarmThresholds, Hysteresis, Transition};
 use super::{Severity, ShockLevel};
 
@@ -231,9 +231,8 @@ impl ShockWatch {
             Some(_) if change == Transition::Stands && worst.impulse > self.level.impulse => self.report(&worst),
             Some(_) => {}
         }
-        self.level.ended = newest
-            .map(|newest| newest.time)
-            .filter(|met| time - met >= self.gap(now));
+        let met = self.newest.map(|newest| newest.time);
+        self.level.hold = Hold::with_gaps(now, met, time, |level| self.gap(level));
     }
 
     fn report(&mut self, collision: &Collision) {
@@ -364,13 +363,16 @@ mod tests {
         let mut watch = ShockWatch::new(&ShockSettings::default(), 5);
         // At 0, 1 and 2 s.
         run(&mut watch, 0.0, 0.0, 15e3, 10_000, 2.5);
-        assert_eq!((watch.level().severity, watch.level().ended), (Severity::Warning, None));
+        assert_eq!(
+            (watch.level().severity, watch.level().hold),
+            (Severity::Warning, Hold::Met)
+        );
         run(&mut watch, 2.5, 0.0, 0.0, 10, 4.0);
         let level = watch.level();
         assert_eq!(level.severity, Severity::Warning);
         // At the end of its interval of 20 ms.
         assert!(
-            level.ended.is_some_and(|ended| (ended - 2.0).abs() < 0.05) && level.ended >= Some(level.seen),
+            matches!(level.hold, Hold::Ended { at } if (at - 2.0).abs() < 0.05 && at >= level.seen),
             "{level:?}"
         );
     }

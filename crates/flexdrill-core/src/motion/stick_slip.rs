@@ -11,6 +11,7 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 use super::Severity;
+use super::hazards::Hold;
 use super::hysteresis::{Alarm, AlarmThresholds};
 use crate::units::rpm_to_rad_per_s;
 
@@ -90,6 +91,9 @@ pub struct StickSlip {
     /// The last valid index, and the time since then without one (s).
     last: f64,
     unknown_for: f64,
+    /// Least speed of the bit over the drive's mean in the window of `last`, and in that of the alarm's worst index.
+    least: f64,
+    worst_least: f64,
     alarm: Alarm,
 }
 
@@ -145,6 +149,8 @@ impl StickSlip {
             index: 0.0,
             last: 0.0,
             unknown_for: 0.0,
+            least: 0.0,
+            worst_least: 0.0,
             alarm: Alarm::default(),
         }
     }
@@ -176,16 +182,19 @@ impl StickSlip {
         self.filled = (self.filled + 1).min(KEPT);
         // After a change of the set speed the last index holds the level, for the length of a window at most.
         let judged = self.judge();
-        if let Some(index) = judged {
-            (self.last, self.unknown_for) = (index, 0.0);
+        if let Some((index, least)) = judged {
+            (self.last, self.unknown_for, self.least) = (index, 0.0, least);
         } else {
             self.unknown_for += length;
             if self.unknown_for > self.settings.window {
                 self.last = 0.0;
             }
         }
-        self.index = judged.unwrap_or(0.0);
+        self.index = judged.map_or(0.0, |(index, _)| index);
         self.alarm.update(time, length, self.last, &self.settings.thresholds);
+        if self.alarm.worst_at() == time {
+            self.worst_least = self.least;
+        }
     }
 
     /// The index at the end of the last block; 0 while the window has too few blocks at the present set speed, or the
@@ -209,9 +218,15 @@ impl StickSlip {
         (self.alarm.worst(), self.alarm.worst_at())
     }
 
-    /// Model time at which the level was last held (s).
-    pub fn met(&self) -> f64 {
-        self.alarm.met()
+    /// Least speed of the bit over the mean speed of the drive, in the drive's sense, in the window of the largest index:
+    /// below 0 the bit spun back. 0 before an index.
+    pub fn least_speed(&self) -> f64 {
+        self.worst_least
+    }
+
+    /// What holds the level at model time `now` (s).
+    pub fn hold(&self, now: f64) -> Hold {
+        self.alarm.hold(now)
     }
 
     /// The settings in use.
@@ -237,8 +252,9 @@ impl StickSlip {
         (1..=self.filled).map(move |back| &self.blocks[(current + length - back) % length])
     }
 
-    /// The index; none while the window has too few blocks at the present set speed.
-    fn judge(&self) -> Option<f64> {
+    /// The index, and the least speed of the bit over the mean speed of the drive; none while the window has too few
+    /// blocks at the present set speed.
+    fn judge(&self) -> Option<(f64, f64)> {
         let counted = if self.drive_swings() {
             BLOCKS
         } else {
@@ -252,12 +268,13 @@ impl StickSlip {
         let drive = total.drive().abs();
         let turns = |speed: f64| speed >= self.settings.gate_speed && speed > 0.0;
         if !turns(drive) {
-            return Some(0.0);
+            return Some((0.0, 0.0));
         }
         let index = (total.max - total.min) / (2.0 * total.bit().max(STUCK * drive));
         let now = last.drive().abs();
         let stuck = turns(now) && last.bit() < STUCK * now;
-        Some(if stuck { index.max(1.0) } else { index })
+        let least = if total.drive() < 0.0 { -total.max } else { total.min };
+        Some((if stuck { index.max(1.0) } else { index }, least / drive))
     }
 
     /// Newest blocks of the window in which the drive has had its present speed.

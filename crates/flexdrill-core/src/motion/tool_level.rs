@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::episodes::ToolLocation;
-use super::hazards::{Hazard, HazardKind, ended};
+use super::hazards::{Hazard, HazardKind, Hold};
 use super::settings::WhirlSettings;
 use super::watched_station::StationWatch;
 use super::{Severity, WhirlKind, WhirlWarningLevel};
@@ -75,8 +75,11 @@ impl Lead {
         };
         let (station, evaluation) = (&watch.station, watch.reported_evaluation(whirl));
         let evidence = &evaluation.evidence;
-        let standing = watches.iter().filter(|watch| watch.level_of(whirl) == self.severity);
-        let met = standing.map(|watch| watch.met(whirl)).fold(f64::NEG_INFINITY, f64::max);
+        let standing = watches.iter().filter(|watch| watch.level_of(whirl) > Severity::Ok);
+        let met = standing.fold([f64::NEG_INFINITY; 3], |met, watch| {
+            let of = watch.met(whirl);
+            std::array::from_fn(|level| f64::max(met[level], of[level]))
+        });
         Hazard {
             severity: self.severity,
             place: Some(ToolLocation {
@@ -101,7 +104,7 @@ impl Lead {
             friction_power: evidence.friction_power,
             confidence: evidence.confidence * input_trust,
             seen: evaluation.time,
-            ended: ended(self.severity, met, time),
+            hold: Hold::of(self.severity, met, time),
             ..calm
         }
     }

@@ -18,7 +18,6 @@ use figures::{TERMS, VALUES, terms};
 
 use serde::{Deserialize, Serialize};
 
-use super::hazards::ended;
 use super::hysteresis::{Alarm, AlarmThresholds};
 use crate::dynamics::outcome::EnergyAudit;
 use crate::units::kn_to_n;
@@ -141,7 +140,7 @@ impl Condition {
             threshold: self.levels[(severity as usize).saturating_sub(1)],
             seen: self.alarm.worst_at(),
             since: self.alarm.since(),
-            ended: ended(severity, self.alarm.met(), now),
+            hold: self.alarm.hold(now),
         }
     }
 }

@@ -268,8 +268,8 @@ impl StationWatch {
         }
     }
 
-    /// Model time at which the conditions of the level of this kind of whirl were met last (s).
-    pub(super) fn met(&self, kind: WhirlKind) -> f64 {
+    /// Model time at which the conditions of WATCH, WARNING and CRITICAL of this kind of whirl were met last (s).
+    pub(super) fn met(&self, kind: WhirlKind) -> [f64; 3] {
         match kind {
             WhirlKind::Backward => self.backward.met(),
             _ => self.forward.met(),

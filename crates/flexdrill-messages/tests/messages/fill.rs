@@ -1,6 +1,6 @@
 //! Messages made from a snapshot say what the snapshot says.
 
-use flexdrill_core::motion::{DriveState, Severity, ShockLevel, WhirlKind};
+use flexdrill_core::motion::{DriveState, Hold, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Holder, Snapshot};
 use flexdrill_messages::builtin_interfaces::Time;
@@ -189,7 +189,7 @@ fn shock_and_stick_slip_carry_their_levels() {
         impulse: 17.0,
         since: 1.0,
         seen: 1.0,
-        ended: None,
+        hold: Hold::Met,
     };
     snapshot.bit.stick_slip = Severity::Critical;
     snapshot.bit.lateral_impulse = 0.4;

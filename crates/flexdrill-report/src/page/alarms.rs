@@ -16,7 +16,7 @@ const ROWS: usize = 60;
 pub(super) fn section(summary: &Summary) -> Markup {
     let incidents = &summary.incidents;
     let mut groups: Vec<_> = incidents.groups().collect();
-    groups.sort_by_key(|group| std::cmp::Reverse((group.priority, group.times)));
+    groups.sort_by_key(|group| std::cmp::Reverse((group.priority, group.acts, group.times)));
     let listed = listed(incidents.list());
     let left_out = incidents.list().len() - listed.len() + incidents.more() as usize;
     html! {

@@ -132,7 +132,7 @@ fn a_change_of_the_set_speed_ends_no_stick_slip() {
         watch.push(time, DT, bit, drive(time), true);
         assert!(time < 5.0 || watch.severity() == Severity::Critical, "{time}");
         // The condition of the level counts as met all the time.
-        assert!(time < 5.0 || time - watch.met() < 0.2, "{time}");
+        assert!(time < 5.0 || watch.hold(time) == Hold::Met, "{time}");
     }
 }
 
@@ -195,4 +195,26 @@ fn forgets_what_left_the_window() {
         watch.push(0.0, 1e-3, 4.0, 4.0, true);
     }
     assert_eq!(watch.index(), 0.0);
+}
+
+/// The same index says nothing of the sense: the least speed does.
+#[test]
+fn a_bit_that_spins_back_differs_from_one_that_only_stops() {
+    let drive = rpm_to_rad_per_s(60.0);
+    // Swings about the drive's speed, once a second: down to a standstill, and to half of the speed against the drive.
+    for (sense, swing, least) in [(1.0, 1.0, 0.0), (1.0, 1.5, -0.5), (-1.0, 1.5, -0.5)] {
+        let mut watch = StickSlip::new(StickSlipSettings::default());
+        for step in 0..(20.0 / DT) as usize {
+            let time = step as f64 * DT;
+            let bit = sense * drive * (1.0 + swing * (TAU * time).sin());
+            watch.push(time, DT, bit, sense * drive, true);
+        }
+        assert!((watch.worst().0 - swing).abs() < 0.01, "{:?}", watch.worst());
+        // A step of the sine at its least is 0.002 at most.
+        assert!(
+            (watch.least_speed() - least).abs() < 0.01,
+            "{} for {least}",
+            watch.least_speed()
+        );
+    }
 }

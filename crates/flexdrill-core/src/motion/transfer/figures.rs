@@ -1,7 +1,7 @@
 //! What transfer is made from, and its figures.
 
 use crate::dynamics::outcome::EnergyAudit;
-use crate::motion::Severity;
+use crate::motion::{Hold, Severity};
 
 /// The readings of one step. NaN where the tool has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -283,8 +283,8 @@ pub struct TransferLevel {
     pub seen: f64,
     /// Model time at which the level was reached (s).
     pub since: f64,
-    /// Model time at which the level was last held (s), once that is [`ENDED_AFTER`](crate::motion::ENDED_AFTER) ago.
-    pub ended: Option<f64>,
+    /// Whether the condition of the level is met.
+    pub hold: Hold,
 }
 
 impl Transfer {

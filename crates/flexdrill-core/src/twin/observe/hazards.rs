@@ -2,7 +2,7 @@
 
 use super::Observer;
 use crate::model::Model;
-use crate::motion::{Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel, ended};
+use crate::motion::{Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel};
 use crate::tool::Body;
 
 impl Observer {
@@ -23,7 +23,7 @@ impl Observer {
             threshold: level.threshold,
             since: level.since,
             seen: level.seen,
-            ended: level.ended,
+            hold: level.hold,
             ..Hazard::calm(kind)
         };
         let load = |kind: HazardKind, watch: &Option<LoadWatch>, body: Body| {
@@ -36,7 +36,7 @@ impl Observer {
                 ratio,
                 since,
                 seen,
-                ended,
+                hold,
             } = watch.level();
             Hazard {
                 severity,
@@ -45,7 +45,7 @@ impl Observer {
                 threshold: watch.settings().thresholds.of(severity),
                 since,
                 seen,
-                ended,
+                hold,
                 ..Hazard::calm(kind)
             }
         };
@@ -61,7 +61,7 @@ impl Observer {
                 impulse: shock.impulse,
                 since: shock.since,
                 seen: shock.seen,
-                ended: shock.ended,
+                hold: shock.hold,
                 ..Hazard::calm(kind)
             },
             HazardKind::StickSlip => {
@@ -72,7 +72,8 @@ impl Observer {
                     threshold: self.stick_slip.settings().thresholds.of(severity),
                     since: self.stick_slip.since(),
                     seen,
-                    ended: ended(severity, self.stick_slip.met(), time),
+                    hold: self.stick_slip.hold(time),
+                    least_speed: self.stick_slip.least_speed(),
                     ..Hazard::calm(kind)
                 }
             }
@@ -86,7 +87,7 @@ impl Observer {
                 threshold: joint_settings.thresholds.of(joint_load.severity),
                 since: joint_load.since,
                 seen: joint_load.seen,
-                ended: joint_load.ended,
+                hold: joint_load.hold,
                 ..Hazard::calm(kind)
             },
             HazardKind::ChaoticWhirl => Hazard {
@@ -96,7 +97,7 @@ impl Observer {
                 threshold: self.chaotic_whirl.settings().thresholds.of(chaotic.severity),
                 since: chaotic.since,
                 seen: chaotic.seen,
-                ended: chaotic.ended,
+                hold: chaotic.hold,
                 ..Hazard::calm(kind)
             },
             HazardKind::WeightTransfer => transfer(kind, self.transfer.weight(time)),
