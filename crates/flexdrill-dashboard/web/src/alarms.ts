@@ -36,9 +36,10 @@ export function isActive(alarm: Alarm): boolean {
 
 /**
  * Whether the condition goes on below the published priority, which stays until it is acknowledged or its off-delay is
- * over. Messages without a field of their own for this say it in the evidence.
+ * over. Recordings of twins without the field say it in the evidence.
  */
 function isLessSevere(alarm: Alarm): boolean {
+  if (alarm.less_severe_since.sec > 0) return true;
   return /\bless severe since\b/i.test(alarm.evidence) && !/\bended at\b/i.test(alarm.evidence);
 }
 

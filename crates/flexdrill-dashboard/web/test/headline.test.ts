@@ -25,6 +25,7 @@ function alarm(name: string, over: Partial<Alarm> = {}): Alarm {
     worst_at: none,
     ended: false,
     ended_at: none,
+    less_severe_since: none,
     evidence: `${name} was seen.`,
     cause: "",
     consequence: "",
@@ -169,6 +170,9 @@ test("a condition below its published priority stands, at most at the next lower
   assert.ok(Number.isNaN(endedAt(less)));
   assert.equal(stateNow(live([less]), "si").word, "ACT SOON");
   assert.equal(levelNow({ ...less, priority: Alarm.LOW }), Alarm.LOW);
+  // The field says so, whatever the evidence.
+  const field = alarm("backward whirl", { less_severe_since: { sec: 1_700_000_000, nanosec: 0 } });
+  assert.deepEqual([isMet(field), levelNow(field)], [true, Alarm.MEDIUM]);
   // First less severe, then over.
   assert.ok(!isMet({ ...less, evidence: "Seen. Less severe since 07:08:34; ended at 07:09:13, being watched." }));
   assert.equal(levelNow(ended("backward whirl")), 0);

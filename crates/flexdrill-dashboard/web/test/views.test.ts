@@ -17,7 +17,14 @@ const header = (sec: number) => ({ stamp: { sec, nanosec: 0 }, frame_id: "" });
 function alarm(id: string, priority: number, state: number = Alarm.ACTIVE_UNACKNOWLEDGED): Alarm {
   const texts = { name: id, evidence: "seen", cause: "", consequence: "", what_to_do: `act on ${id}`, unit: "" };
   const none = { sec: 0, nanosec: 0 };
-  const times = { since: none, worst_at: none, ended_at: none, ended: false, what_the_engineer_can_do: "" };
+  const times = {
+    since: none,
+    worst_at: none,
+    ended_at: none,
+    less_severe_since: none,
+    ended: false,
+    what_the_engineer_can_do: "",
+  };
   const place = { body: 0, measured_depth: NaN, inclination: NaN };
   return { id, priority, state, active: true, ...times, ...texts, ...place } as Alarm;
 }
