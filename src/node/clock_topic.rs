@@ -96,7 +96,8 @@ pub async fn follow(inputs: RigInputs, messages: Arc<Inbox<Sample>>, newest: Arc
         match effect {
             Effect::Followed => {}
             Effect::Set(difference) => {
-                if let Some(more) = log_ending("/clock was set") {
+                let way = if difference > 0 { "ahead" } else { "back" };
+                if let Some(more) = log_ending(format!("/clock was set {way}")) {
                     tracing::warn!(
                         "/clock was set by {:+.3} s; the model continues from its state, with stamps of the new time{more}",
                         difference as f64 * 1e-9

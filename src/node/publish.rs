@@ -180,10 +180,10 @@ impl Publisher {
         let mut worked = false;
         while let Ok(event) = self.parts.end.events.pop() {
             worked = true;
-            if let Err(error) = self.publish_event(event) {
-                if let Some(more) = log_ending("message not encoded") {
-                    tracing::error!("a message could not be encoded: {error}{more}");
-                }
+            if let Err(error) = self.publish_event(event)
+                && let Some(more) = log_ending("message not encoded")
+            {
+                tracing::error!("a message could not be encoded: {error}{more}");
             }
         }
         while let Ok(time) = self.parts.end.step_times.pop() {

@@ -24,6 +24,8 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 const LOOK: f64 = 0.1;
 /// Length of a run (s): the seven minutes in which one whirl was announced 28 times.
 const LENGTH: f64 = 420.0;
+/// The same in every run of the tests: ten episodes of whirl.
+const SHORT: f64 = 160.0;
 /// Time after which an operator acknowledges what is to be acknowledged (s).
 const ACKNOWLEDGED_AFTER: f64 = 20.0;
 /// Most announcements of one alarm in a run.
@@ -152,7 +154,7 @@ impl Watch {
 }
 
 /// The alarms of one run with the default off-delay, and with one of a second.
-fn run(case: &Case) -> [Outcome; 2] {
+fn run(case: &Case, length: f64) -> [Outcome; 2] {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let config = Config::load(root.join("config/coarse.yaml"))
         .and_then(|config| config.with_value("contact.inner.friction_tangential", case.friction))
@@ -164,7 +166,7 @@ fn run(case: &Case) -> [Outcome; 2] {
     let mut watches = [with_off_delay(config.clone(), 1.0), config].map(Watch::new);
     let period: f64 = case.speeds.iter().map(|(_, lasts)| lasts).sum();
     let (mut episodes, mut whirled) = (0, false);
-    while snapshot.time < LENGTH {
+    while snapshot.time < length {
         let phase = snapshot.time % period;
         let (rpm, _) = case.speeds[usize::from(phase >= case.speeds[0].1)];
         let inputs = Inputs {
@@ -208,8 +210,8 @@ fn print(case: &Case, off_delay: &str, outcome: &Outcome) {
     );
 }
 
-fn holds(case: &Case) -> Outcome {
-    let [short, outcome] = run(case);
+fn holds(case: &Case, length: f64) -> Outcome {
+    let [short, outcome] = run(case, length);
     assert!(
         outcome.episodes >= 8,
         "only {} episodes: the case shows nothing",
@@ -228,20 +230,27 @@ fn holds(case: &Case) -> Outcome {
 }
 
 #[test]
+fn whirl_in_and_out_is_one_alarm() {
+    let outcome = holds(&CASES[0], SHORT);
+    assert_eq!(outcome.announced["backward_whirl"], 1, "{:?}", outcome.whirl);
+}
+
+#[test]
+#[ignore = "a run of seven minutes"]
 fn whirl_in_and_out_is_announced_three_times_at_most() {
-    holds(&CASES[0]);
+    holds(&CASES[0], LENGTH);
 }
 
 #[test]
 #[ignore = "a run of seven minutes"]
 fn whirl_about_its_limit_is_announced_three_times_at_most() {
-    holds(&CASES[1]);
+    holds(&CASES[1], LENGTH);
 }
 
 #[test]
 #[ignore = "a run of seven minutes"]
 fn whirl_at_its_limit_is_announced_three_times_at_most() {
-    let outcome = holds(&CASES[2]);
+    let outcome = holds(&CASES[2], LENGTH);
     // Speed and weight stay, so that the advice has no reason to change with the episodes.
     let flips = outcome
         .changes

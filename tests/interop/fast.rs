@@ -66,7 +66,9 @@ fn a_client_is_served_once_per_call_whatever_restarts() {
     let (Some(mut client), Some(mut judge)) = (network.fast_peer(), network.peer()) else {
         return;
     };
-    let mut twin = network.twin(&[]);
+    // At this level the log has every reset, also those that follow another within ten seconds.
+    let every_reset = ["--ros-args", "--log-level", "flexdrill::node::control:=debug"];
+    let mut twin = network.twin(&every_reset);
     twin.wait_for("model time runs");
     judge.subscribe(STATUS.0, STATUS.1, "reliable");
     let reset = |client: &mut Peer| {
@@ -85,7 +87,7 @@ fn a_client_is_served_once_per_call_whatever_restarts() {
     assert_eq!(resets(&mut twin), 3, "{}", twin.said());
     twin.signal("KILL");
     twin.end();
-    let mut next = network.twin(&[]);
+    let mut next = network.twin(&every_reset);
     next.wait_for("model time runs");
     judge.status_with(STATUS.0, |status| status["dds_restarts"] == 0);
     reset(&mut client);

@@ -74,7 +74,7 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
         set["inputs.rotary_speed.max_rpm"], before["inputs.rotary_speed.max_rpm"],
         "refused: as it was"
     );
-    assert_eq!(seen["whole"]["contact.inner.friction_axial"], json!(1.0));
+    assert_eq!(seen["whole"]["inputs.weight_on_bit.slew_kn_per_s"], json!(30.0));
     let followed = seen["followed"].as_array().unwrap();
     assert_eq!(followed[0][0]["value"], json!(0.31), "{followed:?}");
     let refused = seen["refused"].to_string();

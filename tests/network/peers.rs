@@ -126,6 +126,8 @@ fn cyclone_dds_reads_and_drives() {
             return;
         };
         reads_and_drives(&mut peer, speed, &mut twin);
+        // The log has one line of the kind in ten seconds.
+        std::thread::sleep(Duration::from_secs(10));
     }
     end(twin);
 }

@@ -61,9 +61,9 @@ fn friction_follows_a_live_rig_and_the_recording_repeats_it() {
     let mut twin = Program::start(twin);
     twin.wait_for("model time runs");
     let mut rig = Program::start(program(&["rig", rig_log.to_str().unwrap()]));
-    // 15 s after the start of the rotation, and then once per second.
+    // 15 s after the start of the rotation, and then once per second. The log has one line per parameter in ten seconds.
     twin.wait_for("parameter calibration.friction_factor is");
-    for _ in 0..5 {
+    for _ in 0..3 {
         twin.wait_for("asked for by calibration.follow");
     }
     rig.signal("INT");

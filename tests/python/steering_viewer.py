@@ -17,6 +17,7 @@ from mcap_ros2._dynamic import serialize_dynamic
 
 SPEED, WEIGHT, BOTH = "/rig/rotary_speed_rpm", "/rig/weight_on_bit_kn", "/rig/inputs"
 FRICTION, LARGEST, LINKS = "contact.inner.friction_axial", "inputs.rotary_speed.max_rpm", "tool.links"
+SLEW = "inputs.weight_on_bit.slew_kn_per_s"
 
 
 class Steering(Viewer):
@@ -127,12 +128,12 @@ async def steer(url):
             return found
         found["all"] = len(await viewer.ask("getParameters", "all", parameterNames=[]))
         found["before"] = await viewer.ask("getParameters", "some", parameterNames=[FRICTION, LARGEST, "no.such"])
-        await viewer.socket.send(json.dumps({"op": "subscribeParameterUpdates", "parameterNames": [FRICTION]}))
+        await viewer.socket.send(json.dumps({"op": "subscribeParameterUpdates", "parameterNames": [FRICTION, SLEW]}))
         changes = [{"name": FRICTION, "value": 0.31}, {"name": LARGEST, "value": 1000}, {"name": LINKS, "value": 3}]
         found["set"] = await viewer.ask("setParameters", "set", parameters=changes)
         # A whole number for a real one.
-        await viewer.ask("setParameters", "whole", parameters=[{"name": FRICTION, "value": 1}])
-        found["whole"] = await viewer.ask("getParameters", "after", parameterNames=[FRICTION])
+        await viewer.ask("setParameters", "whole", parameters=[{"name": SLEW, "value": 30}])
+        found["whole"] = await viewer.ask("getParameters", "after", parameterNames=[SLEW])
         await viewer.until(lambda: sum("id" not in values for values in viewer.values) >= 2, 3.0)
         found["followed"] = [values["parameters"] for values in viewer.values if "id" not in values]
         found["refused"] = list(viewer.said)

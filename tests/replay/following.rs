@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use flexdrill::messages::{AlarmEvent, AppliedInputs, Message, Residuals, SessionInfo, Transfer};
+use flexdrill::messages::{Alarm, AlarmEvent, AppliedInputs, Message, Residuals, SessionInfo, Transfer};
 use flexdrill_config::Config;
 
 /// Friction of the rig over that of the twin.
@@ -173,7 +173,8 @@ fn friction_follows_a_rig_within_its_limits_and_only_where_it_is_asked_for() {
 
     assert_eq!(adjusted(&path("off")), [""; 0]);
 
-    // On: it comes to the truth, the residual returns into its band, the alarm is quiet.
+    // On: it comes to the truth, and the residual returns into its band. The alarm says that the twin was moved by more than
+    // a quarter for that.
     let follow = config(folder, "follow.yaml", &[("calibration.follow", true.into())]);
     let said = replay(&rig_log, &path("on"), Some(&follow), &[]);
     let on: Vec<Residuals> = messages(&path("on"), "twin/residuals");
@@ -182,7 +183,16 @@ fn friction_follows_a_rig_within_its_limits_and_only_where_it_is_asked_for() {
     // Half of the 90 % band of the estimate is below 0.05 by then.
     assert!((last.applied_friction_factor - TRUTH).abs() < 0.05, "{last:?}");
     assert!(ratio(last).abs() < 0.5, "{last:?}");
-    assert_eq!(disagreed(&path("on")), [], "{said}");
+    assert_eq!(disagreed(&path("on")), [(AlarmEvent::ACTIVATED, Alarm::LOW)], "{said}");
+    let events: Vec<AlarmEvent> = messages(&path("on"), "twin/alarm_events");
+    let of_rig = events
+        .iter()
+        .find(|event| event.id == "rig_disagrees" && event.change == AlarmEvent::ACTIVATED);
+    let evidence = &of_rig.unwrap().evidence;
+    assert!(
+        evidence.contains("agrees with the rig only with a friction factor of 1.2"),
+        "{evidence}"
+    );
     assert!(said.contains("follows the rig"), "{said}");
     for pair in on.windows(2) {
         let moved = pair[1].applied_friction_factor - pair[0].applied_friction_factor;

@@ -100,10 +100,10 @@ impl Parameters {
     /// When a value is refused; then nothing has changed.
     pub fn set_from(&self, from: &[Parameter], changes: &[Parameter], requester: &str) -> Result<bool, Refusal> {
         let result = self.apply(from, changes, requester);
-        if let Err(reason) = &result {
-            if let Some(more) = log_ending("parameter refused") {
-                tracing::warn!("a parameter change was refused: {reason}; asked for by {requester}{more}");
-            }
+        if let Err(reason) = &result
+            && let Some(more) = log_ending("parameter refused")
+        {
+            tracing::warn!("a parameter change was refused: {reason}; asked for by {requester}{more}");
         }
         result
     }
