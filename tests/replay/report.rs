@@ -285,7 +285,10 @@ fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
     // Good from 0 to 15 s, degraded from there to the last message at 19.8 s.
     assert!(page.contains("good 75.8 %, degraded 24.2 %") && page.contains("steps too long"));
     assert!(page.contains("0.250 to 1") && page.contains("recording 17"));
-    assert!(said.contains("1 message of twin/bit_state cannot be read"), "{said}");
+    assert!(
+        said.contains("1 message of twin/bit_state that cannot be read"),
+        "{said}"
+    );
     for missing in ["twin/contact_forces", "twin/joint_deflections", "twin/session"] {
         assert!(said.contains(&format!("The bag has no {missing}")), "{missing}: {said}");
     }
