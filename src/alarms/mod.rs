@@ -47,7 +47,7 @@ use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, Residuals, to_cdr_into};
 use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Priority, Saved, SavedError, Statistics, Time};
 use flexdrill_calibration::monitor::Compared;
-use flexdrill_config::{Advice, AdviceTable, Config};
+use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
 use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
 
@@ -58,8 +58,6 @@ use worst_moment::WorstMoment;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
 const SET_BACK: Time = 60_000_000_000;
-/// Longest off-delay of an alarm in a run that looks ahead (s).
-const PROMPT: f64 = 1.0;
 /// Longest time between two lists (ns).
 const LIST_INTERVAL: Time = 1_000_000_000;
 
@@ -117,13 +115,14 @@ impl AlarmBook {
         Self::with(system(&config), config, time)
     }
 
-    /// All alarms normal, for a run that is to find out whether a motion has ended: the alarms return within [`PROMPT`]
+    /// All alarms normal, for a run that is to find out whether a motion has ended: the alarms return within [`PROMPT_OFF_DELAY`]
     /// of it, and are not held as those of an operator are.
     pub(crate) fn prompt(config: Arc<Config>, time: Time) -> Self {
         let mut definitions = AlarmId::ALL.map(|id| id.define(&config.alarms)).to_vec();
-        for kind in HazardKind::ALL {
-            let delays = &mut definitions[AlarmId::of_hazard(kind) as usize].delays;
-            delays.off = delays.off.min(PROMPT);
+        let of_motion = HazardKind::ALL.into_iter().map(AlarmId::of_hazard);
+        for id in of_motion.chain([AlarmId::ModelQuality]) {
+            let delays = &mut definitions[id as usize].delays;
+            delays.off = delays.off.min(PROMPT_OFF_DELAY);
         }
         let system = AlarmSystem::new(definitions, config.alarms.longest_shelving);
         Self {

@@ -73,6 +73,7 @@ pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
 pub use look_ahead::LookAhead;
 pub use map::SafeMap;
+pub use motion::PROMPT_OFF_DELAY;
 pub use mud::Mud;
 pub use network::{Network, Reach, is_peer};
 pub use outputs::{Outputs, Rates};

@@ -45,6 +45,10 @@ const ALARMS: &[&str] = &[
     "model_quality",
 ];
 
+/// Longest off-delay (s) in a run that is judged: how long an alarm is held for an operator changes nothing of what a run
+/// finds.
+pub const PROMPT_OFF_DELAY: f64 = 1.0;
+
 impl Config {
     /// SHA-256, in hex, over what determines the tool's motion and the alarms called by it. Title, inputs, network,
     /// outputs, look-ahead, advice and the alarms of the node are left out: a result that was computed for one
@@ -58,7 +62,12 @@ impl Config {
             present.collect()
         };
         let mut motion = of(&tree, SECTIONS);
-        let alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
+        let mut alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
+        for alarm in alarms.values_mut() {
+            if let Some(delay) = alarm.get_mut("off_delay") {
+                *delay = Value::from(delay.as_f64().unwrap_or_default().min(PROMPT_OFF_DELAY));
+            }
+        }
         motion.insert("alarms".to_owned(), Value::Object(alarms));
         // What changes nothing is left out, and a file without it has the hash that it had before the keys existed.
         if self.contact.wall_friction_factors.are_one()
