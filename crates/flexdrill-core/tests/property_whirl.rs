@@ -412,7 +412,8 @@ fn a_held_level_says_whether_its_motion_is_weaker_or_has_ended() {
 }
 
 /// Rolling backward whirl that turns into forward whirl: for as long as the level is held, the hazard and the warning
-/// keep the figures of the worst moment and not those of the forward whirl, and say when the motion ended.
+/// keep the figures of the worst moment and not those of the forward whirl, and say since when the motion is less severe
+/// or over.
 #[test]
 fn a_held_level_keeps_its_worst_moment_and_says_when_it_ended() {
     let rolling = -63.0 / 17.0;
@@ -432,8 +433,10 @@ fn a_held_level_keeps_its_worst_moment_and_says_when_it_ended() {
             assert!((hazard.whirl_ratio / rolling - 1.0).abs() < 0.05, "{hazard:?}");
             assert!((hazard.value / (1.0 - rolling) - 1.0).abs() < 0.05, "{hazard:?}");
             assert!((level.whirl_ratio / rolling - 1.0).abs() < 0.05, "{level:?}");
-            if let Hold::Ended { at } = hazard.hold {
-                ended = Some(at);
+            match hazard.hold {
+                Hold::Met => {}
+                Hold::Less { since, .. } => ended = Some(since),
+                Hold::Ended { at } => ended = Some(at),
             }
         }
         assert!(held < 4000, "the level never falls");
