@@ -312,8 +312,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_refused_sync_is_told_as_what_it_is() {
-        let told = |code: i32| {
+    fn a_refused_sync_is_named_as_what_it_is() {
+        let text = |code: i32| {
             let error = BagError::NotSafe {
                 path: "run.mcap".into(),
                 messages: 3,
@@ -324,16 +324,16 @@ mod tests {
         // EINVAL, ENOSYS, EPERM, EOPNOTSUPP.
         for code in [22, 38, 1, 95] {
             assert!(
-                told(code).contains("does not support") && told(code).contains("ext4"),
+                text(code).contains("does not support") && text(code).contains("ext4"),
                 "{}",
-                told(code)
+                text(code)
             );
         }
         // EIO.
         assert!(
-            told(5).contains("failed to store data") && told(5).contains("defective"),
+            text(5).contains("failed to store data") && text(5).contains("defective"),
             "{}",
-            told(5)
+            text(5)
         );
     }
 }

@@ -153,7 +153,7 @@ struct Ends {
 
 /// Keeps the line for as long as it is polled, or until the receiver of `events` is gone. `outgoing` is written to every
 /// connection. The receiver reports whole frames to `seats`; where connections have to send ([`Times::silence`]), one that
-/// does not gives way to a new one.
+/// sends nothing leaves its seat to a new one.
 pub async fn run(
     place: Place,
     times: Times,

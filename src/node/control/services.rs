@@ -58,17 +58,16 @@ impl Control {
             Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
         });
         let result = saved.await.unwrap_or_else(|error| Err(error.into()));
-        match (
-            &result,
-            log_ending(if result.is_ok() {
-                "checkpoint saved"
-            } else {
-                "no checkpoint"
-            }),
-        ) {
-            (Ok(message), Some(more)) => tracing::info!("checkpoint saved: {message}{more}"),
-            (Err(why), Some(more)) => tracing::warn!("no checkpoint: {why}{more}"),
-            (_, None) => {}
+        let kind = if result.is_ok() {
+            "checkpoint saved"
+        } else {
+            "no checkpoint"
+        };
+        if let Some(more) = log_ending(kind) {
+            match &result {
+                Ok(message) => tracing::info!("checkpoint saved: {message}{more}"),
+                Err(why) => tracing::warn!("no checkpoint: {why}{more}"),
+            }
         }
         answer(result)
     }

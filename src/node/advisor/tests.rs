@@ -1,0 +1,292 @@
+//! What is asked of the search for advice, and how long its answer holds.
+
+use super::*;
+use crate::alarms::{AlarmId, AlarmSet, Change, Quantity};
+
+const AT: [f64; 2] = [120.0, 10.0];
+
+fn acting(at: [f64; 2]) -> Acting {
+    Acting {
+        at,
+        rate_of_penetration: 10.0 / 3600.0,
+        pressure: 8e6,
+        parameters: InForce {
+            live: LiveParameters {
+                inner_friction: [0.7, 0.7],
+                outer_friction: [0.2, 0.2],
+                bit_friction_factor: 0.5,
+            },
+            whirl: WhirlSettings::default(),
+            slew: [1.0; 4],
+            limits: [[0.0, 150.0], [0.0, 60.0]],
+        },
+    }
+}
+
+fn set(ids: &[AlarmId]) -> AlarmSet {
+    ids.iter().copied().collect()
+}
+
+fn leads_with(alarm: AlarmId, standing: &[AlarmId]) -> Option<Leading> {
+    Some(Leading {
+        alarm,
+        standing: set(standing),
+        shelved: AlarmSet::EMPTY,
+    })
+}
+
+fn leads() -> Option<Leading> {
+    leads_with(AlarmId::BackwardWhirl, &[AlarmId::BackwardWhirl])
+}
+
+fn shock() -> Option<Leading> {
+    leads_with(AlarmId::Shock, &[AlarmId::Shock])
+}
+
+fn tested() -> Tested {
+    Tested {
+        alarm: AlarmId::BackwardWhirl,
+        ends: set(&[AlarmId::BackwardWhirl]),
+        stays: AlarmSet::EMPTY,
+        from: AT,
+        change: Change {
+            quantity: Quantity::Speed,
+            to: 72.0,
+        },
+        ended: 9,
+        of: 10,
+    }
+}
+
+/// An advisor that was asked `ago`.
+fn asked(ago: Duration) -> Advisor {
+    let advisor = Advisor::default();
+    assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+    wait(&advisor, ago);
+    advisor
+}
+
+fn wait(advisor: &Advisor, ago: Duration) {
+    if let Some(asked) = &mut advisor.lock().asked {
+        asked.since -= ago;
+    }
+}
+
+/// One that has its answer.
+fn answered() -> Advisor {
+    let advisor = asked(SETTLED);
+    let (what, _) = advisor.due().unwrap();
+    advisor.answer(what, Some(tested()), Duration::from_secs(70));
+    advisor
+}
+
+#[test]
+fn a_search_waits_for_a_settled_alarm_and_holds_where_it_was_made() {
+    assert!(asked(Duration::ZERO).due().is_none());
+    let advisor = answered();
+    assert!(advisor.due().is_none(), "one search is enough");
+    assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
+    assert_eq!(advisor.follow(leads(), &acting([119.0, 10.1])), Some(tested()));
+    // Somewhere else, or for another alarm, it says nothing.
+    assert_eq!(advisor.follow(leads(), &acting([100.0, 10.0])), None);
+    assert_eq!(advisor.follow(shock(), &acting(AT)), None);
+    // Once nothing stands it is forgotten.
+    assert_eq!(advisor.follow(None, &acting(AT)), None);
+    assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+}
+
+/// What a change of each value within its tolerance does, and of one beyond.
+#[test]
+fn advice_ends_with_the_tool_that_it_was_tested_on_and_is_asked_for_anew() {
+    type Changes = fn(&mut Acting, f64);
+    let changes: [(&str, Changes, f64, f64); 11] = [
+        (
+            "inner friction, around",
+            |now, by| now.parameters.live.inner_friction[0] *= by,
+            1.04,
+            1.0 / 0.7,
+        ),
+        (
+            "inner friction, along",
+            |now, by| now.parameters.live.inner_friction[1] *= by,
+            0.96,
+            0.9,
+        ),
+        (
+            "outer friction, around",
+            |now, by| now.parameters.live.outer_friction[0] *= by,
+            1.04,
+            1.1,
+        ),
+        (
+            "outer friction, along",
+            |now, by| now.parameters.live.outer_friction[1] *= by,
+            0.96,
+            0.9,
+        ),
+        (
+            "bit",
+            |now, by| now.parameters.live.bit_friction_factor *= by,
+            1.04,
+            1.1,
+        ),
+        (
+            "rate of penetration",
+            |now, by| now.rate_of_penetration *= by,
+            1.09,
+            1.3,
+        ),
+        ("pulling back", |now, by| now.rate_of_penetration *= by, 1.0, -1.0),
+        ("pressure", |now, by| now.pressure *= by, 0.92, 0.0),
+        ("slew limit", |now, by| now.parameters.slew[0] *= by, 1.0, 2.0),
+        (
+            "limit of the speed",
+            |now, by| now.parameters.limits[0][1] *= by,
+            1.0,
+            0.5,
+        ),
+        (
+            "threshold of whirl",
+            |now, by| now.parameters.whirl.backward_cycles[1] *= by,
+            1.0,
+            1.5,
+        ),
+    ];
+    for (what, change, small, large) in changes {
+        let advisor = answered();
+        let mut now = acting(AT);
+        change(&mut now, small);
+        assert_eq!(advisor.follow(leads(), &now), Some(tested()), "{what}");
+        let mut now = acting(AT);
+        change(&mut now, large);
+        assert_eq!(advisor.follow(leads(), &now), None, "{what}");
+        assert!(advisor.due().is_none(), "{what} has not settled");
+        wait(&advisor, SETTLED);
+        assert!(advisor.due().is_some(), "{what} is not asked anew");
+        assert_eq!(advisor.follow(leads(), &now), None, "{what}");
+    }
+    // Small changes that add up.
+    let advisor = answered();
+    let mut now = acting(AT);
+    let followed = (0..10).map(|_| {
+        now.parameters.live.inner_friction[0] *= 1.02;
+        advisor.follow(leads(), &now).is_some()
+    });
+    assert_eq!(
+        followed.take_while(|holds| *holds).count(),
+        2,
+        "5 % are two steps of 2 %"
+    );
+    // A rig that does not advance and does not pump.
+    let (zero, mut jitter) = (acting(AT), acting(AT));
+    let zero = Acting {
+        rate_of_penetration: 0.0,
+        pressure: 0.0,
+        ..zero
+    };
+    (jitter.rate_of_penetration, jitter.pressure) = (0.5 / 3600.0, -0.1e6);
+    assert!(zero.is(&jitter));
+}
+
+#[test]
+fn an_alarm_that_comes_is_asked_for_too_and_one_that_goes_is_not_asked_for_anew() {
+    let advisor = answered();
+    let both = leads_with(AlarmId::BackwardWhirl, &[AlarmId::BackwardWhirl, AlarmId::Shock]);
+    assert_eq!(
+        advisor.follow(both, &acting(AT)),
+        None,
+        "nothing has tested that shock ends"
+    );
+    wait(&advisor, SETTLED);
+    let (what, stop) = advisor.due().unwrap();
+    assert_eq!(Some(what.leading), both);
+    // It goes, and returns: the search goes on. What was found before it came holds without it.
+    for (leading, expected) in [(leads(), Some(tested())), (both, None)] {
+        assert_eq!(advisor.follow(leading, &acting(AT)), expected);
+        assert!(!stop.load(Ordering::Relaxed));
+    }
+    advisor.answer(what, Some(tested()), Duration::from_secs(70));
+    for leading in [both, leads()] {
+        assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
+    }
+    assert!(advisor.due().is_none());
+}
+
+/// A client that sends goals without end would otherwise end every search that begins.
+#[test]
+fn a_turn_that_is_kept_does_not_give_way_to_goals_and_ends_with_the_node() {
+    let advisor = asked(SETTLED);
+    let (_, search) = advisor.due().unwrap();
+    advisor.yield_to_goal();
+    assert!(search.load(Ordering::Relaxed));
+    advisor.keep(true);
+    let (_, search) = advisor.due().unwrap();
+    let forecast = advisor.forecasts();
+    advisor.yield_to_goal();
+    assert!(!search.load(Ordering::Relaxed) && !forecast.load(Ordering::Relaxed));
+    advisor.interrupt();
+    assert!(search.load(Ordering::Relaxed) && forecast.load(Ordering::Relaxed));
+}
+
+#[test]
+fn what_is_done_is_told_from_the_first_alarm_to_the_answer() {
+    let advisor = asked(Duration::ZERO);
+    assert_eq!(advisor.trial(), Trial::Waits);
+    wait(&advisor, SETTLED);
+    let (what, _) = advisor.due().unwrap();
+    assert_eq!(advisor.trial(), Trial::Runs { minutes: 0 });
+    advisor.answer(what, None, Duration::from_secs(70));
+    assert_eq!(advisor.trial(), Trial::NothingFound);
+    // At another speed the next search takes about as long.
+    let _ = advisor.follow(leads(), &acting([90.0, 10.0]));
+    assert_eq!(advisor.trial(), Trial::Waits);
+    wait(&advisor, SETTLED);
+    let (what, _) = advisor.due().unwrap();
+    assert_eq!(advisor.trial(), Trial::Runs { minutes: 2 });
+    // Nothing was tried where the state of the run could not be had.
+    advisor.give_up(what);
+    assert_eq!(advisor.trial(), Trial::Waits);
+}
+
+#[test]
+fn a_forecast_gives_way_to_goals_and_searches() {
+    let advisor = asked(Duration::ZERO);
+    let forecast = advisor.forecasts();
+    let _ = advisor.follow(leads(), &acting(AT));
+    assert!(!forecast.load(Ordering::Relaxed), "the alarm has not settled");
+    let advisor = asked(SETTLED);
+    let forecast = advisor.forecasts();
+    let _ = advisor.follow(leads(), &acting(AT));
+    assert!(forecast.load(Ordering::Relaxed));
+    let (asked, _) = advisor.due().unwrap();
+    advisor.answer(asked, Some(tested()), Duration::from_secs(70));
+    let forecast = advisor.forecasts();
+    let _ = advisor.follow(leads(), &acting(AT));
+    assert!(!forecast.load(Ordering::Relaxed), "the search has its answer");
+    advisor.interrupt();
+    assert!(forecast.load(Ordering::Relaxed));
+}
+
+#[test]
+fn what_changes_stops_the_search() {
+    for change in [0, 1, 2, 3, 4] {
+        let advisor = asked(SETTLED);
+        let (_, stop) = advisor.due().unwrap();
+        match change {
+            0 => drop(advisor.follow(None, &acting(AT))),
+            1 => drop(advisor.follow(leads(), &acting([90.0, 10.0]))),
+            2 => drop(advisor.follow(shock(), &acting(AT))),
+            3 => {
+                let mut now = acting(AT);
+                now.parameters.live.inner_friction = [1.0; 2];
+                let _ = advisor.follow(leads(), &now);
+            }
+            _ => advisor.interrupt(),
+        }
+        assert!(stop.load(Ordering::Relaxed), "{change}");
+    }
+    let advisor = asked(SETTLED);
+    let (_, stop) = advisor.due().unwrap();
+    let _ = advisor.follow(leads(), &acting(AT));
+    assert!(!stop.load(Ordering::Relaxed));
+}
