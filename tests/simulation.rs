@@ -505,7 +505,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         publisher,
         commands: requests.commands,
         outputs: None,
-        status: StatusKeeper::new(config.solver.time_step, config.hash()).unwrap(),
+        status: StatusKeeper::new(Arc::clone(config)).unwrap(),
         book: AlarmBook::fresh(Arc::clone(config), RIG_BEGIN as i64),
         dds: Health {
             is_up: true,

@@ -38,6 +38,8 @@ pub enum AlarmId {
     KnownWindow,
     /// What the rig measures is beyond the band that the twin expects.
     RigDisagrees,
+    /// A client has changed values that alarms depend on.
+    ChangedParameters,
     /// Rotary speed not received, refused or stale.
     RotarySpeedInput,
     /// Weight on bit not received, refused or stale.
@@ -60,7 +62,7 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 23] = [
+    pub const ALL: [AlarmId; 24] = [
         AlarmId::BitStuck,
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
@@ -75,6 +77,7 @@ impl AlarmId {
         AlarmId::ModelQuality,
         AlarmId::KnownWindow,
         AlarmId::RigDisagrees,
+        AlarmId::ChangedParameters,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
         AlarmId::RateOfPenetrationInput,
@@ -103,6 +106,7 @@ impl AlarmId {
             AlarmId::ModelQuality => "model_quality",
             AlarmId::KnownWindow => "known_window",
             AlarmId::RigDisagrees => "rig_disagrees",
+            AlarmId::ChangedParameters => "changed_parameters",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
             AlarmId::RateOfPenetrationInput => "rate_of_penetration_input",
@@ -132,6 +136,7 @@ impl AlarmId {
             AlarmId::ModelQuality => "model unreliable",
             AlarmId::KnownWindow => "outside the known window",
             AlarmId::RigDisagrees => "twin and rig disagree",
+            AlarmId::ChangedParameters => "changed parameters",
             AlarmId::RotarySpeedInput => "no valid rotary speed",
             AlarmId::WeightOnBitInput => "no valid weight on bit",
             AlarmId::RateOfPenetrationInput => "no valid rate of penetration",
@@ -214,6 +219,7 @@ impl AlarmId {
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::KnownWindow => tool(&alarms.known_window),
             AlarmId::RigDisagrees => tool(&alarms.rig_disagrees),
+            AlarmId::ChangedParameters => tool(&alarms.changed_parameters),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),
             AlarmId::RateOfPenetrationInput => node(&alarms.rate_of_penetration_input),

@@ -7,7 +7,7 @@
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
 //!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
 //!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes;
-//!   `adjusted`: what followed from it.
+//!   `adjusted`: what followed from it. `changed`: what clients have changed of the configuration.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
 //!   of sentences. `set`: sets of alarms.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
@@ -17,6 +17,7 @@
 mod adjusted;
 mod advice;
 mod catalogue;
+mod changed;
 mod fill;
 mod finding;
 mod node;
@@ -41,11 +42,13 @@ pub(crate) use tool::called_at;
 
 use std::sync::Arc;
 
-use crate::messages::outputs::Encoded;
+use crate::messages::outputs::{Encoded, ParameterChange};
 use crate::messages::std_msgs::Header;
 use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, Residuals, to_cdr_into};
-use flexdrill_alarms::{AlarmSystem, Event, Figures, Observation, Priority, Saved, SavedError, Statistics, Time};
+use flexdrill_alarms::{
+    AlarmSystem, Event, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time,
+};
 use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
 use flexdrill_core::motion::HazardKind;
@@ -54,6 +57,7 @@ use flexdrill_core::twin::Snapshot;
 use crate::window::SafeWindow;
 use adjusted::Adjusted;
 use advice::{Ahead, Demand, Operating};
+use changed::Changed;
 use worst_moment::WorstMoment;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
@@ -85,6 +89,8 @@ pub struct AlarmBook {
     rig_judged: Time,
     /// What the twin expects of the rig, as the journal has it.
     adjusted: Adjusted,
+    /// What clients have changed of the configuration.
+    changed: Changed,
     /// Per alarm: whether its present state began in an earlier run.
     restored: Vec<bool>,
     /// Events that are not yet published.
@@ -144,6 +150,7 @@ impl AlarmBook {
             unknown: Unknown::default(),
             rig_judged: Time::MIN,
             adjusted: Adjusted::default(),
+            changed: Changed::new(Arc::clone(&config)),
             restored: (0..AlarmId::ALL.len())
                 .map(|index| system.alarm(index).since != 0)
                 .collect(),
@@ -160,8 +167,9 @@ impl AlarmBook {
         book
     }
 
-    /// Adopts the limits and rules of a configuration that changed while the node runs.
-    pub fn reconfigure(&mut self, config: &Arc<Config>) {
+    /// Adopts the limits and rules of a configuration that changed while the node runs, by these requests.
+    pub fn reconfigure(&mut self, config: &Arc<Config>, changes: &[ParameterChange]) {
+        self.changed.reconfigure(&self.config, config, changes);
         self.config = Arc::clone(config);
     }
 
@@ -184,8 +192,20 @@ impl AlarmBook {
         if let Some(window) = &self.window {
             findings.push((AlarmId::KnownWindow, window::finding(window, snapshot, self.unknown)));
         }
+        findings.push((AlarmId::ChangedParameters, self.changed.finding()));
         self.operating = Operating::of(&snapshot.applied, self.unknown);
         self.observe(findings, stamp);
+        for entry in self.changed.due(stamp) {
+            self.enter(AlarmId::ChangedParameters, &entry.by, &entry.reason, stamp);
+        }
+    }
+
+    /// Enters what an alarm is judged against from now on into the journal.
+    fn enter(&mut self, id: AlarmId, by: &str, reason: &str, time: Time) {
+        let mut events = Vec::new();
+        self.system
+            .adjusted(id as usize, time, &Operator { name: by, reason }, &mut events);
+        self.keep(events);
     }
 
     /// Observes the comparison of rig and twin at the stamp of its snapshot. A standing alarm outlasts connections and
@@ -211,10 +231,7 @@ impl AlarmBook {
     /// Enters what changed of what the twin expects of the rig, as a comparison has it at its stamp.
     pub fn observe_adjusted(&mut self, residuals: &Residuals, stamp: Time) {
         if let Some(reason) = self.adjusted.observe(residuals, stamp) {
-            let mut events = Vec::new();
-            self.system
-                .adjusted(AlarmId::RigDisagrees as usize, stamp, &reason, &mut events);
-            self.keep(events);
+            self.enter(AlarmId::RigDisagrees, "", &reason, stamp);
         }
     }
 

@@ -109,8 +109,8 @@ impl Followed {
             ),
             cause: "Likely friction has changed, the torque sensor drifts, or the bit takes another torque.".to_owned(),
             consequence:
-                "Whirl and stick-slip are judged with that friction: with too little of it a whirl that goes on has \
-                          no alarm."
+                "The weight at the bit is computed with that factor. Whirl and stick-slip are judged with the larger of \
+                          both, so that none that goes on loses its alarm."
                     .to_owned(),
             what_to_do: what_to_do(Some(Cause::FrictionHigher)).to_owned(),
             what_the_engineer_can_do:

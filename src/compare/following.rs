@@ -42,6 +42,8 @@ pub(super) struct Estimate {
     configured: [f64; 2],
     /// Values in force.
     applied: [f64; 2],
+    /// The factor that the motion has ([`Config::motion_factor`]).
+    in_motion: f64,
     /// A limit stops it.
     stopped: bool,
 }
@@ -68,6 +70,7 @@ impl Estimate {
             rules,
             configured,
             applied: configured,
+            in_motion: config.motion_factor(),
             stopped: false,
         }
     }
@@ -75,6 +78,7 @@ impl Estimate {
     /// Adopts the values in force.
     pub(super) fn reconfigure(&mut self, config: &Config) {
         self.applied = followed(config);
+        self.in_motion = config.motion_factor();
     }
 
     /// Forgets what was estimated.
@@ -84,9 +88,15 @@ impl Estimate {
         self.stopped = false;
     }
 
-    /// Factor of friction in force.
-    pub(super) fn applied_factor(&self) -> f64 {
-        self.applied[0]
+    /// Factor of friction that the motion has.
+    pub(super) fn motion_factor(&self) -> f64 {
+        self.in_motion
+    }
+
+    /// Torque (N m) to subtract from that of a motion whose friction takes `friction` (N m), where the motion has more
+    /// friction than the value in force.
+    pub(super) fn excess(&self, friction: f64) -> f64 {
+        (1.0 - self.applied[0] / self.in_motion) * friction
     }
 
     /// Takes a sample and adds to the message what it means.
@@ -228,7 +238,7 @@ mod tests {
         let mut estimate = Estimate::new(&config);
         let mut now = config.clone();
         for second in 0..3600 {
-            let applied = estimate.applied_factor();
+            let applied = estimate.motion_factor();
             let Pushed { message, moved, .. } =
                 estimate.push(&instant(second, applied, 1.3), messages::Residuals::default());
             assert!(message.following);
@@ -242,11 +252,11 @@ mod tests {
                 );
             }
             let Some([from, to]) = moved else { continue };
-            assert_eq!(from, [applied, now.calibration.torque_tare_nm]);
+            assert_eq!(from, followed(&now));
             let changes = changes(from, to);
             assert!(!changes.is_empty() && changes.iter().all(|change| change.asked_by == FOLLOW));
             let values = changes.iter().map(|change| (&change.name, change.value));
-            now = now.with_values("following", values).unwrap();
+            now = now.with_live_values("following", values).unwrap();
             estimate.reconfigure(&now);
         }
         // The estimate begins at 1 with a standard deviation of 0.2, which an hour of samples outweighs.
@@ -258,6 +268,38 @@ mod tests {
         assert!(now.calibration.torque_tare_nm.abs() < 8.0, "{:?}", now.calibration);
         estimate.restart();
         assert_eq!((estimate.follow.factor(), estimate.follow.tare()), (1.0, 0.0));
+    }
+
+    /// A torque sensor that shows less than the truth moves the values, and the motion keeps the friction that it began with.
+    #[test]
+    fn less_friction_is_followed_by_what_is_expected_and_not_by_the_motion() {
+        let begun = config(&[("calibration.follow", true.into())]);
+        let mut estimate = Estimate::new(&begun);
+        let mut now = begun.clone();
+        for second in 0..3600 {
+            let sample = instant(second, estimate.motion_factor(), 0.7);
+            let friction = sample.friction;
+            let pushed = estimate.push(&sample, messages::Residuals::default());
+            if let Some([from, to]) = pushed.moved {
+                let changes = changes(from, to);
+                let values = changes.iter().map(|change| (&change.name, change.value));
+                now = now.with_live_values("following", values).unwrap();
+                estimate.reconfigure(&now);
+            }
+            let followed = now.calibration.friction_factor;
+            assert!((friction - estimate.excess(friction) - followed * friction).abs() < 1e-9);
+        }
+        assert!(
+            (now.calibration.friction_factor - 0.7).abs() < 0.1,
+            "{:?}",
+            now.calibration
+        );
+        let [was, is] = [&begun, &now].map(|config| config.live().inner_friction);
+        assert_eq!(is[0], was[0], "around the hole");
+        assert!(is[1] < 0.8 * was[1], "along the hole: {is:?}");
+        // A client without following sets what it says.
+        let set = config(&[]).with_live_values("a client", [(FOLLOWED[0], 0.7)]).unwrap();
+        assert_eq!(set.live().inner_friction[0], 0.7 * was[0]);
     }
 
     #[test]

@@ -199,20 +199,24 @@ impl RigComparison {
         }
         let snapshot = &frame.snapshot;
         let good = [InputState::Ok as u8, InputState::Slow as u8].contains(&frame.input_quality);
+        let (computed, friction) = (predicted(snapshot), layers_friction(snapshot));
+        let surface = Quantity::SurfaceTorque as usize;
+        let mut expected = computed;
+        expected[surface] -= self.estimate.excess(friction);
         let compared = self.monitor.push(&Reading {
             step,
             rotary_speed: snapshot.applied.rotary_speed,
             weight: snapshot.applied.weight_set,
             good,
             measured: samples.values,
-            predicted: predicted(snapshot),
+            predicted: expected,
         });
         let instant = Instant {
             step,
-            measured: samples.values[Quantity::SurfaceTorque as usize],
-            predicted: predicted(snapshot)[Quantity::SurfaceTorque as usize],
-            friction: layers_friction(snapshot),
-            applied: self.estimate.applied_factor(),
+            measured: samples.values[surface],
+            predicted: computed[surface],
+            friction,
+            applied: self.estimate.motion_factor(),
             good,
             steady: compared.steady,
         };

@@ -2,7 +2,7 @@
 //! levels, with their own delays, so that a dashboard of diagnostics never contradicts the list of alarms.
 
 use super::alarms::alarms;
-use super::items::{inputs, measured, network, pacing, recording, solver};
+use super::items::{configuration, inputs, measured, network, pacing, recording, solver};
 use super::motion::MotionEvidence;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{AlarmList, Residuals, TwinStatus};
@@ -32,6 +32,7 @@ pub fn items(
         solver(status),
         inputs(status),
         measured(rig),
+        configuration(status),
         motion.whirl(),
         motion.stick_slip(),
         motion.shock(),

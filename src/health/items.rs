@@ -204,6 +204,24 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
     }
 }
 
+/// What differs from the configuration that the run began with.
+pub(super) fn configuration(status: &TwinStatus) -> Item {
+    let changed = &status.changed_parameter;
+    Item {
+        name: "configuration",
+        alarms: &[AlarmId::ChangedParameters],
+        calm: if changed.is_empty() {
+            "as at the start".to_owned()
+        } else {
+            changed.join("; ")
+        },
+        values: vec![
+            ("hash", status.config_hash.clone()),
+            ("values that differ", changed.len().to_string()),
+        ],
+    }
+}
+
 pub(super) fn recording(status: &TwinStatus) -> Item {
     let path = &status.recording_path;
     let calm = match status.recording_state {

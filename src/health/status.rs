@@ -1,5 +1,6 @@
 //! `twin/status`: collected from the solver's gauges, the snapshots, the inputs, the outputs and the recorder.
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use super::step_times::StepTimes;
@@ -9,6 +10,7 @@ use crate::dds::port::Health;
 use crate::messages::TwinStatus;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Intake;
+use flexdrill_config::Config;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
 use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
 use flexdrill_core::inputs::InputKind;
@@ -27,7 +29,10 @@ pub struct StatusKeeper {
     pace: PaceWatch,
     sequence: u64,
     time_step: f64,
+    begun: Arc<Config>,
     config_hash: String,
+    /// What differs from it, in words.
+    changed: Vec<String>,
     counters: SolverCounters,
     /// At the message before.
     counters_before: (SolverCounters, u64),
@@ -76,18 +81,20 @@ pub struct Sources<'a> {
 }
 
 impl StatusKeeper {
-    /// An empty status of a run.
+    /// An empty status of a run that begins with a configuration.
     ///
     /// # Errors
     /// As [`StepTimes::new`].
-    pub fn new(time_step: f64, config_hash: String) -> Result<Self, hdrhistogram::CreationError> {
+    pub fn new(begun: Arc<Config>) -> Result<Self, hdrhistogram::CreationError> {
         Ok(Self {
             step_times: StepTimes::new()?,
             factor: RealTimeFactor::new(FACTOR_SPAN),
             pace: PaceWatch::default(),
             sequence: 0,
-            time_step,
-            config_hash,
+            time_step: begun.solver.time_step,
+            config_hash: begun.hash(),
+            changed: Vec::new(),
+            begun,
             counters: SolverCounters::default(),
             counters_before: Default::default(),
             phases_before: Default::default(),
@@ -100,6 +107,12 @@ impl StatusKeeper {
             failures: 0,
             last_failure: None,
         })
+    }
+
+    /// Keeps what the configuration in force differs in from that of the start.
+    pub fn reconfigure(&mut self, config: &Config) {
+        let changed = config.changed_since(&self.begun);
+        self.changed = changed.iter().map(ToString::to_string).collect();
     }
 
     /// Keeps what a snapshot says of the solver.
@@ -211,6 +224,7 @@ impl StatusKeeper {
             step_in_force: self.part_of_step(self.quality.choice.in_force),
             step_wanted: self.part_of_step(self.quality.choice.wanted),
             config_hash: self.config_hash.clone(),
+            changed_parameter: self.changed.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()
         };

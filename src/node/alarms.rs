@@ -20,7 +20,7 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_messages::outputs::Encoded;
+use flexdrill_messages::outputs::{Encoded, ParameterChange};
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
     AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest,
@@ -97,11 +97,11 @@ impl AlarmDesk {
         self.book.set_window(window);
     }
 
-    /// Adopts changed limits and rules.
-    pub fn reconfigure(&mut self, config: &Arc<Config>) {
-        self.book.reconfigure(config);
+    /// Adopts limits and rules that these requests have changed.
+    pub fn reconfigure(&mut self, config: &Arc<Config>, changes: &[ParameterChange]) {
         // Inputs that change call this with the same configuration, again and again.
         if !Arc::ptr_eq(config, &self.config) {
+            self.book.reconfigure(config, changes);
             self.parameters = InForce::of(config);
             self.config = Arc::clone(config);
         }
@@ -463,12 +463,13 @@ mod tests {
         advisor.answer(asked, Some(tested), Duration::from_secs(70));
         assert!(advice(&mut desk).contains("84 r/min"));
         // The same configuration, and a parameter that has nothing to do with the motion.
-        desk.reconfigure(&config);
-        desk.reconfigure(&Arc::new(config.with_value("outputs.rates.whirl", 5.0).unwrap()));
+        desk.reconfigure(&config, &[]);
+        desk.reconfigure(&Arc::new(config.with_value("outputs.rates.whirl", 5.0).unwrap()), &[]);
         assert!(advice(&mut desk).contains("84 r/min"));
-        desk.reconfigure(&Arc::new(
-            config.with_value("contact.inner.friction_tangential", 1.0).unwrap(),
-        ));
+        desk.reconfigure(
+            &Arc::new(config.with_value("contact.inner.friction_tangential", 1.0).unwrap()),
+            &[],
+        );
         let words = advice(&mut desk);
         assert!(
             words.contains("a rule of thumb") && !words.contains("84 r/min"),

@@ -118,7 +118,7 @@ impl Publisher {
     /// # Errors
     /// When the histogram of the step times cannot be created.
     pub fn new(parts: PublisherParts) -> Result<Self, hdrhistogram::CreationError> {
-        let status = StatusKeeper::new(parts.config.solver.time_step, parts.config.hash())?;
+        let status = StatusKeeper::new(Arc::clone(&parts.config))?;
         let now = monotonic::now();
         Ok(Self {
             thinned: Thinned::new(&parts.config),
@@ -322,12 +322,13 @@ impl Publisher {
         for update in acting {
             values.extend(update.values);
             self.parts.config = update.config;
+            self.status.reconfigure(&self.parts.config);
         }
         self.rig.reconfigure(&self.parts.config);
         if inputs.reset {
             self.rig.restart();
         }
-        self.parts.alarms.reconfigure(&self.parts.config);
+        self.parts.alarms.reconfigure(&self.parts.config, &values);
         self.thinned.reconfigure(inputs.schedule, &self.parts.config);
         let parts = &self.parts;
         let Some(outputs) = self.outputs.as_mut() else {

@@ -11,6 +11,7 @@ use flexdrill::health::diagnostics::{self, RigEvidence};
 use flexdrill::health::motion::MotionEvidence;
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::DiagnosticStatus;
+use flexdrill::messages::outputs::ParameterChange;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
     AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr, topics,
@@ -561,6 +562,68 @@ fn two_drivers_call_with_who_they_are() {
     assert!(!find(&list, "two_drivers").active);
 }
 
+/// A value that decides on alarms and that a client has changed is told by list, diagnostics and journal until it is set
+/// back.
+#[test]
+fn a_twin_that_differs_from_its_configuration_says_so() {
+    let begun = config();
+    let mut book = AlarmBook::fresh(Arc::clone(&begun), 0);
+    let key = "whirl.backward_cycles.critical";
+    let value = begun.whirl.backward_cycles.critical;
+    let mut second = 0;
+    let mut set = |book: &mut AlarmBook, value: f64| {
+        let now = Arc::new(begun.with_live_values("a test", [(key, value)]).unwrap());
+        let request = ParameterChange {
+            name: key.to_owned(),
+            value,
+            asked_by: "service set_parameters, client ann".to_owned(),
+        };
+        book.reconfigure(&now, &[request]);
+        for _ in 0..3 {
+            second += 1;
+            book.observe_tool(&snapshot(&[]), second * SECOND);
+        }
+        let (events, list) = publish(book, second);
+        let item = configuration_item(list.as_ref().unwrap());
+        (events, find(list.as_ref().unwrap(), "changed_parameters").clone(), item)
+    };
+    let (events, alarm, item) = set(&mut book, 1.1 * value);
+    assert_eq!(
+        (alarm.state, alarm.priority),
+        (Alarm::ACTIVE_UNACKNOWLEDGED, Alarm::LOW)
+    );
+    assert!(
+        alarm.evidence.contains(key) && alarm.evidence.contains("configured"),
+        "{}",
+        alarm.evidence
+    );
+    assert_eq!(item.level, DiagnosticStatus::WARN);
+    let entry = events
+        .iter()
+        .find(|event| event.change == AlarmEvent::ADJUSTED)
+        .unwrap();
+    assert_eq!(entry.id, "changed_parameters");
+    assert!(
+        entry.operator_name.ends_with("client ann") && entry.reason.starts_with(key),
+        "{entry:?}"
+    );
+    let (events, alarm, item) = set(&mut book, value);
+    assert!(!alarm.active, "{alarm:?}");
+    assert_eq!(item.level, DiagnosticStatus::OK);
+    assert!(events.iter().any(|event| event.change == AlarmEvent::ADJUSTED));
+}
+
+/// The item `configuration` of the diagnostics with a list of alarms.
+fn configuration_item(list: &AlarmList) -> DiagnosticStatus {
+    let rig = RigEvidence {
+        measured: &Measured::default(),
+        now: 0.0,
+        residuals: None,
+    };
+    let items = diagnostics::items("n", &TwinStatus::default(), &rig, &MotionEvidence::default(), list);
+    items.into_iter().find(|item| item.name == "n: configuration").unwrap()
+}
+
 /// The rig sends, but nothing that can be right: that is no silence, and the alarm says what is wrong.
 #[test]
 fn an_input_that_is_only_refused_is_stale_and_says_why() {
@@ -703,7 +766,7 @@ fn a_state_of_an_earlier_run_is_marked_until_it_changes() {
 }
 
 /// The items of `/diagnostics` with their alarms.
-const ITEMS: [(&str, &[AlarmId]); 11] = [
+const ITEMS: [(&str, &[AlarmId]); 12] = [
     ("pacing", &[AlarmId::RealTime]),
     ("solver", &[AlarmId::Solver, AlarmId::ModelQuality]),
     (
@@ -715,6 +778,7 @@ const ITEMS: [(&str, &[AlarmId]); 11] = [
         ],
     ),
     ("measured", &[]),
+    ("configuration", &[AlarmId::ChangedParameters]),
     (
         "whirl",
         &[AlarmId::BackwardWhirl, AlarmId::ForwardWhirl, AlarmId::ChaoticWhirl],
@@ -752,9 +816,9 @@ fn level_of_alarms(list: &AlarmList, ids: &[AlarmId]) -> u8 {
 /// instant does an item of `/diagnostics` have another level than its alarms, whatever the figures next to it are.
 #[test]
 fn diagnostics_never_contradict_the_alarms() {
-    let config = config();
-    let mut conditioner = Conditioner::new(config.inputs.rules());
-    let mut book = AlarmBook::fresh(config, 0);
+    let begun = config();
+    let mut conditioner = Conditioner::new(begun.inputs.rules());
+    let mut book = AlarmBook::fresh(Arc::clone(&begun), 0);
     // Figures that would be an error by themselves throughout: they must not raise any level.
     let status = TwinStatus {
         state: TwinStatus::RUNNING,
@@ -788,6 +852,15 @@ fn diagnostics_never_contradict_the_alarms() {
         let mut snapshot = snapshot(if bad { &all_hazards } else { &[] });
         if (300..340).contains(&tenth) {
             snapshot.hazards.drive = DriveState::RunningUp;
+        }
+        if [200, 500].contains(&tenth) {
+            let friction = if bad {
+                0.3
+            } else {
+                begun.contact.inner.friction_tangential
+            };
+            let values = [("contact.inner.friction_tangential", friction)];
+            book.reconfigure(&Arc::new(begun.with_live_values("a test", values).unwrap()), &[]);
         }
         if bad {
             snapshot.quality = ModelQuality {

@@ -111,6 +111,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "solver",
         "inputs",
         "measured",
+        "configuration",
         "whirl",
         "stick-slip",
         "shock",
@@ -597,6 +598,29 @@ fn a_late_joiner_gets_the_latched_warning_and_a_killed_node_comes_back() {
     assert_eq!(after["config_hash"], before["config_hash"]);
     peer.send("/rig/rotary_speed_rpm", json!(25.0));
     peer.status_with(STATUS.0, |status| status["input_state"][0] == 1);
+}
+
+/// Lists are a second apart and not cleaned from the writer before six: a reader that joins receives the newest one, not
+/// those before it.
+#[test]
+fn a_late_joiner_gets_the_present_state_first() {
+    let Some(network) = Network::new() else { return };
+    let Some(mut peer) = network.peer() else { return };
+    let mut twin = network.twin(&[]);
+    twin.wait_for("model time runs");
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    peer.subscribe(STATUS.0, STATUS.1, "reliable");
+    let second = |message: &Value| {
+        let stamp = &message["header"]["stamp"];
+        stamp["sec"].as_f64().unwrap() + 1e-9 * stamp["nanosec"].as_f64().unwrap()
+    };
+    let now = second(&peer.status_with(STATUS.0, |_| true));
+    let alarms = ("/twin/alarms", "flexdrill/msg/AlarmList");
+    peer.subscribe(alarms.0, alarms.1, "latched");
+    let lists = peer.take(alarms.0, 2, 10.0);
+    let ages: Vec<f64> = lists.iter().map(|list| now - second(list)).collect();
+    // The list in force was sent within the last second; half of one is for a busy machine.
+    assert!(lists.len() >= 2 && ages.iter().all(|age| *age < 1.5), "{ages:?}");
 }
 
 #[test]

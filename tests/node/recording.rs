@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::common::{Network, Program};
 use flexdrill::bag::{self, Recorder, Topic};
-use flexdrill::messages::{AppliedInputs, BitState, TwinStatus};
+use flexdrill::messages::{AlarmEvent, AppliedInputs, BitState, TwinStatus};
 use flexdrill_core::inputs::MeasuredKind;
 use serde_json::{Value, json};
 
@@ -351,6 +351,28 @@ fn measured(torque: f64, hook_load: f64) -> Value {
     json!({"do": "publish", "topic": "/rig_7/rig/measured", "type": "flexdrill/msg/RigMeasured", "value": value})
 }
 
+/// What the journal says of parameters that clients have changed: who, and which values. Each change of the test has an
+/// entry with the values that alarms depend on, and none with a rate of publishing.
+fn changes_of_parameters(bag: &Path) -> Vec<(String, String)> {
+    let events = bag::open(bag).unwrap().map(Result::unwrap);
+    let entries: Vec<(String, String)> = events
+        .filter(|message| message.topic.is("twin/alarm_events"))
+        .map(|message| message.decode::<AlarmEvent>().unwrap())
+        .filter(|event| event.id == "changed_parameters" && event.change == AlarmEvent::ADJUSTED)
+        .map(|event| (event.operator_name, event.reason))
+        .collect();
+    let all: String = entries.iter().map(|(_, reason)| format!("{reason}; ")).collect();
+    for friction in ["from 0.2 to 0.22", "to 0.24", "to 0.26"] {
+        assert!(all.contains(friction), "{friction}: {all}");
+    }
+    assert!(all.contains("whirl.hysteresis from 0.15 to 0.1;"), "{all}");
+    assert!(!all.contains("outputs."), "{all}");
+    for (by, _) in &entries {
+        assert!(by.starts_with("service set_parameters_atomically, client "), "{by}");
+    }
+    entries
+}
+
 #[test]
 fn a_live_recording_replayed_gives_the_same_bytes() {
     let Some(network) = Network::new() else { return };
@@ -412,6 +434,11 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     assert!(printed.contains("time per step"), "{printed}");
     assert!(printed.contains("  exact: "), "{printed}");
     others_bags_are_replayed(&live, folder.path());
+    assert_eq!(
+        changes_of_parameters(&again),
+        changes_of_parameters(&live),
+        "who changed what"
+    );
     let (live, again) = (messages(&live), messages(&again));
     assert_eq!(live.keys().collect::<Vec<_>>(), again.keys().collect::<Vec<_>>());
     assert!(live.contains_key("/rig_7/twin/contact_forces"));

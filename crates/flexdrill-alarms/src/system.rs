@@ -163,18 +163,11 @@ impl AlarmSystem {
         }
     }
 
-    /// Enters into the journal that what an alarm is judged against was adjusted, with the reason. An index that does not
+    /// Enters into the journal that what an alarm is judged against was adjusted, by whom and how. An index that does not
     /// exist enters nothing.
-    pub fn adjusted(&mut self, index: usize, time: Time, reason: &str, events: &mut Vec<Event>) {
+    pub fn adjusted(&mut self, index: usize, time: Time, by: &Operator<'_>, events: &mut Vec<Event>) {
         if index < self.alarms.len() {
-            self.change(
-                index,
-                time,
-                Change::Adjusted,
-                &Operator { name: "", reason },
-                "",
-                events,
-            );
+            self.change(index, time, Change::Adjusted, by, "", events);
         }
     }
 

@@ -109,7 +109,15 @@ impl Plant {
             Action::Acknowledge(alarm) => drop(system.acknowledge(alarm, time, &by, journal)),
             Action::AcknowledgeAll => drop(system.acknowledge_all(time, &by, journal)),
             Action::Shelve(alarm, how) => drop(system.shelve(alarm, time, how, &by, journal)),
-            Action::Adjusted(alarm) => system.adjusted(alarm, time, "the friction factor", journal),
+            Action::Adjusted(alarm) => system.adjusted(
+                alarm,
+                time,
+                &Operator {
+                    name: "",
+                    reason: "the friction factor",
+                },
+                journal,
+            ),
             Action::Unshelve(alarm) => drop(system.unshelve(alarm, time, &by, journal)),
             Action::InService(alarm, on) => {
                 self.in_service[alarm] = on;

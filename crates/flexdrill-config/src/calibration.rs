@@ -12,7 +12,7 @@ section! {
         /// `follow_limits` and `follow_tare_limit_nm`. Default false: the estimate is published and changes nothing.
         follow: bool = false;
         /// Factor on the friction coefficients of both layers (`contact.inner`, `contact.outer`). With `follow` the node
-        /// changes it while it drills. Default 1.
+        /// changes it while it drills; friction around the hole then never falls below that of the start. Default 1.
         friction_factor: f64 = 1.0, above(0.0, 1e3), "", "a coefficient is positive";
         /// Offset of the surface torque's sensor (N m): what it shows without torque. With `follow` the node changes it while
         /// it drills. Default 0.

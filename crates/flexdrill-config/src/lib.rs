@@ -11,6 +11,7 @@
 mod alarms;
 mod boundary;
 mod calibration;
+mod changed;
 pub mod checker;
 mod contact;
 mod derived;
@@ -62,6 +63,7 @@ use sha2::{Digest, Sha256};
 pub use alarms::{Advice, AdviceTable, Alarms, NodeAlarm, ToolAlarm};
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
 pub use calibration::{Calibration, Range};
+pub use changed::ChangedNumber;
 pub use checker::NumberKey;
 pub use contact::{Contact, Layer, WallFrictionFactors};
 pub use derived::Unknowns;
@@ -211,6 +213,8 @@ pub struct Schema {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
     schema: Schema,
+    /// Friction factor at the start of the run.
+    begun_factor: f64,
 }
 
 impl Deref for Config {
@@ -237,7 +241,7 @@ impl Config {
     /// When the text is not YAML of this schema, or does not make sense.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ConfigError> {
         let schema = reading::checked(name, text, REQUIRED, Schema::check)?;
-        Ok(Self { schema })
+        Ok(Self::of(schema))
     }
 
     /// Checks a schema built in code; `name` stands for the file in errors.
@@ -248,7 +252,15 @@ impl Config {
         let lines = Lines::default();
         let mut checker = Checker::new(name, &lines);
         schema.check(&mut checker);
-        checker.finish().map(|()| Self { schema })
+        checker.finish().map(|()| Self::of(schema))
+    }
+
+    /// A configuration as a run begins with it.
+    fn of(schema: Schema) -> Self {
+        Self {
+            begun_factor: schema.calibration.friction_factor,
+            schema,
+        }
     }
 
     /// A copy with one value changed, checked as a whole. `key` is a dotted path (`contact.inner.friction_axial`) of a
@@ -294,6 +306,22 @@ impl Config {
             })?;
         }
         Self::from_schema(origin, schema)
+    }
+
+    /// The same for values that change while a run continues, which keeps what it began with: see
+    /// [`Config::motion_factor`].
+    ///
+    /// # Errors
+    /// As [`Config::with_value`].
+    pub fn with_live_values<K: AsRef<str>, V: Into<Value>>(
+        &self,
+        origin: &str,
+        values: impl IntoIterator<Item = (K, V)>,
+    ) -> Result<Self, ConfigError> {
+        Ok(Self {
+            begun_factor: self.begun_factor,
+            ..self.with_values(origin, values)?
+        })
     }
 
     /// Whether there is a key of this dotted path.
@@ -403,11 +431,23 @@ impl Config {
         })
     }
 
-    /// Both layers of contact, with the factor on their friction.
+    /// Friction factor of the motion around the hole, which decides on whirl and stick-slip. A torque sensor that drifts
+    /// must not end a whirl that continues: with `calibration.follow` this factor follows the rig to more friction than the
+    /// run began with, and not to less.
+    pub fn motion_factor(&self) -> f64 {
+        let factor = self.calibration.friction_factor;
+        if self.calibration.follow {
+            factor.max(self.begun_factor)
+        } else {
+            factor
+        }
+    }
+
+    /// Both layers of contact, with the factors on their friction.
     fn layers(&self) -> [GapDescription; 2] {
         [&self.contact.inner, &self.contact.outer].map(|layer| {
             let mut layer = layer.describe();
-            layer.friction_tangential *= self.calibration.friction_factor;
+            layer.friction_tangential *= self.motion_factor();
             layer.friction_axial *= self.calibration.friction_factor;
             layer
         })

@@ -75,8 +75,8 @@ pub(super) fn replay(
         let changes = player.take_followed();
         if !changes.is_empty() {
             let values = changes.iter().map(|change| (&change.name, change.value));
-            let followed = player.config().with_values("what follows the rig", values)?;
-            player.reconfigure(followed);
+            let followed = player.config().with_live_values("what follows the rig", values)?;
+            player.reconfigure(followed, &changes);
         }
         player.set_unknown(Unknown::of(&conditioner, now));
         let inputs = RunInputs {

@@ -165,10 +165,10 @@ impl Player {
         self.run.wanted_refinement()
     }
 
-    /// Adopts a changed configuration.
-    pub(super) fn reconfigure(&mut self, config: Config) {
+    /// Adopts a configuration that these requests have changed.
+    pub(super) fn reconfigure(&mut self, config: Config, changes: &[ParameterChange]) {
         self.outputs.reconfigure(&config);
-        self.alarms.reconfigure(&Arc::new(config.clone()));
+        self.alarms.reconfigure(&Arc::new(config.clone()), changes);
         self.rig.reconfigure(&config);
         self.config = config;
     }

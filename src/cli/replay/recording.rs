@@ -242,10 +242,10 @@ impl Script {
             }
             let changes = changes_of(message);
             let values = changes.iter().map(|change| (&change.name, change.value));
-            let changed = player.config().with_values("recorded parameters", values)?;
+            let changed = player.config().with_live_values("recorded parameters", values)?;
             // The twin repeats all values every second; only a difference is a change.
             if changed != *player.config() {
-                player.reconfigure(changed);
+                player.reconfigure(changed, &changes);
             }
             let inputs = RunInputs {
                 skipped: message.skipped_steps.saturating_sub(base.skipped),

@@ -89,6 +89,7 @@ impl Board {
             &mut status.output_topic,
             &mut status.phase_name,
             &mut status.namesake,
+            &mut status.changed_parameter,
         ];
         lists.into_iter().flatten().for_each(escape);
         // A heartbeat that counts from the start again belongs to another run, so that the state of the last one is void.

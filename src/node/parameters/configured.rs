@@ -19,7 +19,7 @@ pub fn reconfigured(config: &Config, changed: &[Parameter]) -> Result<Config, Co
         .iter()
         .filter(|parameter| is_live(&parameter.name))
         .filter_map(|parameter| Some((&parameter.name, to_json(&parameter.value)?)));
-    config.with_values("parameter", values)
+    config.with_live_values("parameter", values)
 }
 
 /// The value for the configuration; `None` for types that it does not use.

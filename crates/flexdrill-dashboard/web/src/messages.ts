@@ -295,7 +295,7 @@ export interface AlarmEvent {
   priority: number;
   /** The event is an annunciation. A rise of an alarm that is not yet acknowledged is none. */
   annunciates: boolean;
-  /** Operator who requested it; empty if it was not requested. */
+  /** Operator or client who requested it; empty if it was not requested. */
   operator_name: string;
   /** Reason; for UNSHELVED without a request, why the shelving ended. */
   reason: string;
@@ -357,7 +357,10 @@ export const AlarmEvent = {
   TAKEN_OUT: 9,
   /** The configuration returns it to service. */
   PUT_BACK: 10,
-  /** The twin was adjusted to the rig (calibration.follow); the reason says how. The state stays. */
+  /**
+   * What the alarm is judged against was adjusted, by calibration.follow or by a client, which operator_name names; the
+   * reason says how. The state stays.
+   */
   ADJUSTED: 11,
 } as const;
 /** Reads a `flexdrill/msg/AlarmEvent`. */
@@ -1517,7 +1520,7 @@ export interface TwinStatus {
   recording_messages: number;
   /** Messages that the recording lost, including those in a file whose sync the disk refused. */
   recording_drops: number;
-  /** SHA-256 of the configuration in force. */
+  /** SHA-256 of the configuration that the run began with; changed_parameter has what differs from it. */
   config_hash: string;
   /** Version of flexdrill. */
   version: string;
@@ -1618,6 +1621,8 @@ export interface TwinStatus {
   recording_drops_cause: string;
   /** Steps during which the model stood still: paused, or after a failed step. */
   steps_stood_still: number;
+  /** Values on which motion or alarms depend and that a client has changed since the start, each with the configured value. */
+  changed_parameter: string[];
 }
 export const TwinStatus = {
   /** The tool is being brought to rest under gravity and weight on bit. */
@@ -1732,6 +1737,7 @@ export function decodeTwinStatus(reader: CdrReader): TwinStatus {
     pace_factor: reader.float64(),
     recording_drops_cause: reader.string(),
     steps_stood_still: reader.uint64(),
+    changed_parameter: reader.many(reader.length(), () => reader.string()),
   };
 }
 

@@ -63,7 +63,7 @@ export const CHANGE: Record<number, string> = {
   [AlarmEvent.RELEASED]: "no longer suppressed",
   [AlarmEvent.TAKEN_OUT]: "taken out of service",
   [AlarmEvent.PUT_BACK]: "put back into service",
-  [AlarmEvent.ADJUSTED]: "led to an adjustment of the twin",
+  [AlarmEvent.ADJUSTED]: "– twin adjusted",
 };
 
 /** A word for a code, a question mark for one that this version does not know. */

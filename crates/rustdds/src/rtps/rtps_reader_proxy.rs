@@ -504,8 +504,12 @@ impl RtpsReaderProxy {
   }
 
   pub fn set_pending_gap_up_to(&mut self, last_gap_sn: SequenceNumber) {
-    // form SN range from 1 to last_gap_sn (inclusive)
-    let gap_sn_range = SequenceNumberRange::new(SequenceNumber::new(1), last_gap_sn);
+    self.set_pending_gap(SequenceNumber::new(1), last_gap_sn);
+  }
+
+  pub fn set_pending_gap(&mut self, first_gap_sn: SequenceNumber, last_gap_sn: SequenceNumber) {
+    // form SN range from first to last (inclusive)
+    let gap_sn_range = SequenceNumberRange::new(first_gap_sn, last_gap_sn);
     // Convert to a set and insert the SNs to pending_gap
     let gap_sn_set = BTreeSet::from_iter(gap_sn_range);
     self.pending_gap.extend(gap_sn_set);

@@ -44,7 +44,7 @@ use crate::{
     cache_change::CacheChange,
     duration::Duration,
     entity::RTPSEntity,
-    guid::{EntityId, GuidPrefix, GUID},
+    guid::{EntityId, EntityKind, GuidPrefix, GUID},
     locator::Locator,
     sequence_number::{FragmentNumber, SequenceNumber},
     time::Timestamp,
@@ -2074,6 +2074,7 @@ impl Writer {
   fn matched_reader_update(&mut self, updated_reader_proxy: &RtpsReaderProxy) -> bool {
     let mut is_new = false;
     let is_volatile = self.qos().is_volatile(); // Get this in advance to work with the borrow checker
+    let beyond_depth = self.history_beyond_depth();
                                                 // Capture the interface set once; resolution consults current observations.
     let multicast_ifaces = self.udp_sender.multicast_interfaces();
     let selector = DefaultRouteSelector::new(self.prefer_loopback_same_host);
@@ -2103,6 +2104,9 @@ impl Writer {
           // for all existing sequence numbers
           new_proxy.set_pending_gap_up_to(self.send_buffer.last_change_sequence_number());
         }
+        if let Some((first, last)) = beyond_depth {
+          new_proxy.set_pending_gap(first, last);
+        }
         new_proxy.resolve_send_route(
           &self.interface_observations.borrow(),
           &multicast_ifaces,
@@ -2115,6 +2119,24 @@ impl Writer {
     // minimum datagram budget used for packing.
     self.recompute_min_datagram_payload();
     is_new
+  }
+
+  /// First and last sequence number of the samples that are kept although they
+  /// lie before the last `depth` ones. They wait for acknowledgements or for the
+  /// periodic cleaning, and are no history for a reader that matches now. Only
+  /// topics without a key: with one, the depth counts per instance.
+  fn history_beyond_depth(&self) -> Option<(SequenceNumber, SequenceNumber)> {
+    let depth = match self.qos_policies.history {
+      None => 1,
+      Some(History::KeepLast { depth }) => depth,
+      Some(History::KeepAll) => return None,
+    };
+    if self.my_guid.entity_id.entity_kind != EntityKind::WRITER_NO_KEY_USER_DEFINED {
+      return None;
+    }
+    let first = self.send_buffer.first_change_sequence_number();
+    let last = self.send_buffer.last_change_sequence_number() - SequenceNumber::new(i64::from(depth));
+    (first <= last && first > SequenceNumber::zero()).then_some((first, last))
   }
 
   /// Recompute [`min_datagram_payload`](Self::min_datagram_payload) as the
@@ -2749,7 +2771,7 @@ mod tests {
       },
       polling::new_shared_timer,
       rtps::writer_send_buffer::Admission,
-      structure::{guid::EntityKind, sequence_number::SequenceNumberSet},
+      structure::sequence_number::SequenceNumberSet,
       RepresentationIdentifier,
     };
 
