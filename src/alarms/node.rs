@@ -12,6 +12,7 @@ use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
 use flexdrill_realtime::link::RunState;
 use flexdrill_realtime::{FAR_BEHIND, KEEPS_UP, Pace, PaceReading};
+use flexdrill_text::counted;
 
 /// How long a loss of messages remains a condition (s): longer than the alarm's default on-delay, so that a short loss
 /// raises the alarm too.
@@ -374,8 +375,8 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
             Some((lost, _)) => (
                 Priority::Low,
                 format!(
-                    "{} messages are missing from the recording, {} since its start.",
-                    lost.total(),
+                    "Missing from the recording: {}, {} since its start.",
+                    counted(lost.total(), "message"),
                     recording.losses.total()
                 ),
                 format!("Of these, {lost}."),

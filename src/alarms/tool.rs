@@ -5,11 +5,12 @@ use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::number;
 use flexdrill_alarms::{Priority, Time, span};
-use flexdrill_config::{Advice, AdviceTable, Config};
+use flexdrill_config::{Advice, AdviceTable, Config, Law};
 use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Hold, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_text::percent;
 
 /// Largest difference of the whirl rate from that of rolling without slip, over the latter, for whirl that is called
 /// rolling: the default of the analysis.
@@ -51,7 +52,7 @@ pub(super) fn findings(
                         seen: Some(instant(hazard.seen)),
                         ended: ended.map(instant),
                         less,
-                        ..describe(hazard, priority)
+                        ..describe(hazard, priority, config.rock.law)
                     }
                 }
                 _ => Finding::default(),
@@ -69,12 +70,14 @@ fn quality(quality: &ModelQuality) -> Finding {
     if quality.level < QualityLevel::Poor {
         return Finding::default();
     }
-    let share = number(100.0 * quality.value, 0).map_or(String::new(), |share| match quality.cause {
+    let share = percent(quality.value);
+    let share = match quality.cause {
+        _ if !quality.value.is_finite() => String::new(),
         Some(QualityCause::NumericalDamping) => {
-            format!(": numerical damping takes {share} % of the energy that contacts and damping dissipate")
+            format!(": numerical damping takes {share} of the energy that contacts and damping dissipate")
         }
-        _ => format!(": numerical energy errors reach {share} % of the energy that contacts and damping dissipate"),
-    });
+        _ => format!(": numerical energy errors reach {share} of the energy that contacts and damping dissipate"),
+    };
     Finding {
         priority: Some(Priority::Medium),
         value: quality.value,
@@ -133,8 +136,8 @@ pub(crate) fn called_at(
     called(kind, severity, &now, config, false)
 }
 
-fn describe(hazard: &Hazard, priority: Priority) -> Finding {
-    let words = words(hazard);
+fn describe(hazard: &Hazard, priority: Priority, law: Law) -> Finding {
+    let words = words(hazard, law);
     Finding {
         priority: Some(priority),
         place: hazard.place,
@@ -175,8 +178,8 @@ struct Words {
     engineer: &'static str,
 }
 
-/// The texts on a hazard. Numbers that were not measured are left out.
-fn words(hazard: &Hazard) -> Words {
+/// The texts on a hazard of a tool whose rock has this law. Numbers that were not measured are left out.
+fn words(hazard: &Hazard, law: Law) -> Words {
     let at = hazard.place.as_ref().and_then(place).unwrap_or_default();
     let of_guide = hazard.place.is_some_and(|place| place.body == Body::Guide);
     let body = if of_guide { "guide" } else { "pipe" };
@@ -248,8 +251,16 @@ fn words(hazard: &Hazard) -> Words {
             },
             cause: "The bit torque winds up the tool until the bit breaks free and spins.",
             consequence: "Impacts damage the cutters, and every joint carries a cyclic torque".to_owned(),
-            engineer: "Compare the measured torque with that of tool.bit.friction_factor. Tune the soft-torque control of \
-                       the top drive. A less aggressive bit needs less torque.",
+            engineer: match law {
+                Law::Paper | Law::Weakening => {
+                    "Compare the measured torque with that of tool.bit.friction_factor. Tune the soft-torque control of the \
+                     top drive. A less aggressive bit needs less torque."
+                }
+                Law::DepthOfCut => {
+                    "Compare the measured torque with that of rock.depth_of_cut.specific_energy and wear_flat_friction. Tune \
+                     the soft-torque control of the top drive. A less aggressive bit needs less torque."
+                }
+            },
         },
         HazardKind::JointLoad => Words {
             unit: "of its rating",

@@ -12,7 +12,7 @@ use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, Key
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Message, message_from_cdr_body};
-use flexdrill_text::{log_ending, printable};
+use flexdrill_text::{counted, log_ending, printable};
 use tokio::sync::{mpsc, watch};
 use tokio::time::{MissedTickBehavior, interval};
 
@@ -170,7 +170,8 @@ impl MqttBridge {
             self.unreadable += unreadable;
             log(NAMES[0], "unreadable", || {
                 format!(
-                    "{unreadable} messages of the twin could not be read; twin and bridge should have the same version"
+                    "{} of the twin could not be read; twin and bridge should have the same version",
+                    counted(unreadable, "message")
                 )
             });
         }

@@ -9,7 +9,7 @@ use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureWriter};
 use flexdrill_bridge::wits::{FrameUse, Line, LineEvent, Mapping, NotUsed, Refused, Sources, TwinFrames, shown};
-use flexdrill_text::{log_ending, printable};
+use flexdrill_text::{counted, log_ending, printable};
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::{MissedTickBehavior, interval};
 
@@ -96,7 +96,7 @@ impl WitsBridge {
                 _ = write.tick(), if writing.is_some() => {
                     let unreadable = self.node.take(|topic, body| twin.take(topic.name, body).is_ok());
                     if unreadable > 0 {
-                        log("figures", || format!("{unreadable} messages of the twin could not be read"));
+                        log("figures", || format!("{} of the twin could not be read", counted(unreadable, "message")));
                     }
                     let frame = writing.as_mut().and_then(|frames| frames.frame(&twin, lines::now()));
                     // Without a connection the frame is dropped.
@@ -182,7 +182,7 @@ impl WitsBridge {
         }
         let lost = match cut {
             0 => "no frame was in flight".to_owned(),
-            bytes => format!("{bytes} bytes of an unfinished frame are lost"),
+            bytes => format!("lost: {} of an unfinished frame", counted(bytes, "byte")),
         };
         log("connection ended", || {
             format!("connection {connection} ended: {}; {lost}", printable(why))

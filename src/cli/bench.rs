@@ -15,6 +15,7 @@ use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::Phase;
 use flexdrill_core::twin::ModelQuality;
+use flexdrill_text::percent;
 
 /// Runs a configuration at constant inputs as fast as it goes and prints its speed and its figures, as Markdown.
 #[derive(Debug, Args)]
@@ -178,13 +179,10 @@ fn load(usual: BuiltIn, path: Option<&std::path::Path>, args: &BenchArgs) -> any
 
 /// Word, share and cause.
 fn quality_of(quality: &ModelQuality) -> String {
-    let share = 100.0 * quality.energy_error_share;
+    let share = percent(quality.energy_error_share);
     let cause = quality.to_string();
     let cause = if cause.is_empty() { cause } else { format!(": {cause}") };
-    format!(
-        "{}, energy error {share:.0} % of what vibration loses{cause}",
-        quality.level
-    )
+    format!("{}, energy error {share} of what vibration loses{cause}", quality.level)
 }
 
 fn figures_of(measured: &Measured) -> Table {

@@ -15,6 +15,7 @@ use flexdrill_paper::{
     Case, Finding, PaperError, Record, Report, Verdict, figures, findings, findings_csv, record, write_figures,
     write_text,
 };
+use flexdrill_text::counted;
 
 /// Runs the paper's case and writes its figures 9 to 17 (SVG, PNG, CSV), findings and a report.
 #[derive(Debug, Args)]
@@ -221,7 +222,7 @@ fn search_parameters(args: &PaperArgs) -> anyhow::Result<()> {
             say!("wrote {}", args.out.join(name).display());
         }
     }
-    say!("{} trials: {}", trials.len(), path.display());
+    say!("{}: {}", counted(trials.len() as u64, "trial"), path.display());
     Ok(())
 }
 

@@ -35,7 +35,7 @@ use flexdrill_messages::{CdrError, Residuals, TwinStatus, to_cdr};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::Monitor;
-use flexdrill_text::{Throttle, Throttles, log_ending};
+use flexdrill_text::{Throttle, Throttles, counted, log_ending};
 
 /// How often the rings are polled: the delay that publishing adds.
 const POLL: Duration = Duration::from_millis(1);
@@ -164,7 +164,8 @@ impl Publisher {
             .filter(|dropped| *dropped > 0)
         {
             tracing::warn!(
-                "{dropped} messages did not reach the viewers, because the live thread got no processor time"
+                "{} did not reach the viewers, because the live thread got no processor time",
+                counted(dropped, "message")
             );
         }
         (self.parts.recording, self.newest_status)

@@ -273,6 +273,38 @@ fn a_wavering_speed_does_not_switch_an_alarm() {
     );
 }
 
+/// The engineer is sent to keys that exist in the configuration and act on its tool.
+#[test]
+fn the_engineer_is_named_keys_that_act() {
+    for name in ["default", "rig"] {
+        let config = Config::load(format!("{}/config/{name}.yaml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        let config = Arc::new(config);
+        let mut book = AlarmBook::fresh(Arc::clone(&config), 0);
+        let all = HazardKind::ALL.map(|kind| hazard(kind, Severity::Critical));
+        book.observe_tool(&snapshot(120.0, 10.0, &all), SECOND);
+        let texts: Vec<String> = list(&book)
+            .alarms
+            .iter()
+            .map(|alarm| alarm.what_the_engineer_can_do.clone())
+            .collect();
+        let is_of_key = |c: char| c.is_ascii_lowercase() || c == '_' || c == '.';
+        let keys: Vec<&str> = texts
+            .iter()
+            .flat_map(|text| text.split(|c: char| !is_of_key(c)))
+            .map(|word| word.trim_end_matches('.'))
+            .filter(|word| word.contains('.'))
+            .collect();
+        assert!(keys.len() > 3, "{keys:?}");
+        for key in &keys {
+            assert!(config.has(key), "{name}: {key}");
+        }
+        // The paper's law has the one and cutting has the other.
+        let cuts = name == "rig";
+        assert_eq!(keys.contains(&"rock.depth_of_cut.specific_energy"), cuts, "{keys:?}");
+        assert_eq!(keys.contains(&"tool.bit.friction_factor"), !cuts, "{keys:?}");
+    }
+}
+
 #[test]
 fn the_document_lists_every_alarm_and_their_number() {
     let text = include_str!("../../docs/alarms.md");

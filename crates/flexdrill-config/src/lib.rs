@@ -52,6 +52,7 @@ mod whole;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::path::Path;
 
@@ -285,14 +286,14 @@ impl Config {
         let mut schema = self.schema.clone();
         for (key, value) in values {
             let (key, value) = (key.as_ref(), value.into());
-            let Some(node) = tree.pointer_mut(&pointer(key)) else {
+            let Some(node) = slot(&mut tree, key) else {
                 return Err(ConfigError::UnknownKey {
                     key: key.to_string(),
                     meant: meant(key, &self.to_tree()),
                 });
             };
             let wanted = kind(node);
-            let mistyped = wanted != kind(&value);
+            let mistyped = !node.is_null() && wanted != kind(&value);
             *node = value.clone();
             // One value at a time, so that the error names the key; an error of the types has no key.
             schema = Schema::deserialize(&tree).map_err(|error| ConfigError::WrongType {
@@ -324,9 +325,15 @@ impl Config {
         })
     }
 
-    /// Whether there is a key of this dotted path.
+    /// Whether there is a key of this dotted path, with a value or an optional one without.
     pub fn has(&self, key: &str) -> bool {
-        self.to_tree().pointer(&pointer(key)).is_some()
+        slot(&mut self.to_tree(), key).is_some()
+    }
+
+    /// Optional keys without a value, with their texts: those of the schema that a section of this configuration leaves
+    /// out, without the keys of sections that it leaves out as a whole.
+    pub fn keys_left_out(&self) -> BTreeMap<String, String> {
+        left_out(&self.to_tree())
     }
 
     /// All values by their keys.
@@ -492,6 +499,47 @@ impl Config {
 /// SHA-256 in hex.
 fn hex_of(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The optional keys that a tree leaves out, with their texts.
+fn left_out(tree: &Value) -> BTreeMap<String, String> {
+    let texts = key_texts();
+    let is_section = |key: &str| {
+        let below = format!("{key}.");
+        texts
+            .range(below.clone()..)
+            .next()
+            .is_some_and(|(next, _)| next.starts_with(&below))
+    };
+    let is_left_out = |key: &str| {
+        let parent = key.rsplit_once('.').map_or("", |(parent, _)| parent);
+        let parent = if parent.is_empty() {
+            Some(tree)
+        } else {
+            tree.pointer(&pointer(parent))
+        };
+        let value = tree.pointer(&pointer(key));
+        parent.is_some_and(Value::is_object) && value.is_none_or(Value::is_null) && !is_section(key)
+    };
+    let keys = texts.iter().filter(|(key, _)| is_left_out(key));
+    keys.map(|(key, text)| (key.clone(), text.clone())).collect()
+}
+
+/// The place of a key in a tree, made for an optional one that is left out; `None` for a key that does not exist.
+fn slot<'a>(tree: &'a mut Value, key: &str) -> Option<&'a mut Value> {
+    if tree.pointer(&pointer(key)).is_none() {
+        if !left_out(tree).contains_key(key) {
+            return None;
+        }
+        let (parent, name) = key.rsplit_once('.').unwrap_or(("", key));
+        let parent = if parent.is_empty() {
+            Some(&mut *tree)
+        } else {
+            tree.pointer_mut(&pointer(parent))
+        };
+        parent?.as_object_mut()?.insert(name.to_owned(), Value::Null);
+    }
+    tree.pointer_mut(&pointer(key))
 }
 
 /// The JSON pointer of a dotted key.

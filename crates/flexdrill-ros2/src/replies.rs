@@ -87,7 +87,7 @@ list!(
 );
 
 /// Most descriptions of parameters that fit without their texts: a name, two flags and a range each.
-const MOST_DESCRIBED: usize = 400;
+const MOST_DESCRIBED: usize = 800;
 
 impl Reply for DescribeParametersResponse {
     /// Names, types and ranges remain where they fit: a tool that asks for all parameters at once needs them, and can ask

@@ -9,6 +9,6 @@ mod printable;
 mod throttle;
 
 pub use date::{compact_date_time, date_time, time_of_day};
-pub use number::{beyond, counted, six_digits};
+pub use number::{beyond, counted, percent, six_digits};
 pub use printable::{printable, printable_lines, table_cell};
 pub use throttle::{LOG_INTERVAL, Throttle, Throttles, log_ending};

@@ -24,6 +24,16 @@ pub fn six_digits(value: f64) -> String {
     }
 }
 
+/// A share in whole per cent. Over a quantity that is nearly nothing a share has no meaning: beyond ten times the text says
+/// only that.
+pub fn percent(share: f64) -> String {
+    match share {
+        share if share.abs() > 10.0 => "more than 1000 %".to_owned(),
+        // Rounding keeps the sign of a small negative number; adding a zero takes it off.
+        share => format!("{:.0} %", (100.0 * share).round() + 0.0),
+    }
+}
+
 /// A value that is refused for being beyond a bound, with as many digits as tell it from the bound.
 pub fn beyond(value: f64, bound: f64) -> String {
     let text = six_digits(value);
@@ -42,6 +52,12 @@ mod tests {
     fn one_is_singular() {
         let texts = [0, 1, 2].map(|count| counted(count, "look-ahead"));
         assert_eq!(texts, ["0 look-aheads", "1 look-ahead", "2 look-aheads"]);
+    }
+
+    #[test]
+    fn a_share_of_nearly_nothing_is_no_number() {
+        assert_eq!([0.254, 1.0, 10.0, -1e-9].map(percent), ["25 %", "100 %", "1000 %", "0 %"]);
+        assert_eq!([10.1, 4.6e16, f64::INFINITY].map(percent), ["more than 1000 %"; 3]);
     }
 
     #[test]

@@ -12,6 +12,7 @@ use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::INPUT_PERIOD;
+use flexdrill_text::counted;
 
 /// Model time after the last sample (s).
 const TAIL: f64 = 1.0;
@@ -102,7 +103,7 @@ pub(super) fn replay(
         progress.at(player.time_of(player.step()));
     }
     if refused > 0 {
-        tell!("{refused} samples were refused in total");
+        tell!("refused in total: {}", counted(refused, "sample"));
     }
     Ok((player, progress))
 }

@@ -9,7 +9,7 @@ use crate::cli::output::tell;
 use crate::messages::builtin_interfaces::Time;
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureReader};
 use flexdrill_bridge::wits::{Counts, Line, LineEvent, Mapping, Reading, Sources};
-use flexdrill_text::printable;
+use flexdrill_text::{counted, printable};
 
 /// Whether a file is a capture that `flexdrill bridge wits --capture` wrote.
 pub(super) fn is_capture(path: &Path) -> bool {
@@ -71,9 +71,8 @@ pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Sample
     );
     if taken.without_time > 0 {
         tell!(
-            "{} frames are not used: the file has no times of arrival, and these frames have no date and time (items 05 \
-             and 06)",
-            taken.without_time
+            "not used: {}; the file has no times of arrival, and a frame without date and time (items 05 and 06) has none",
+            counted(taken.without_time, "frame")
         );
     }
     Ok(taken.samples)

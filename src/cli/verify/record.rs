@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 
 use crate::cli::replay::record_case;
+use flexdrill_text::counted;
 use flexdrill_verify::{CaseRun, Row};
 
 /// A folder that is being filled.
@@ -92,9 +93,9 @@ impl Record {
         self.figures.flush()?;
         self.runs.flush()?;
         Ok(format!(
-            "{} bags with {} messages, figures.csv and runs.csv in {}",
-            self.bags,
-            self.messages,
+            "{} with {}, figures.csv and runs.csv in {}",
+            counted(self.bags as u64, "bag"),
+            counted(self.messages, "message"),
             self.folder.display()
         ))
     }

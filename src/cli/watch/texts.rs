@@ -6,6 +6,7 @@ use super::board::{Board, Heartbeat};
 use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning, words};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_text::percent;
 
 pub(super) fn state(code: u8) -> &'static str {
     match code {
@@ -51,7 +52,7 @@ pub(super) fn quality(status: &TwinStatus) -> String {
 /// The same with share and cause.
 pub(super) fn quality_with_cause(status: &TwinStatus) -> String {
     let share = match status.energy_error_share {
-        share if share.is_finite() => format!(", energy error {:.0} %", 100.0 * share),
+        share if share.is_finite() => format!(", energy error {}", percent(share)),
         _ => String::new(),
     };
     let text = format!("{}{share}", quality(status));

@@ -60,7 +60,12 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
             value,
         }
     });
-    ParameterStore::new(own.into_iter().chain(configured))
+    // An optional key is a parameter too: a client sees that it exists, and `-p` gives it a value at the start.
+    let left_out = config
+        .keys_left_out()
+        .into_iter()
+        .map(|(name, text)| fixed(&name, &format!("{text} Not set."), ParameterValue::NotSet));
+    ParameterStore::new(own.into_iter().chain(configured).chain(left_out))
 }
 
 fn flatten(prefix: &str, value: &Value, into: &mut Vec<(String, ParameterValue)>) {

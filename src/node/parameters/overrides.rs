@@ -90,6 +90,8 @@ pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Starte
             (CONFIG_FILE, _) => {}
             // Every file of `ros2 param dump` has these parameters of rclcpp.
             (name, _) if name.starts_with("qos_overrides.") || name == "start_type_description_service" => {}
+            // A file of `ros2 param dump` has optional keys without a value.
+            (_, ParameterValue::NotSet) => {}
             (key, value) => values.push((
                 key.to_owned(),
                 to_json(value).ok_or_else(|| wrong("this type is not used"))?,
@@ -147,6 +149,30 @@ mod tests {
         assert_eq!(started.config.inputs.rotary_speed.initial_rpm, 40.0);
         assert!(started.use_sim_time);
         assert_ne!(started.config.hash(), config().hash());
+    }
+
+    #[test]
+    fn an_optional_key_is_a_parameter_and_takes_a_value_at_the_start() {
+        let key = "run.duration";
+        let store = super::super::declare(&config(), "", false);
+        assert_eq!(store.get(key), Some(&ParameterValue::NotSet));
+        let described = store.describe(key);
+        assert!(
+            described.read_only && described.description.ends_with("Not set."),
+            "{described:?}"
+        );
+        // A section that is left out as a whole has no keys, and lists of mappings are none of ROS 2's types.
+        assert!(store.names().all(|name| !name.starts_with("environment.pressure.")));
+        let started = |value| apply_overrides(&config(), &[over(key, value)]);
+        assert_eq!(
+            started(ParameterValue::Double(12.0)).unwrap().config.run.duration,
+            Some(12.0)
+        );
+        assert_eq!(started(ParameterValue::NotSet).unwrap().config.run.duration, None);
+        let wrong = started(ParameterValue::String("long".into())).unwrap_err().to_string();
+        assert!(wrong.contains(key) && !wrong.contains("left out"), "{wrong}");
+        let unknown = apply_overrides(&config(), &[over("run.length", ParameterValue::Double(1.0))]);
+        assert!(unknown.unwrap_err().to_string().contains("run.length"));
     }
 
     #[test]

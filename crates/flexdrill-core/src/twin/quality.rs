@@ -132,10 +132,14 @@ impl fmt::Display for ModelQuality {
             QualityCause::EnergyError => "energy errors of the steps come to",
             QualityCause::NumericalDamping => "numerical damping is",
         };
+        // Where contacts and damping take nearly nothing, the share has no meaning.
+        let share = match self.value {
+            value if value > 10.0 => "more than 1000".to_owned(),
+            value => format!("{:.0}", 100.0 * value),
+        };
         write!(
             f,
-            "{what} {:.0} % of what contacts and damping take ({} from {:.0} %); {}",
-            100.0 * self.value,
+            "{what} {share} % of what contacts and damping take ({} from {:.0} %); {}",
             self.level,
             100.0 * self.bound,
             self.choice.remedy()

@@ -9,7 +9,7 @@ use crate::dds::network::Network;
 const STALL_TIME: f64 = 15.0;
 
 /// Longest reply of a service (bytes): a client may ask for any number of parameters at once.
-pub const MOST_REPLY: usize = 60_000;
+pub const MOST_REPLY: usize = 120_000;
 
 /// Bytes of the prefix that all endpoints of a participant share.
 pub type GuidPrefix = [u8; 12];
