@@ -56,7 +56,10 @@ mod tests {
 
     #[test]
     fn a_share_of_nearly_nothing_is_no_number() {
-        assert_eq!([0.254, 1.0, 10.0, -1e-9].map(percent), ["25 %", "100 %", "1000 %", "0 %"]);
+        assert_eq!(
+            [0.254, 1.0, 10.0, -1e-9].map(percent),
+            ["25 %", "100 %", "1000 %", "0 %"]
+        );
         assert_eq!([10.1, 4.6e16, f64::INFINITY].map(percent), ["more than 1000 %"; 3]);
     }
 

@@ -70,6 +70,7 @@ pub fn status(status: &TwinStatus) -> Value {
         "recording": words::recording_state(status.recording_state),
         "recording_messages_lost": status.recording_drops,
         "config_hash": status.config_hash,
+        "changed_parameters": status.changed_parameter,
         "version": status.version,
     })
 }
@@ -85,6 +86,7 @@ fn one_input(status: &TwinStatus, input: usize) -> Value {
         "received": quantity(number(&status.input_received), unit),
         "age": quantity(number(&status.input_age), "s"),
         "at_safe_value": status.input_safe.get(input),
+        "suspect": status.input_suspect.get(input),
         "driver": status.input_driver.get(input).map(|driver| text(driver)),
     })
 }
@@ -141,6 +143,13 @@ fn alarm(alarm: &Alarm) -> Value {
         "acknowledged": alarm.acknowledged,
         "since": time(&alarm.since),
         "shelved_until": time(&alarm.shelved_until),
+        "ended": alarm.ended,
+        "ended_at": time(&alarm.ended_at),
+        "less_severe_since": time(&alarm.less_severe_since),
+        "episodes": alarm.episodes,
+        "follows": text(&alarm.follows),
+        "worst_at": time(&alarm.worst_at),
+        "from_earlier_run": alarm.from_earlier_run,
         "body": body,
         "measured_depth": quantity(alarm.measured_depth, "m"),
         "inclination": quantity(alarm.inclination, "rad"),
@@ -292,6 +301,10 @@ mod tests {
                     unit: "N m".into(),
                     measured_depth: f64::NAN,
                     evidence: "\"x\"\u{1b}[2J\n".into(),
+                    ended: true,
+                    ended_at: Time::from_nanoseconds(1_700_000_000_250_000_000),
+                    episodes: 4,
+                    follows: "stick_slip".into(),
                     ..Alarm::default()
                 },
             ],
@@ -310,6 +323,15 @@ mod tests {
         assert_eq!(alarm["measured_depth"], json!({"value": null, "unit": "m"}));
         assert_eq!(alarm["since"], Value::Null);
         assert_eq!(alarm["priority"], "high");
+        // A display that shows an alarm as standing when its condition has ended says what is not true.
+        assert_eq!(
+            [&alarm["ended"], &alarm["ended_at"], &alarm["less_severe_since"]],
+            [&json!(true), &json!("2023-11-14T22:13:20.250Z"), &Value::Null]
+        );
+        assert_eq!(
+            [&alarm["episodes"], &alarm["follows"]],
+            [&json!(4), &json!("stick_slip")]
+        );
     }
 
     #[test]

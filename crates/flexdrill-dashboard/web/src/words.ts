@@ -78,5 +78,19 @@ export const PRIORITY_SHAPE: Record<number, string> = { 0: "", 1: "●", 2: "▲
  * A publisher for an operator: `node @ host (id of its DDS writer)` without the id, which only distinguishes two of one name.
  */
 export function publisher(named: string): string {
-  return named.replace(/ \((?:id )?[0-9a-f][0-9a-f.:]{7,}\)/gi, "");
+  return printable(named.replace(/ \((?:id )?[0-9a-f][0-9a-f.:]{7,}\)/gi, ""));
+}
+
+/** Marks that act on the text around them: control characters, and those that turn the direction of writing. */
+const ACTING = /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g;
+
+/** A text of another program, in which such marks are written out, so that they change nothing of what is around them. */
+export function printable(text: string): string {
+  return text.replace(ACTING, (mark) => `\\u{${mark.charCodeAt(0).toString(16)}}`);
+}
+
+/** What a display adds to an input that its source doubts and that drives the model all the same. */
+export function doubt(status: TwinStatus | null, input: number): { text: string; level: number } {
+  const doubted = status?.input_suspect[input] === true;
+  return doubted ? { text: " · SUSPECT: its source doubts it", level: 1 } : { text: "", level: 0 };
 }

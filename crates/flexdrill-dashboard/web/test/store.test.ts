@@ -7,6 +7,7 @@ import type { Session } from "../src/api";
 import { Alarm, type AlarmList, type Header, type TwinStatus } from "../src/messages";
 import { AlarmBook } from "../src/store/alarms";
 import { Store } from "../src/store/store";
+import { doubt } from "../src/words";
 
 const STATIONS = 4;
 const JOINTS = 2;
@@ -323,6 +324,9 @@ test("events of the journal come once, whether heard or asked for", () => {
     id: "shock",
     name: "shock",
     change: 0,
+    operator_name: "",
+    reason: "",
+    evidence: "",
   });
   for (const sequence of [7, 8, 8]) store.accept("twin/alarm_events", event(sequence));
   const asked = [5, 6, 7].map((sequence) => ({
@@ -342,6 +346,37 @@ test("events of the journal come once, whether heard or asked for", () => {
     store.journal.map(({ sequence }) => sequence),
     [5, 6, 7, 8],
   );
+});
+
+test("an entry of another program does not turn the direction of what is around it", () => {
+  const store = new Store();
+  const entry = {
+    stamp_ns: "1",
+    sequence: 1,
+    id: "shock",
+    name: "shock\u202e",
+    change: 0,
+    priority: Alarm.LOW,
+    annunciates: true,
+    operator_name: "\u2067ann\u0007",
+    reason: "",
+    evidence: "",
+  };
+  store.takeJournal([entry]);
+  assert.deepEqual(
+    store.journal.map(({ name, operator_name }) => [name, operator_name]),
+    [["shock\\u{202e}", "\\u{2067}ann\\u{7}"]],
+  );
+});
+
+test("an input that its source doubts says so", () => {
+  const status = { input_suspect: [false, true] } as unknown as TwinStatus;
+  assert.deepEqual(
+    [0, 1, 2].map((input) => doubt(status, input).level),
+    [0, 1, 0],
+  );
+  assert.match(doubt(status, 1).text, /SUSPECT/);
+  assert.equal(doubt(null, 0).text, "");
 });
 
 test("a twin is silent without a connection or a heartbeat, a recording never is", () => {

@@ -95,6 +95,7 @@ test("optional inputs appear where the twin lists them, with what is assumed", (
     input_name: ["rotary_speed", "weight_on_bit", "rate_of_penetration", "standpipe_pressure"],
     input_state: [1, 1, 5, 1],
     input_age: [0.1, 0.1, NaN, 0.5],
+    input_suspect: [],
     input_applied: [4, 1e4, 3 / 3600, 5e6],
   } as unknown as TwinStatus;
   assert.deepEqual(optionalInputs(status, 0.5, "si"), [

@@ -2,6 +2,7 @@
 
 import type { JournalEntry } from "../api";
 import type { Alarm, AlarmEvent, AlarmList } from "../messages";
+import { printable } from "../words";
 import { stamp } from "./topics";
 
 /** Most entries of the journal, and of alarm lists to drag back through. */
@@ -33,7 +34,8 @@ export class AlarmBook {
     const { sec, nanosec } = event.header.stamp;
     const { sequence, id, name, change, priority, annunciates, operator_name, reason, evidence } = event;
     const stamp_ns = (BigInt(sec) * 1_000_000_000n + BigInt(nanosec)).toString();
-    const entry = { stamp_ns, sequence, id, name, change, priority, annunciates, operator_name, reason, evidence };
+    const heard = { stamp_ns, sequence, id, name, change, priority, annunciates, operator_name, reason, evidence };
+    const entry = shown(heard);
     if (this.journal.some((known) => identity(known) === identity(entry))) return;
     this.journal.push(entry);
     if (this.journal.length > JOURNAL) this.journal.shift();
@@ -43,7 +45,9 @@ export class AlarmBook {
   /** Takes the server's journal, older than what has been heard here. */
   takeJournal(events: JournalEntry[]): void {
     const known = new Set(events.map(identity));
-    this.journal = [...events, ...this.journal.filter((event) => !known.has(identity(event)))].slice(-JOURNAL);
+    this.journal = [...events.map(shown), ...this.journal.filter((event) => !known.has(identity(event)))].slice(
+      -JOURNAL,
+    );
     this.journalRevision++;
   }
 
@@ -89,4 +93,12 @@ function same(a: Alarm, b: Alarm): boolean {
     if (typeof x !== "object" || typeof y !== "object") return Object.is(x, y);
     return x.sec === y.sec && x.nanosec === y.nanosec;
   });
+}
+
+/** An entry as it is shown: any program of the network can send one, and its texts must not act on those around them. */
+function shown(entry: JournalEntry): JournalEntry {
+  const [name, operator_name, reason, evidence] = [entry.name, entry.operator_name, entry.reason, entry.evidence].map(
+    printable,
+  );
+  return { ...entry, name, operator_name, reason, evidence };
 }

@@ -9,7 +9,7 @@ import type { Moment, Store } from "../store/store";
 import type { Topic } from "../store/topics";
 import { convert, digits, type Kind, lapse, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
-import { INPUT_STATE, PRIORITY_SHAPE, SEVERITY, word } from "../words";
+import { doubt, INPUT_STATE, PRIORITY_SHAPE, SEVERITY, word } from "../words";
 import { Strip, withGaps } from "./strip";
 
 /** What one tile shows. */
@@ -134,7 +134,9 @@ export class Numbers implements View {
           return { value: applied, note, level, held: true };
         }
         const received = digits(at(moment, `${name}_received`), kind, system());
-        return { value: applied, note: `rig ${received} · ${word(INPUT_STATE, state)}${age}${limited}`, level };
+        const doubted = doubt(status, index);
+        const note = `rig ${received} · ${word(INPUT_STATE, state)}${doubted.text}${age}${limited}`;
+        return { value: applied, note, level: Math.max(level, doubted.level) };
       },
     });
     const speedLimit = () => store.session?.limits?.rotary_speed_rpm.max ?? setting("inputs.rotary_speed.max_rpm");

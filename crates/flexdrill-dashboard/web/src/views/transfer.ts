@@ -4,7 +4,7 @@ import { h, setText, show } from "../dom";
 import type { Transfer, TwinStatus } from "../messages";
 import { digits, type Kind, lapse, number, quantity, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
-import { INPUT_STATE, word } from "../words";
+import { doubt, INPUT_STATE, word } from "../words";
 
 /** Older than this (ms) the figures are of the past. */
 const OLD = 2000;
@@ -147,7 +147,7 @@ export function optionalInputs(status: TwinStatus, since: number, system: System
         label,
         values: [
           withUnit(status.input_applied[index], kind, system),
-          word(INPUT_STATE, status.input_state[index]) + old,
+          word(INPUT_STATE, status.input_state[index]) + doubt(status, index).text + old,
         ],
       },
     ];
