@@ -43,5 +43,5 @@ pub use measured::{MeasuredRow, MeasuredSequence};
 pub use range::{Position, Range};
 pub use read::{read, read_bytes, read_range};
 pub use report::{Issue, IssueKind, Report, Summary, Tare, TorqueSummary};
-pub use sequence::{InputSequence, TimedInput};
+pub use sequence::{InputSequence, RowTime, TimedInput};
 pub use time_format::TimeFormat;

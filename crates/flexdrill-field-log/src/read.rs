@@ -8,7 +8,7 @@ use crate::mapping::{Mapping, WeightOnBitColumn};
 use crate::report::{Issues, Report, Summary, TorqueSummary};
 use crate::spikes::{remove_spikes, report_frozen};
 use crate::table::{Row, read_table};
-use crate::{FieldLogError, InputSequence, MeasuredSequence, Range, Tare, TimedInput};
+use crate::{FieldLogError, InputSequence, MeasuredSequence, Range, RowTime, Tare, TimedInput};
 use flexdrill_core::inputs::InputKind;
 
 /// Reads a whole log.
@@ -209,8 +209,21 @@ fn sequence(rows: &[Row], mapping: &Mapping) -> InputSequence {
             }
         }
     }
+    let column = &mapping.columns.time;
     InputSequence {
         inputs,
+        rows: rows
+            .iter()
+            .map(|row| RowTime {
+                row: row.number,
+                time: row.time - begin,
+                own_time: column.format.own_text(&column.column, row.own_time),
+            })
+            .collect(),
+        start: rows
+            .first()
+            .map(|row| row.own_time)
+            .filter(|start| column.format.has_dates() && *start >= 0.0),
         measured: MeasuredSequence::default(),
         duration: rows.last().map_or(0.0, |row| row.time - begin),
     }

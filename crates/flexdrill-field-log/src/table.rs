@@ -14,6 +14,8 @@ pub(crate) struct Row {
     pub(crate) number: u64,
     /// Since the log's first row (s).
     pub(crate) time: f64,
+    /// As the log gives it: since the epoch of its format (s).
+    pub(crate) own_time: f64,
     /// By [`InputKind::index`]: speed (r/min); weight on bit or hookload (kN); rate (m/h); pressure (MPa).
     pub(crate) values: [Option<f64>; InputKind::COUNT],
     /// Whether the bit drills; `None` when the log does not say.
@@ -139,13 +141,16 @@ pub(crate) fn read_table(
     let mut of_file = readable.iter();
     let mut measured = Vec::new();
     for Timed { number, time } in timed {
-        let Some((_, line)) = of_file.find(|(row, _)| row.number == number) else {
+        let Some((own, line)) = of_file.find(|(row, _)| row.number == number) else {
             continue;
         };
         let record = reader.read(line);
         let timed = Timed { number, time };
         let row = columns.row(&record, timed, rows.len(), mapping, issues, &mut measured);
-        rows.push(row);
+        rows.push(Row {
+            own_time: own.time,
+            ..row
+        });
     }
     if rows.is_empty() {
         return Err(FieldLogError::NoRows {
@@ -458,6 +463,7 @@ impl ColumnIndices {
             torque,
             number,
             time,
+            own_time: time,
             values: [speed, weight, rate, pressure],
             drilling,
             off_bottom,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Decimal;
 
-/// Notation of time in a log. Only differences matter.
+/// Notation of time in a log. Only differences matter to the model; the dates are kept for the way back to the log.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TimeFormat {
@@ -37,6 +37,26 @@ impl TimeFormat {
         }
     }
 
+    /// Whether its times are instants, and not only differences.
+    pub const fn has_dates(self) -> bool {
+        matches!(self, Self::Iso8601)
+    }
+
+    /// What a time of [`TimeFormat::parse`] is in the column of this name, such as `time_s 62.35`; empty where it has a date.
+    pub fn own_text(self, column: &str, seconds: f64) -> String {
+        match self {
+            Self::Seconds => format!("{column} {}", rounded(seconds)),
+            Self::Milliseconds => format!("{column} {}", (seconds * 1e3).round()),
+            Self::Iso8601 => String::new(),
+            Self::TimeOfDay => {
+                let (hours, minutes) = ((seconds / 3600.0) as u64, (seconds % 3600.0 / 60.0) as u64);
+                let seconds = rounded(seconds % 60.0);
+                let zero = if seconds < 10.0 { "0" } else { "" };
+                format!("{column} {hours:02}:{minutes:02}:{zero}{seconds}")
+            }
+        }
+    }
+
     /// Time since the format's epoch (s); `None` when the text is not of this format.
     pub fn parse(self, text: &str, decimal: Decimal) -> Option<f64> {
         let clock = || match decimal {
@@ -51,6 +71,11 @@ impl TimeFormat {
         };
         (seconds.abs() <= LATEST).then_some(seconds)
     }
+}
+
+/// Without digits that only the arithmetic has: to a microsecond.
+fn rounded(seconds: f64) -> f64 {
+    (seconds * 1e6).round() / 1e6
 }
 
 /// Seconds since 1970-01-01, UTC.
@@ -174,6 +199,20 @@ mod tests {
         assert_eq!(TimeFormat::TimeOfDay.parse("86399.25", point), Some(DAY - 0.75));
         assert_eq!(TimeFormat::Seconds.parse("nan", point), None);
         assert_eq!(TimeFormat::Milliseconds.parse("1500", point), Some(1.5));
+    }
+
+    #[test]
+    fn a_time_without_a_date_is_written_as_the_log_has_it() {
+        for (format, text, own) in [
+            (TimeFormat::Seconds, "62.35", "t 62.35"),
+            (TimeFormat::Milliseconds, "62350", "t 62350"),
+            (TimeFormat::TimeOfDay, "09:05:02", "t 09:05:02"),
+            (TimeFormat::TimeOfDay, "23:59:58.5", "t 23:59:58.5"),
+            (TimeFormat::Iso8601, "2024-05-01T12:30:05Z", ""),
+        ] {
+            let seconds = format.parse(text, Decimal::Point).unwrap();
+            assert_eq!(format.own_text("t", seconds), own, "{text}");
+        }
     }
 
     #[test]
