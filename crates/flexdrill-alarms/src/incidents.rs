@@ -47,7 +47,7 @@ pub struct Incident<D> {
     pub from_before: bool,
     /// The operator who acknowledged it; empty until then.
     pub acknowledged_by: String,
-    /// The details of the newest event of the highest priority.
+    /// The details of the first event of the highest priority, or of a worse moment since: see [`Incidents::worsen`].
     pub worst: D,
 }
 
@@ -66,6 +66,10 @@ pub struct Group<D> {
     pub acts: bool,
     /// The details of the first event of the highest priority, of those with an action of their own where there are any.
     pub worst: D,
+    /// The priority of `moment`.
+    pub moment_priority: u8,
+    /// The details of the worst moment of all incidents: see [`Incidents::worsen`].
+    pub moment: D,
 }
 
 /// The incidents of a journal. `D` are the details that the caller keeps of an event.
@@ -84,6 +88,10 @@ impl<D: Clone> Group<D> {
         if (priority, acts) > (self.priority, self.acts) {
             (self.priority, self.acts) = (priority, acts);
             self.worst.clone_from(details);
+        }
+        if priority > self.moment_priority {
+            self.moment_priority = priority;
+            self.moment.clone_from(details);
         }
     }
 }
@@ -164,6 +172,27 @@ impl<D: Clone> Incidents<D> {
         }
     }
 
+    /// Replaces the details of a standing alarm's worst moment by `details`, of a moment with this priority, where that was
+    /// worse: of a higher priority, or of the same one where `worse(details, kept)` holds. Events carry the moment at which
+    /// a priority was reached; the worst one often follows.
+    pub fn worsen(&mut self, alarm: &str, priority: u8, details: &D, worse: impl Fn(&D, &D) -> bool) {
+        let Some((_, index)) = self.standing.get(alarm) else {
+            return;
+        };
+        if let Some(group) = self.groups.get_mut(alarm)
+            && (priority > group.moment_priority || priority == group.moment_priority && worse(details, &group.moment))
+        {
+            group.moment_priority = priority;
+            group.moment.clone_from(details);
+        }
+        if let Some(incident) = index.and_then(|index| self.list.get_mut(index))
+            && (priority > incident.priority || priority == incident.priority && worse(details, &incident.worst))
+        {
+            incident.priority = priority;
+            incident.worst.clone_from(details);
+        }
+    }
+
     /// Adds the time until the end of the journal to the groups; in the list a standing alarm has no end.
     pub fn finish(&mut self, time: Time) {
         for (alarm, (since, _)) in std::mem::take(&mut self.standing) {
@@ -179,6 +208,8 @@ impl<D: Clone> Incidents<D> {
             priority: incident.priority,
             acts,
             worst: incident.worst.clone(),
+            moment_priority: incident.priority,
+            moment: incident.worst.clone(),
         });
         group.times += 1;
         group.take(incident.priority, acts, &incident.worst);
@@ -197,7 +228,7 @@ impl<D: Clone> Incidents<D> {
         }
         let index = self.standing.get(event.alarm).and_then(|(_, index)| *index);
         if let Some(incident) = index.and_then(|index| self.list.get_mut(index))
-            && event.priority >= incident.priority
+            && event.priority > incident.priority
         {
             incident.priority = event.priority;
             incident.worst = details;
@@ -287,6 +318,29 @@ mod tests {
             (group.times, group.first, group.duration, group.priority, group.worst),
             (2, 1, 6, 3, "strong")
         );
+    }
+
+    /// An event has the moment at which its priority was reached, and the worst one follows in the lists.
+    #[test]
+    fn the_worst_moment_is_the_worst_while_the_alarm_stands() {
+        let worse = |new: &i32, kept: &i32| new > kept;
+        let mut incidents = Incidents::new(10);
+        // Of an alarm that does not stand there is no moment.
+        incidents.worsen("shock", 3, &99, worse);
+        incidents.add(1, &shock(Course::Stands, 2), || 138);
+        for (priority, value) in [(2, 140), (2, 139), (1, 500)] {
+            incidents.worsen("shock", priority, &value, worse);
+        }
+        assert_eq!(incidents.list()[0].worst, 140);
+        incidents.add(2, &shock(Course::Stands, 3), || 200);
+        incidents.worsen("shock", 3, &896, worse);
+        incidents.add(3, &shock(Course::Ends, 3), || 0);
+        incidents.worsen("shock", 3, &999, worse);
+        incidents.add(4, &shock(Course::Stands, 3), || 150);
+        incidents.worsen("shock", 3, &160, worse);
+        let worst: Vec<i32> = incidents.list().iter().map(|incident| incident.worst).collect();
+        assert_eq!(worst, [896, 160]);
+        assert_eq!(incidents.groups()["shock"].moment, 896);
     }
 
     #[test]
