@@ -3,6 +3,7 @@
 mod alarms;
 mod episodes;
 mod inputs;
+mod log;
 mod player;
 mod recording;
 mod show;
@@ -137,7 +138,7 @@ fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow
     tally.print(wall, time_step);
     say_text!("{}", tally.alarms);
     let found = tally.episodes();
-    say_text!("{}", episodes::table(&found, &joints));
+    say_text!("{}", episodes::table(&found, &joints, &tally.alarms.log));
     if let Some(path) = json {
         episodes::write_json(path, &found, &joints)?;
     }

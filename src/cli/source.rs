@@ -13,15 +13,18 @@ use super::built_in::DemoLog;
 use crate::bag::{self, BagError};
 use crate::cli::output::{tell, tell_text};
 use crate::field_log::{self, InputSequence, Mapping, Position};
-use crate::messages::RigMeasured;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
+use crate::messages::{RigInputs, RigMeasured};
 use flexdrill_core::inputs::{InputKind, Stamp};
+
+/// End of the seconds in a stamp of ROS, which have 32 bits (s since 1970).
+const LATEST_STAMP: f64 = i32::MAX as f64;
 
 /// A timed sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
-    /// ns since 1970; of a field log, since its first row.
+    /// ns since 1970; of a field log without dates, since its first row.
     pub(super) time: i64,
     /// The input that it belongs to.
     pub(super) kind: InputKind,
@@ -41,7 +44,7 @@ impl Sample {
 /// What the rig measured besides its inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct MeasuredSample {
-    /// ns since 1970; of a field log, since its first row.
+    /// ns since 1970; of a field log without dates, since its first row.
     pub(super) time: i64,
     /// The values.
     pub(super) message: RigMeasured,
@@ -54,9 +57,41 @@ pub(super) struct Samples {
     pub(super) inputs: Vec<Sample>,
     /// The measured values.
     pub(super) measured: Vec<MeasuredSample>,
+    /// The rows of a field log by their times, as sources of messages: see [`crate::report::row_source`].
+    pub(super) rows: Vec<(i64, String)>,
+}
+
+/// What the rig sent, with the times of arrival, each part in the order of time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct FromRig {
+    /// The inputs (time in ns since 1970).
+    pub(super) inputs: Vec<(i64, RigInputs)>,
+    /// The measured values.
+    pub(super) measured: Vec<MeasuredSample>,
 }
 
 impl Samples {
+    /// The inputs as messages, one for the samples of one time; the source of each is its row of a field log.
+    pub(super) fn messages(&self) -> Vec<(i64, RigInputs)> {
+        let of_one_time = self.inputs.chunk_by(|before, after| before.time == after.time);
+        let message = |samples: &[Sample]| {
+            let time = samples.first()?.time;
+            let mut values = [None; InputKind::COUNT];
+            for sample in samples {
+                values[sample.kind.index()] = Some(sample.value);
+            }
+            let row = self.rows.binary_search_by_key(&time, |(time, _)| *time);
+            let source = row.ok().and_then(|index| self.rows.get(index));
+            let header = Header {
+                stamp: Time::from_nanoseconds(time),
+                ..Header::default()
+            };
+            let source = source.map_or_else(String::new, |(_, source)| source.clone());
+            Some((time, RigInputs::of(header, values, RigInputs::GOOD, source)))
+        };
+        of_one_time.filter_map(message).collect()
+    }
+
     /// In the order of time. The sorts are stable: samples of the same time keep the order of the source.
     fn sorted(mut self) -> Self {
         self.inputs.sort_by_key(|sample| sample.time);
@@ -188,8 +223,16 @@ impl SourceArgs {
 
     fn log_samples(&self, path: &Path) -> anyhow::Result<Samples> {
         let sequence = self.log(path)?;
-        // Times of a log begin at 0 and span some years at most, so they fit.
-        let nanoseconds = |seconds: f64| (seconds * 1e9).round() as i64;
+        // A stamp of ROS ends in 2038: dates beyond it are left out, as is a log that has none.
+        let start = sequence.start.filter(|start| start + sequence.duration < LATEST_STAMP);
+        let start = (start.unwrap_or(0.0) * 1e9).round() as i64;
+        // Times within a log span some years at most, so they fit.
+        let nanoseconds = |seconds: f64| start + (seconds * 1e9).round() as i64;
+        let file = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let rows = sequence.rows.iter().map(|row| {
+            let source = crate::report::row_source(row.row, &row.own_time, &file);
+            (nanoseconds(row.time), source)
+        });
         let inputs = sequence.inputs.iter().map(|input| Sample {
             time: nanoseconds(input.time),
             kind: input.kind,
@@ -213,6 +256,7 @@ impl SourceArgs {
         let samples = Samples {
             inputs: inputs.collect(),
             measured: measured.collect(),
+            rows: rows.collect(),
         };
         Ok(samples.sorted())
     }

@@ -11,6 +11,7 @@ mod common;
 
 mod balances;
 mod calibration;
+mod clock;
 mod earlier;
 mod field_log;
 mod following;

@@ -7,26 +7,38 @@ use flexdrill_messages::{Alarm, AlarmEvent, AlarmList};
 const MOST: usize = 5000;
 
 /// The time in which an alarm stood, in ns from the beginning of the recording.
-pub(crate) type Incident = life::Incident<Details>;
+pub(crate) type Incident = life::Incident<AlarmMoment>;
 /// All incidents of one alarm.
-pub(crate) type Group = life::Group<Details>;
+pub(crate) type Group = life::Group<AlarmMoment>;
 
-/// What the recording says of an alarm at its worst moment.
+/// What the recording says of an alarm at its worst moment. Evidence, value and location are of one moment.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Details {
+pub struct AlarmMoment {
+    /// Name of the alarm.
     pub name: String,
+    /// What happened, in a sentence.
     pub evidence: String,
+    /// What the driller can do.
     pub what_to_do: String,
+    /// What the engineer can do.
     pub what_the_engineer_can_do: String,
     /// Measured depth (m), NaN for an alarm without a location.
     pub measured_depth: f64,
+    /// Inclination of the bore there (rad), NaN for an alarm without a location.
     pub inclination: f64,
+    /// The body there, a constant of [`Alarm`].
     pub body: u8,
+    /// The value that is judged; NaN where there is no such number.
+    pub value: f64,
+    /// The threshold of the value; NaN where there is none, or an event says it, which does not carry it.
+    threshold: f64,
+    /// When that was (ns since 1970); zero where the recording does not say it.
+    pub worst_at: i64,
     /// The constant of [`Alarm`] for a matter of drilling or of the computer.
     pub category: u8,
 }
 
-impl From<&AlarmEvent> for Details {
+impl From<&AlarmEvent> for AlarmMoment {
     fn from(event: &AlarmEvent) -> Self {
         Self {
             name: event.name.clone(),
@@ -36,12 +48,15 @@ impl From<&AlarmEvent> for Details {
             measured_depth: event.measured_depth,
             inclination: event.inclination,
             body: event.body,
+            value: event.value,
+            threshold: f64::NAN,
+            worst_at: event.worst_at.to_nanoseconds(),
             category: event.category,
         }
     }
 }
 
-impl From<&Alarm> for Details {
+impl From<&Alarm> for AlarmMoment {
     fn from(alarm: &Alarm) -> Self {
         Self {
             name: alarm.name.clone(),
@@ -51,15 +66,31 @@ impl From<&Alarm> for Details {
             measured_depth: alarm.measured_depth,
             inclination: alarm.inclination,
             body: alarm.body,
+            value: alarm.value,
+            threshold: alarm.threshold,
+            worst_at: alarm.worst_at.to_nanoseconds(),
             category: alarm.category,
         }
+    }
+}
+
+impl AlarmMoment {
+    /// Whether the value of this moment is worse than that of another one of the same alarm and priority: further in the
+    /// direction of the threshold. Without numbers the earlier moment stays.
+    pub fn is_worse_than(&self, other: &Self) -> bool {
+        let scale = if self.threshold.is_finite() && self.threshold != 0.0 {
+            self.threshold
+        } else {
+            1.0
+        };
+        self.value / scale > other.value / scale || self.value.is_finite() && !other.value.is_finite()
     }
 }
 
 /// The alarms of a recording.
 #[derive(Debug)]
 pub(crate) struct Incidents {
-    log: life::Incidents<Details>,
+    log: life::Incidents<AlarmMoment>,
     /// The newest list of alarms.
     pub newest: Option<AlarmList>,
     has_events: bool,
@@ -105,16 +136,31 @@ impl Incidents {
                     operator: "",
                     acts: alarm.follows.is_empty(),
                 };
-                self.log.add_standing(since(alarm), 0, &standing, Details::from(alarm));
+                self.log
+                    .add_standing(since(alarm), 0, &standing, AlarmMoment::from(alarm));
             }
         }
+        // An event has the moment at which the priority was reached, and the lists have the worst one since.
+        for alarm in list.alarms.iter().filter(|alarm| alarm.active) {
+            self.log.worsen(
+                &alarm.id,
+                alarm.priority,
+                &AlarmMoment::from(alarm),
+                AlarmMoment::is_worse_than,
+            );
+        }
         self.newest = Some(list);
+    }
+
+    /// Whether the recording has the lists of all alarms, and with them the worst moment of each.
+    pub(crate) fn has_lists(&self) -> bool {
+        self.newest.is_some()
     }
 
     /// Adds an event at its time (ns from the beginning).
     pub(crate) fn event(&mut self, time: Time, event: &AlarmEvent) {
         self.has_events = true;
-        self.log.add(time, &event.occurrence(), || Details::from(event));
+        self.log.add(time, &event.occurrence(), || AlarmMoment::from(event));
     }
 
     /// Ends the recording at its time (ns from the beginning).
@@ -232,6 +278,40 @@ mod tests {
         };
         incidents.event(30 * SECOND, &behind);
         assert_eq!(incidents.worst().unwrap().worst.name, "Shock");
+    }
+
+    /// The event of a raise has 138 %; the lists that follow have the index at its worst, with its place.
+    #[test]
+    fn evidence_and_place_are_of_the_worst_moment() {
+        let listed = |value: f64, measured_depth: f64, active: bool| AlarmList {
+            alarms: vec![Alarm {
+                id: "shock".to_owned(),
+                active,
+                priority: Alarm::HIGH,
+                value,
+                threshold: 1.0,
+                measured_depth,
+                evidence: format!("index {value} at {measured_depth} m"),
+                ..Alarm::default()
+            }],
+            ..AlarmList::default()
+        };
+        let mut incidents = Incidents::default();
+        let mut raised = event(AlarmEvent::ACTIVATED, Alarm::HIGH, "index 1.38 at 1 m");
+        (raised.value, raised.measured_depth) = (1.38, 1.0);
+        incidents.event(5 * SECOND, &raised);
+        for (value, depth, active) in [
+            (1.5, 1.5, true),
+            (8.96, 4.0, true),
+            (3.0, 2.0, true),
+            (99.0, 5.0, false),
+        ] {
+            incidents.alarms(listed(value, depth, active), |_| 0);
+        }
+        let worst = &incidents.list()[0].worst;
+        assert_eq!((worst.value, worst.measured_depth), (8.96, 4.0));
+        assert_eq!(worst.evidence, "index 8.96 at 4 m");
+        assert!(incidents.has_lists());
     }
 
     #[test]

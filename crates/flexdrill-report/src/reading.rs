@@ -8,8 +8,10 @@ use crate::drive::Drive;
 use crate::health::Health;
 use crate::incidents::Incidents;
 use crate::locations::Locations;
+use crate::log_rows::LogRows;
 use crate::roles::{OUTPUTS, Roles};
 use crate::transfer::TransferHistory;
+use crate::weight::SteadyDrilling;
 use flexdrill_bag::{BagError, BagMessage, Gap, Gaps};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
@@ -43,8 +45,11 @@ pub struct Summary {
     pub(crate) config_problem: Option<String>,
     pub(crate) drive: Drive,
     pub(crate) transfer: TransferHistory,
+    pub(crate) steady: SteadyDrilling,
     pub(crate) balances: Balances,
     pub(crate) incidents: Incidents,
+    /// The rows of the field log that drove the run; none of another run.
+    pub(crate) log_rows: LogRows,
     pub(crate) locations: Locations,
     pub(crate) health: Health,
     /// Missing or incomplete data, each as a sentence.
@@ -131,8 +136,10 @@ impl Reader {
                 config_problem: None,
                 drive: Drive::default(),
                 transfer: TransferHistory::default(),
+                steady: SteadyDrilling::default(),
                 balances: Balances::default(),
                 incidents: Incidents::default(),
+                log_rows: LogRows::default(),
                 locations: Locations::default(),
                 health: Health::default(),
                 missing: Vec::new(),
@@ -184,6 +191,7 @@ impl Reader {
                         match Config::from_text("the recorded configuration", &session.configuration) {
                             Ok(config) => {
                                 summary.balances.tool(&config);
+                                summary.steady.tool(&config);
                                 summary.config = Some(config);
                             }
                             Err(error) => summary.config_problem = Some(error.to_string()),
@@ -224,6 +232,7 @@ impl Reader {
                 let transfer: Transfer = message.decode()?;
                 let time = self.stamp(&transfer.header);
                 self.summary.transfer.push(time, &transfer);
+                self.summary.steady.push(time, &transfer);
                 self.summary.balances.transfer(time, &transfer);
             }
             Reactions::ROS_TYPE => {
@@ -251,6 +260,7 @@ impl Reader {
             }
             RigInputs::ROS_TYPE => {
                 let inputs: RigInputs = message.decode()?;
+                self.summary.log_rows.push(message.log_time, &inputs.source);
                 if let Some(time) = self.received_at(message) {
                     self.summary.drive.rig_inputs(time, &inputs);
                 }

@@ -2,14 +2,18 @@
 
 use std::fmt;
 
+use super::log::LogPlace;
 use crate::alarms::AlarmId;
-use crate::messages::{AlarmEvent, words};
+use crate::messages::{Alarm, AlarmEvent, words};
+use crate::report::AlarmMoment;
 use flexdrill_alarms::{Figures, Incidents, Time, span};
 
 /// The alarms of a replay, in model time.
 #[derive(Debug)]
 pub(super) struct AlarmTally {
-    incidents: Incidents<AlarmEvent>,
+    incidents: Incidents<AlarmMoment>,
+    /// The field log that drove the run.
+    pub log: LogPlace,
     now: Time,
     /// The figures of the whole run.
     figures: Figures,
@@ -20,6 +24,7 @@ impl Default for AlarmTally {
         Self {
             // The table has a row per alarm, so that the list of single incidents is not needed.
             incidents: Incidents::new(0),
+            log: LogPlace::default(),
             now: 0,
             figures: Figures::default(),
         }
@@ -27,11 +32,26 @@ impl Default for AlarmTally {
 }
 
 impl AlarmTally {
+    /// An empty one of a run that this log drives.
+    pub(super) fn of_log(log: LogPlace) -> Self {
+        Self { log, ..Self::default() }
+    }
+
     /// Adds the events up to an instant (s).
     pub(super) fn add(&mut self, now: f64, events: Vec<AlarmEvent>) {
         self.now = span(now);
         for event in events {
-            self.incidents.add(self.now, &event.occurrence(), || event.clone());
+            self.incidents
+                .add(self.now, &event.occurrence(), || AlarmMoment::from(&event));
+        }
+    }
+
+    /// Takes the worst moments of the alarms that stand. Events have the moment at which a priority was reached.
+    pub(super) fn worsen(&mut self, alarms: &[Alarm]) {
+        for alarm in alarms.iter().filter(|alarm| alarm.active) {
+            let moment = AlarmMoment::from(alarm);
+            self.incidents
+                .worsen(&alarm.id, alarm.priority, &moment, AlarmMoment::is_worse_than);
         }
     }
 
@@ -64,24 +84,29 @@ impl fmt::Display for AlarmTally {
         )?;
         writeln!(
             f,
-            "  {:<8} {:<26} {:>5} {:>9} {:>8}  evidence at the worst moment",
-            "priority", "alarm", "times", "first s", "for s"
+            "  {:<8} {:<26} {:>5} {:>9} {:>8} {:>9}  evidence at the worst moment",
+            "priority", "alarm", "times", "first s", "for s", "worst s"
         )?;
         for group in rows {
-            let worst = &group.worst;
+            let (worst, moment) = (&group.worst, &group.moment);
+            let worst_at = seconds(moment.worst_at.saturating_sub(self.log.start));
             writeln!(
                 f,
-                "  {:<8} {:<26} {:>5} {:>9.2} {:>8.2}  {}",
+                "  {:<8} {:<26} {:>5} {:>9.2} {:>8.2} {worst_at:>9.2}  {}",
                 words::alarm_priority(group.priority).to_uppercase(),
                 worst.name,
                 group.times,
                 seconds(group.first),
                 seconds(group.duration),
-                worst.evidence
+                moment.evidence
             )?;
-            writeln!(f, "  {:<61}{}", "", worst.what_to_do)?;
+            let [first, worst_row] = [seconds(group.first), worst_at].map(|at| self.log.row(at));
+            if !first.is_empty() {
+                writeln!(f, "  {:<71}Log: first at {first}, worst at {worst_row}", "")?;
+            }
+            writeln!(f, "  {:<71}{}", "", worst.what_to_do)?;
             if !worst.what_the_engineer_can_do.is_empty() {
-                writeln!(f, "  {:<61}Engineer: {}", "", worst.what_the_engineer_can_do)?;
+                writeln!(f, "  {:<71}Engineer: {}", "", worst.what_the_engineer_can_do)?;
             }
         }
         writeln!(
@@ -99,4 +124,48 @@ impl fmt::Display for AlarmTally {
 
 fn seconds(time: Time) -> f64 {
     time as f64 * 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{LogRows, row_source};
+
+    /// The event of the raise has 138 %, and the index reached 8.96 two rows later.
+    #[test]
+    fn the_table_has_the_worst_moment_and_its_row() {
+        const SECOND: i64 = 1_000_000_000;
+        let mut rows = LogRows::default();
+        for row in 0..10 {
+            rows.push(row * SECOND, &row_source(63 + row as u64, "", "demo.csv"));
+        }
+        let mut tally = AlarmTally::of_log(LogPlace { rows, start: 0 });
+        let id = AlarmId::StickSlip.id().to_owned();
+        let raised = AlarmEvent {
+            id: id.clone(),
+            change: AlarmEvent::ACTIVATED,
+            priority: Alarm::HIGH,
+            value: 1.38,
+            evidence: "swings 138 %".to_owned(),
+            ..AlarmEvent::default()
+        };
+        tally.add(3.0, vec![raised]);
+        for (second, value) in [(4, 2.0), (5, 8.96), (6, 4.0)] {
+            let mut alarm = Alarm {
+                id: id.clone(),
+                active: true,
+                priority: Alarm::HIGH,
+                value,
+                threshold: 1.0,
+                evidence: format!("swings {:.0} %", 100.0 * value),
+                ..Alarm::default()
+            };
+            alarm.worst_at.sec = second;
+            tally.worsen(&[alarm]);
+        }
+        tally.finish(Figures::default());
+        let table = tally.to_string();
+        assert!(table.contains("swings 896 %") && !table.contains("138 %"), "{table}");
+        assert!(table.contains("Log: first at row 66, worst at row 68"), "{table}");
+    }
 }

@@ -7,6 +7,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use serde::Serialize;
 
+use super::log::LogPlace;
 use crate::cli::output::say;
 use crate::messages::words;
 use flexdrill_core::motion::{Episode, EpisodeKind, Severity, WhirlKind};
@@ -89,7 +90,8 @@ fn evidence(episode: &Episode) -> String {
 }
 
 /// The table, one line per episode, in the order of their beginning.
-pub(super) fn table(episodes: &[Episode], joints: &Joints) -> String {
+/// Where a field log drove the run, each has its row.
+pub(super) fn table(episodes: &[Episode], joints: &Joints, log: &LogPlace) -> String {
     if episodes.is_empty() {
         return "  incidents              none\n".to_owned();
     }
@@ -122,7 +124,10 @@ pub(super) fn table(episodes: &[Episode], joints: &Joints) -> String {
             joints.range(episode.stations),
             episode.place.measured_depth,
             rad_to_deg(episode.place.inclination),
-            evidence(episode)
+            match log.row(episode.start).as_str() {
+                "" => evidence(episode),
+                row => format!("{}; from {row} of the log", evidence(episode)),
+            }
         );
     }
     if episodes.len() > shown.len() {
@@ -197,7 +202,7 @@ mod tests {
     #[test]
     fn a_row_says_when_where_what_how_bad_and_how_long() {
         let joints = Joints((1..33).map(|joint| 5 * joint).collect());
-        let text = table(&[rolling()], &joints);
+        let text = table(&[rolling()], &joints, &LogPlace::default());
         for part in [
             "12.50",
             ">3.25",
@@ -213,9 +218,9 @@ mod tests {
         ] {
             assert!(text.contains(part), "'{part}' is not in\n{text}");
         }
-        assert!(table(&[], &joints).contains("none"));
+        assert!(table(&[], &joints, &LogPlace::default()).contains("none"));
         let many = vec![rolling(); ROWS + 3];
-        assert!(table(&many, &joints).contains("and 3 more"));
+        assert!(table(&many, &joints, &LogPlace::default()).contains("and 3 more"));
     }
 
     #[test]

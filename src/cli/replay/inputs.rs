@@ -6,7 +6,7 @@ use super::player::Player;
 use crate::alarms::Unknown;
 use crate::cli::output::tell;
 use crate::cli::progress::Progress;
-use crate::cli::source::Samples;
+use crate::cli::source::{FromRig, Samples};
 use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
@@ -24,9 +24,11 @@ pub(super) fn replay(
     out: &Path,
     duration: Option<f64>,
 ) -> anyhow::Result<(Player, Progress)> {
+    let inputs = samples.messages();
     let Samples {
         inputs: samples,
         measured,
+        ..
     } = samples;
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
         anyhow::bail!("there is no sample of rotary speed or weight on bit to replay");
@@ -38,13 +40,19 @@ pub(super) fn replay(
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
     let mut conditioner = Conditioner::new(config.inputs.rules_of(config.used_inputs()));
     let max_skew = config.inputs.stamp.max_skew;
-    let mut player = Player::new(config, first.time, measured, out, |topic: &TopicInfo| {
-        if topic.name.starts_with('/') {
-            topic.name.to_owned()
-        } else {
-            format!("/{}", topic.name)
-        }
-    })?;
+    let mut player = Player::new(
+        config,
+        first.time,
+        FromRig { inputs, measured },
+        out,
+        |topic: &TopicInfo| {
+            if topic.name.starts_with('/') {
+                topic.name.to_owned()
+            } else {
+                format!("/{}", topic.name)
+            }
+        },
+    )?;
     for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
         if conditioner.is_of_interest(kind) && !samples.iter().any(|sample| sample.kind == kind) {
             tell!(

@@ -6,15 +6,17 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 
+use super::log::LogPlace;
 use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::cli::output::tell;
-use crate::cli::source::MeasuredSample;
+use crate::cli::source::{FromRig, MeasuredSample};
 use crate::compare::{self, RigComparison, Samples};
 use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
-use crate::messages::{CdrError, to_cdr};
+use crate::messages::{CdrError, RigInputs, to_cdr};
+use crate::report::LogRows;
 use crate::rig_inputs::Measured;
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
@@ -36,6 +38,10 @@ enum WriteError {
     #[error(transparent)]
     Bag(#[from] BagError),
 }
+
+/// Interval at which the worst moments of the alarms are taken for the summary (ns): as often as lists are published, so
+/// that a report of the bag has the same ones.
+const MOMENTS_TAKEN: i64 = 1_000_000_000;
 
 /// Refused messages of measured values that are reported one by one.
 const REFUSALS_SHOWN: u64 = 10;
@@ -65,22 +71,26 @@ pub(super) struct Player {
     topics: Vec<&'static TopicInfo>,
     /// What the rig measured, not yet in the bag, the newest first.
     measured: Vec<MeasuredSample>,
+    /// The inputs as the rig or the log gave them, not yet in the bag, the newest first.
+    received: Vec<(i64, RigInputs)>,
+    /// When the alarms' worst moments were last taken (ns since 1970).
+    listed: Option<i64>,
     /// The summary that is printed at the end.
     pub tally: Tally,
 }
 
 impl Player {
-    /// Builds the model and creates the bag. `start` is in ns since 1970, as are the times of `measured`, what the rig
-    /// measured in the order of time; `name` makes topics absolute.
+    /// Builds the model and creates the bag. `start` is in ns since 1970, as are the times of what came `from_rig`; `name`
+    /// makes topics absolute.
     pub(super) fn new(
         config: Config,
         start: i64,
-        measured: Vec<MeasuredSample>,
+        from_rig: FromRig,
         out: &Path,
         name: impl Fn(&TopicInfo) -> String,
     ) -> anyhow::Result<Self> {
         let settings = config.simulation();
-        Self::with_settings(config, &settings, start, measured, out, name)
+        Self::with_settings(config, &settings, start, from_rig, out, name)
     }
 
     /// The same with other settings than those of the configuration.
@@ -88,14 +98,27 @@ impl Player {
         config: Config,
         settings: &SimulationSettings,
         start: i64,
-        mut measured: Vec<MeasuredSample>,
+        from_rig: FromRig,
         out: &Path,
         name: impl Fn(&TopicInfo) -> String,
     ) -> anyhow::Result<Self> {
+        let FromRig {
+            inputs: mut received,
+            mut measured,
+        } = from_rig;
         measured.retain(|sample| sample.time >= start);
         measured.reverse();
-        let given = (!measured.is_empty()).then_some(&topics::RIG_MEASURED);
-        let topics: Vec<_> = replayed().chain(given).collect();
+        received.retain(|(time, _)| *time >= start);
+        let mut rows = LogRows::default();
+        received
+            .iter()
+            .for_each(|(time, message)| rows.push(*time, &message.source));
+        received.reverse();
+        let given = [
+            (!measured.is_empty()).then_some(&topics::RIG_MEASURED),
+            (!received.is_empty()).then_some(&topics::RIG_INPUTS),
+        ];
+        let topics: Vec<_> = replayed().chain(given.into_iter().flatten()).collect();
         let recorded: Vec<Topic> = topics
             .iter()
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
@@ -117,7 +140,9 @@ impl Player {
             recorder,
             topics,
             measured,
-            tally: Tally::default(),
+            received,
+            listed: None,
+            tally: Tally::of_log(LogPlace { rows, start }),
         };
         let (hash, yaml) = (player.config.hash(), player.config.to_yaml()?);
         let (recorder, topics) = (&mut player.recorder, &player.topics);
@@ -231,7 +256,7 @@ impl Player {
     }
 
     fn capture(&mut self) -> anyhow::Result<()> {
-        self.record_measured(self.outputs.instant(self.run.ticks()))?;
+        self.record_from_rig(self.outputs.instant(self.run.ticks()))?;
         if self.run.due().is_empty() {
             return Ok(());
         }
@@ -254,7 +279,13 @@ impl Player {
                 .alarms
                 .publish(header, stamp, |encoded| write(recorder, topics, encoded))?;
             let run = (stamp - self.outputs.instant(0)) as f64 * 1e-9;
+            let changed = !events.is_empty();
             self.tally.alarms.add(run, events);
+            if changed || self.listed.is_none_or(|at| stamp - at >= MOMENTS_TAKEN) {
+                self.listed = Some(stamp);
+                let list = self.alarms.list(self.outputs.header_at(self.frame.ticks));
+                self.tally.alarms.worsen(&list.alarms);
+            }
         }
         self.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())
@@ -296,11 +327,19 @@ impl Player {
         Ok(())
     }
 
-    /// Records what the rig measured up to an instant (ns since 1970), and keeps it for the comparison.
+    /// Records what the rig sent up to an instant (ns since 1970), and keeps what it measured for the comparison.
     ///
     /// # Errors
     /// When the bag cannot be written.
-    pub(super) fn record_measured(&mut self, until: i64) -> anyhow::Result<()> {
+    pub(super) fn record_from_rig(&mut self, until: i64) -> anyhow::Result<()> {
+        while let Some((stamp, message)) = self.received.pop_if(|(time, _)| *time <= until) {
+            let encoded = Encoded {
+                topic: &topics::RIG_INPUTS,
+                stamp,
+                cdr: &to_cdr(&message)?,
+            };
+            write(&mut self.recorder, &self.topics, encoded)?;
+        }
         while let Some(sample) = self.measured.pop_if(|sample| sample.time <= until) {
             if let RigSource::Received(measured) = &mut self.source {
                 let since_start = sample.time.saturating_sub(self.outputs.instant(0)) as f64 * 1e-9;

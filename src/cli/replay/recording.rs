@@ -13,11 +13,13 @@ use super::player::Player;
 use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
-use crate::cli::source::MeasuredSample;
+use crate::cli::source::{FromRig, MeasuredSample};
 use crate::compare::Samples;
 use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
-use crate::messages::{AppliedInputs, JointDeflections, Message, Residuals, RigMeasured, SessionInfo, TwinStatus};
+use crate::messages::{
+    AppliedInputs, JointDeflections, Message, Residuals, RigInputs, RigMeasured, SessionInfo, TwinStatus,
+};
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_text::printable;
@@ -35,8 +37,8 @@ pub(super) struct Exactness {
 pub(super) struct Script {
     session: SessionInfo,
     applied: Vec<AppliedInputs>,
-    /// What the rig measured besides, in the order of arrival.
-    measured: Vec<MeasuredSample>,
+    /// What the rig sent, in the order of arrival; of the inputs, those on `rig/inputs`, which carry their source.
+    from_rig: FromRig,
     /// What the rig had measured when it was compared with the twin, by stamp.
     samples: Vec<(i64, Samples)>,
     /// Names of the recorded topics by relative name.
@@ -63,6 +65,7 @@ impl Script {
             AppliedInputs::ROS_TYPE,
             TwinStatus::ROS_TYPE,
             JointDeflections::ROS_TYPE,
+            RigInputs::ROS_TYPE,
             RigMeasured::ROS_TYPE,
             Residuals::ROS_TYPE,
         ];
@@ -82,7 +85,7 @@ impl Script {
             })
             .collect();
         let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
-        let (mut damaged, mut measured, mut samples) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut damaged, mut from_rig, mut samples) = (Vec::new(), FromRig::default(), Vec::new());
         let (mut status_step, mut newest_stamp) = (0, None);
         for message in bag.by_ref() {
             let message = match message {
@@ -106,7 +109,8 @@ impl Script {
                     }
                     applied.push(inputs);
                 }
-                RigMeasured::ROS_TYPE => measured.push(MeasuredSample {
+                RigInputs::ROS_TYPE => from_rig.inputs.push((message.log_time, message.decode()?)),
+                RigMeasured::ROS_TYPE => from_rig.measured.push(MeasuredSample {
                     time: message.log_time,
                     message: message.decode()?,
                 }),
@@ -132,7 +136,7 @@ impl Script {
         Ok(Self {
             session,
             applied,
-            measured,
+            from_rig,
             samples,
             names,
             last_step,
@@ -221,7 +225,7 @@ impl Script {
             self.applied.len(),
         );
         let mut base = Base::of(&self.session, self.applied.first());
-        let mut player = Player::new(config, base.start, self.measured.clone(), out, |topic| self.name(topic))?;
+        let mut player = Player::new(config, base.start, self.from_rig.clone(), out, |topic| self.name(topic))?;
         player.compare_with(self.samples.iter().copied());
         let mut pace = Pace {
             taken: 0,
@@ -265,7 +269,7 @@ impl Script {
         }
         if pace.taken < pace.most {
             // What arrived after the last output.
-            player.record_measured(i64::MAX)?;
+            player.record_from_rig(i64::MAX)?;
         }
         Ok((player, pace.progress))
     }

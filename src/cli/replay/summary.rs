@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::alarms::AlarmTally;
+use super::log::LogPlace;
 use crate::cli::output::say;
 use crate::messages::{Residuals, words};
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
@@ -217,6 +218,14 @@ struct Last {
 }
 
 impl Tally {
+    /// An empty one of a run that this log drives.
+    pub(super) fn of_log(log: LogPlace) -> Self {
+        Self {
+            alarms: AlarmTally::of_log(log),
+            ..Self::default()
+        }
+    }
+
     /// Counts a step.
     pub(super) fn step(&mut self, iterations: u32, halvings: u32) {
         self.steps += 1;
@@ -286,6 +295,9 @@ impl Tally {
                 if wall > 0.0 { model / wall } else { 0.0 }
             ),
         );
+        if let Some(log) = self.alarms.log.text() {
+            row("log", log);
+        }
         row(
             "steps",
             format!("{} of {} ms, {} resets", self.steps, time_step * 1e3, self.resets),

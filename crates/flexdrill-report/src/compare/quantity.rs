@@ -13,6 +13,12 @@ const FORCE: f64 = 1.0;
 const TORQUE: f64 = 0.1;
 /// The same of powers (W).
 const POWER: f64 = 0.1;
+/// Names of the quantities that matter most.
+const AT_THE_BIT: &str = "weight on bit, at the bit";
+const TORQUE_OF_THE_ROCK: &str = "torque of the rock on the bit";
+const ADVANCE: &str = "rate of penetration of the bit";
+/// Difference below which even these count like all others: a chaotic motion differs by as much between any two runs.
+const NOTABLE: f64 = 0.01;
 
 /// The unit in which a quantity is shown, the factor from SI, and the size (SI) below which two values count as equal
 /// under a tolerance: a relative difference of two numbers near zero says nothing.
@@ -34,6 +40,14 @@ struct Known<'a> {
     histories: [&'a History; 2],
 }
 
+/// What matters most to who compares two runs, in this order: what acts at the bit, how fast it drills, everything else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Importance {
+    AtTheBit,
+    Advance,
+    Other,
+}
+
 /// The comparison of one quantity over time. Values in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Quantity {
@@ -43,6 +57,16 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
+    /// How much the difference of this quantity matters.
+    pub(crate) fn importance(&self) -> Importance {
+        match self.name.as_str() {
+            _ if self.difference().is_none_or(|difference| difference < NOTABLE) => Importance::Other,
+            AT_THE_BIT | TORQUE_OF_THE_ROCK => Importance::AtTheBit,
+            ADVANCE => Importance::Advance,
+            _ => Importance::Other,
+        }
+    }
+
     /// Difference of the means relative to the larger one (0 to 2); `None` if a run does not have the quantity.
     pub(crate) fn difference(&self) -> Option<f64> {
         let [a, b] = [self.runs.a.as_ref()?, self.runs.b.as_ref()?];
@@ -113,7 +137,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
     add("rotary speed of the bit", speed, |s| &s.drive.bit.rotary_speed);
     add("weight on bit, received", force, |s| &s.drive.received.weight_on_bit);
     add("weight on bit, accepted", force, |s| &s.drive.accepted.weight_on_bit);
-    add("weight on bit, at the bit", force, |s| &s.drive.bit.weight_on_bit);
+    add(AT_THE_BIT, force, |s| &s.drive.bit.weight_on_bit);
     add("rate of penetration, accepted", advance, |s| {
         &s.drive.rate_of_penetration.accepted
     });
@@ -121,7 +145,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
         &s.drive.standpipe_pressure.accepted
     });
     add("torque at the uppermost joint", torque, |s| &s.drive.top_torque);
-    add("torque of the rock on the bit", torque, |s| &s.drive.bit_torque);
+    add(TORQUE_OF_THE_ROCK, torque, |s| &s.drive.bit_torque);
     add("stick-slip index", unit("", 1.0, 0.01), |s| &s.drive.stick_slip);
     add(
         "lateral acceleration above the bit, largest",
@@ -129,9 +153,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
         |s| &s.drive.lateral_acceleration,
     );
     add("depth of cut", unit("mm/turn", 1e3, 1e-6), |s| &s.transfer.depth_of_cut);
-    add("rate of penetration of the bit", advance, |s| {
-        &s.transfer.rate_of_penetration
-    });
+    add(ADVANCE, advance, |s| &s.transfer.rate_of_penetration);
     let groups = [
         (&a.transfer.torque, &b.transfer.torque, "", torque),
         (&a.transfer.friction, &b.transfer.friction, "torque: ", torque),

@@ -42,8 +42,18 @@ pub(super) fn section(summary: &Summary) -> Markup {
                 }
                 h3 { "Incidents" }
                 table {
-                    thead { tr { th.n { "at (s)" } th.n { "for" } th { "priority" } th { "alarm" } th { "where" } th { "evidence at the worst moment" } } }
-                    tbody { @for incident in &listed { (row(incident)) } }
+                    thead { tr {
+                        th.n { "at (s)" } th.n { "for" }
+                        @if !summary.log_rows.is_empty() { th { "rows of the log" } }
+                        th { "priority" } th { "alarm" }
+                        @if incidents.has_lists() {
+                            th { "where, at the worst moment" } th { "evidence at the worst moment" } th.n { "worst at (s)" }
+                        } @else {
+                            th { "where, when it was raised" }
+                            th { "evidence when it was raised (the bag has no twin/alarms with the worst moments)" }
+                        }
+                    } }
+                    tbody { @for incident in &listed { (row(incident, summary)) } }
                 }
                 @if left_out > 0 { p { "And " (left_out) " more, of no higher priority." } }
             }
@@ -66,7 +76,10 @@ fn priority(code: u8) -> Markup {
     html! { span.priority.(priority_class(code)) { (words::alarm_priority(code).to_uppercase()) } }
 }
 
-fn row(incident: &Incident) -> Markup {
+fn row(incident: &Incident, summary: &Summary) -> Markup {
+    let instant = |time: i64| summary.start.saturating_add(time);
+    let end = incident.end.map_or(summary.end, instant);
+    let worst_at = incident.worst.worst_at.saturating_sub(summary.start);
     html! {
         tr {
             td.n { @if incident.from_before { "before" } @else { (format!("{:.1}", seconds(incident.begin))) } }
@@ -74,10 +87,20 @@ fn row(incident: &Incident) -> Markup {
                 Some(end) => (duration(seconds(end - incident.begin).max(0.0))),
                 None => "to the end",
             } }
+            @if !summary.log_rows.is_empty() { td { (summary.log_rows.span(instant(incident.begin), end)) } }
             td { (priority(incident.priority)) }
             td { (capital(&incident.worst.name)) @if !incident.acknowledged_by.is_empty() { small { " acknowledged by " (printable(&incident.acknowledged_by)) } } }
             td { (location(incident.worst.body, incident.worst.measured_depth, incident.worst.inclination)) }
             td { (incident.worst.evidence) }
+            @if summary.incidents.has_lists() {
+                td.n {
+                    @if incident.worst.worst_at > 0 && worst_at >= 0 {
+                        (format!("{:.1}", seconds(worst_at)))
+                        @let row = summary.log_rows.row(incident.worst.worst_at);
+                        @if !row.is_empty() { small { " " (row) } }
+                    }
+                }
+            }
         }
     }
 }

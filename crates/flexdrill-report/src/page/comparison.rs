@@ -78,6 +78,13 @@ fn verdict(comparison: &Comparison<'_>, tolerance: Option<f64>) -> Markup {
             } @else {
                 div.tile { b { "different" } small { "no tolerance was given" } }
             }
+            @for alarm in raised_otherwise(&comparison.alarms) {
+                div.tile.(priority_class(alarm.runs.a.priority.max(alarm.runs.b.priority))) {
+                    b { (stood(&alarm.runs.a)) " and " (stood(&alarm.runs.b)) }
+                    (capital(&alarm.name))
+                    small { "highest priority in A and in B; " (times(alarm.runs.a.times)) " and " (times(alarm.runs.b.times)) }
+                }
+            }
             @for quantity in largest(&comparison.quantities) {
                 div.tile {
                     b { (percent(quantity.difference().unwrap_or(f64::NAN))) }
@@ -103,14 +110,43 @@ fn of_run(figures: &Option<Figures>, quantity: &Quantity) -> String {
     )
 }
 
-/// The quantities that differ most.
+/// Cards of alarms, and of quantities.
+const CARDS: usize = 4;
+
+/// The priority that an alarm reached in a run, in words.
+fn stood(run: &Stood) -> String {
+    match run.priority {
+        0 => "none".to_owned(),
+        priority => words::alarm_priority(priority).to_uppercase(),
+    }
+}
+
+/// The alarms that reached another priority, the highest first, and of the same one those that differ by more.
+fn raised_otherwise(alarms: &[AlarmPair]) -> Vec<&AlarmPair> {
+    let mut order: Vec<&AlarmPair> = alarms
+        .iter()
+        .filter(|alarm| alarm.runs.a.priority != alarm.runs.b.priority)
+        .collect();
+    order.sort_by_key(|alarm| {
+        let (a, b) = (alarm.runs.a.priority, alarm.runs.b.priority);
+        std::cmp::Reverse((a.max(b), a.abs_diff(b)))
+    });
+    order.truncate(CARDS);
+    order
+}
+
+/// The quantities that differ, the most important first: a large difference of a small drag matters less than a small one
+/// of the weight at the bit.
 fn largest(quantities: &[Quantity]) -> Vec<&Quantity> {
     let mut order: Vec<&Quantity> = quantities
         .iter()
         .filter(|quantity| quantity.difference().is_some_and(|difference| difference > 0.0))
         .collect();
-    order.sort_by(|a, b| b.difference().unwrap_or(0.0).total_cmp(&a.difference().unwrap_or(0.0)));
-    order.truncate(4);
+    order.sort_by(|a, b| {
+        let by_size = || b.difference().unwrap_or(0.0).total_cmp(&a.difference().unwrap_or(0.0));
+        a.importance().cmp(&b.importance()).then_with(by_size)
+    });
+    order.truncate(CARDS);
     order
 }
 
@@ -378,6 +414,76 @@ fn keys(text: &str) -> Vec<(String, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compare::{Pair, quantity::Unit};
+
+    /// A drag that differs by half matters less than an alarm, and less than a tenth of the weight at the bit.
+    #[test]
+    fn cards_begin_with_what_matters_most() {
+        let quantity = |name: &str, a: f64, b: f64| {
+            let figures = |mean| {
+                Some(Figures {
+                    min: mean,
+                    mean,
+                    max: mean,
+                })
+            };
+            Quantity {
+                name: name.to_owned(),
+                unit: Unit {
+                    shown: "kN",
+                    factor: 1.0,
+                    small: 1e-6,
+                },
+                runs: Pair {
+                    a: figures(a),
+                    b: figures(b),
+                },
+            }
+        };
+        let all = [
+            quantity("drag of the wall on the guide", 1.0, 2.0),
+            quantity("rate of penetration of the bit", 3.0, 3.3),
+            quantity("torque of the rock on the bit", 100.0, 100.1),
+            quantity("weight on bit, at the bit", 9.0, 10.0),
+            quantity("power taken: rock", 2.0, 2.0),
+        ];
+        let names: Vec<&str> = largest(&all).iter().map(|quantity| quantity.name.as_str()).collect();
+        assert_eq!(
+            names,
+            [
+                "weight on bit, at the bit",
+                "rate of penetration of the bit",
+                "drag of the wall on the guide",
+                "torque of the rock on the bit"
+            ]
+        );
+        let alarm = |name: &str, a: u8, b: u8| {
+            let stood = |priority| Stood {
+                times: u64::from(priority > 0),
+                duration: 1.0,
+                priority,
+            };
+            AlarmPair {
+                id: name.to_owned(),
+                name: name.to_owned(),
+                runs: Pair {
+                    a: stood(a),
+                    b: stood(b),
+                },
+            }
+        };
+        let alarms = [
+            alarm("same", 3, 3),
+            alarm("low", 0, 1),
+            alarm("raised", 2, 3),
+            alarm("new", 0, 3),
+        ];
+        let names: Vec<&str> = raised_otherwise(&alarms)
+            .iter()
+            .map(|alarm| alarm.name.as_str())
+            .collect();
+        assert_eq!(names, ["new", "raised", "low"]);
+    }
 
     #[test]
     fn differing_keys_have_their_path() {

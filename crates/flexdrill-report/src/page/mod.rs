@@ -8,6 +8,7 @@ mod health;
 mod locations;
 pub(crate) mod text;
 mod transfer;
+mod weight;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -17,7 +18,7 @@ use super::incidents::seconds;
 use super::reading::Summary;
 use flexdrill_messages::{Alarm, TwinStatus, words};
 use flexdrill_plot::{Figure, svg};
-use flexdrill_text::date_time;
+use flexdrill_text::{date_time, printable};
 
 /// The style of all pages.
 pub(crate) const STYLE: &str = include_str!("style.css");
@@ -39,6 +40,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
             (facts(summary))
         }
         (tiles(summary))
+        (weight::sentences(summary))
         (missing(summary))
         (drive::inputs(summary)?)
         (alarms::section(summary))
@@ -77,8 +79,12 @@ fn facts(summary: &Summary) -> Markup {
     let session = summary.session.as_ref();
     html! {
         dl.facts {
+            @if let Some(config) = &summary.config {
+                @for (what, name) in config.run.place() { dt { (capital(what)) } dd { (printable(name)) } }
+            }
             dt { "From" } dd { (date_time(summary.start)) }
             dt { "To" } dd { (date_time(summary.end)) " (" (duration(summary.seconds())) ")" }
+            @if !summary.log_rows.is_empty() { dt { "Log" } dd { (summary.log_rows.all()) } }
             dt { "Twin" } dd {
                 @if let Some(session) = session {
                     "flexdrill " (session.version) ", frame " code { (session.header.frame_id) } ", namespace "
@@ -140,7 +146,7 @@ fn tiles(summary: &Summary) -> Markup {
             }
             @if let Some([top, bit]) = drive.transfer.means() {
                 div.tile {
-                    b { (percent(bit / top)) } "of the torque reaches the bit"
+                    b { (percent(bit / top)) } "of the torque at the uppermost joint reaches the bit"
                     small { (number(bit)) " of " (number(top)) " N m, mean" }
                 }
             }
