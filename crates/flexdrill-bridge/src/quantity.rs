@@ -72,7 +72,8 @@ impl Quantity {
     pub const fn plausible(self) -> [f64; 2] {
         match self {
             Self::RotarySpeed => MeasuredKind::DownholeRotarySpeed.plausible(),
-            Self::WeightOnBit => MeasuredKind::DownholeWeightOnBit.plausible(),
+            // The largest rigs put 500 kN on a bit.
+            Self::WeightOnBit => [-1e6, 1e6],
             Self::Measured(kind) => kind.plausible(),
         }
     }
@@ -137,5 +138,13 @@ mod tests {
         }
         let wrong = Quantity::try_from("torque".to_owned()).unwrap_err();
         assert!(wrong.to_string().contains("surface_torque"), "{wrong}");
+    }
+
+    #[test]
+    fn a_weight_on_bit_ends_at_a_thousand_kilonewtons() {
+        assert_eq!(Quantity::WeightOnBit.plausible(), [-1e6, 1e6]);
+        // A hook carries more than a bit.
+        let [_, hook] = Quantity::Measured(MeasuredKind::HookLoad).plausible();
+        assert!(hook > 1e7);
     }
 }
