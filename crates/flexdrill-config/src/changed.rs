@@ -43,11 +43,11 @@ impl Config {
     /// follows the rig is left out.
     pub fn changed_since(&self, earlier: &Self) -> Vec<ChangedNumber> {
         let before: BTreeMap<String, f64> = earlier.numbers().into_iter().map(|of| (of.key, of.value)).collect();
-        let follows = self.calibration.follow;
+        let follows = |key: &str| self.calibration.follow && FOLLOWED.contains(&key);
         let mut changed: Vec<ChangedNumber> = self
             .numbers()
             .into_iter()
-            .filter(|now| !now.key.starts_with(SHOWN) && !(follows && FOLLOWED.contains(&now.key.as_str())))
+            .filter(|now| !now.key.starts_with(SHOWN) && !follows(&now.key))
             .filter_map(|now| {
                 let from = *before.get(&now.key)?;
                 (from != now.value).then_some(ChangedNumber {

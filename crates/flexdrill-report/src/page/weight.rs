@@ -63,7 +63,7 @@ fn rope(config: &Config, lost: f64) -> String {
     let (contact, factor) = (&config.contact, config.calibration.friction_factor);
     let friction = contact.outer.friction_axial * contact.wall_friction_factors.arc * factor;
     let taken = 1.0 - (-friction * turned).exp();
-    if !(taken > 0.0) {
+    if taken.is_nan() || taken <= 0.0 {
         return String::new();
     }
     let (taken, friction) = (taken, number(friction));
