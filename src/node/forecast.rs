@@ -1,5 +1,6 @@
 //! The standing forecast, between the thread that looks ahead and the publisher's thread, which knows what came.
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -28,6 +29,8 @@ pub struct Issued {
 
 /// A forecast is late after so long without one: three times the interval of forecasts.
 const LATE: Duration = Duration::from_secs(90);
+/// Time over which what is asked for is compared with what a forecast assumes (s): some samples of a rig, whose weight wavers.
+const WAVERS: f64 = 5.0;
 
 /// What the look-ahead does while no forecast comes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -95,8 +98,9 @@ pub struct ForecastDesk {
     missed: Instant,
     /// Ticks and step of the newest frame.
     newest: [u64; 2],
-    /// Speed (rad/s) and weight (N) that are asked for.
-    asked: Option<[f64; 2]>,
+    /// Speeds (rad/s) and weights (N) that were asked for within the last [`WAVERS`], the newest last, each with its time (s of
+    /// the run).
+    asked: VecDeque<(f64, [f64; 2])>,
     /// What the published forecast is of, until it is given up.
     standing: Option<Minute>,
 }
@@ -123,20 +127,31 @@ impl ForecastDesk {
             came: now,
             missed: now,
             newest: [0; 2],
-            asked: None,
+            asked: VecDeque::new(),
             standing: None,
         }
     }
 
     /// Takes what is asked for from now on.
     pub fn ask(&mut self, inputs: &RunInputs) {
-        self.asked = Some([inputs.inputs.rotary_speed, inputs.inputs.weight_on_bit]);
+        let time = self.newest[0] as f64 * self.time_step;
+        let values = [inputs.inputs.rotary_speed, inputs.inputs.weight_on_bit];
+        self.asked.push_back((time, values));
+        self.forget(time);
+    }
+
+    /// Forgets what was asked for before the last [`WAVERS`]; the value that was in force when they began stays.
+    fn forget(&mut self, now: f64) {
+        while self.asked.get(1).is_some_and(|(time, _)| now - time >= WAVERS) {
+            self.asked.pop_front();
+        }
     }
 
     /// Takes what came.
     pub fn observe(&mut self, frame: &Frame) {
         let time = frame.ticks as f64 * self.time_step;
         self.newest = [frame.ticks, frame.snapshot.step];
+        self.forget(time);
         if frame.ends_interval.contacts {
             self.held.peaks(time, &frame.snapshot);
         }
@@ -195,7 +210,12 @@ impl ForecastDesk {
         let words =
             |[speed, weight]: [f64; 2]| format!("{:.1} r/min and {:.1} kN", rad_per_s_to_rpm(speed), n_to_kn(weight));
         let made_for = words(minute.targets);
-        let asked = self.asked.filter(|asked| !self.held.is_for(&minute.targets, *asked));
+        // A rig's weight wavers by some percent: what was asked for differs when none of the last seconds' values is close.
+        let is_for = |(_, asked): &(f64, [f64; 2])| self.held.is_for(&minute.targets, *asked);
+        let asked = match self.asked.back() {
+            Some((_, newest)) if !self.asked.iter().any(is_for) => Some(*newest),
+            _ => None,
+        };
         if step < minute.from.1 {
             Some(format!("the model was reset since the forecast for {made_for} began"))
         } else if let Some(asked) = asked {
@@ -312,7 +332,7 @@ mod tests {
         let text = include_str!("../../config/default.yaml");
         let config = Config::from_text("default.yaml", text).unwrap();
         let mut desk = ForecastDesk::new(Arc::clone(&forecasts), &config);
-        desk.asked = Some(targets(TARGETS));
+        desk.asked.push_back((0.0, targets(TARGETS)));
         (desk, forecasts)
     }
 
@@ -384,10 +404,17 @@ mod tests {
         forecasts.put(issued(&desk, 100));
         at(&mut desk, 104.0);
         assert_eq!(taken(&mut desk).unwrap().0, 4);
-        // A rig's values waver within the bounds of the comparison.
-        desk.asked = Some(targets((40.9, 8.2)));
+        // A rig's weight wavers: a value close to that of the forecast comes every few seconds.
+        for second in 104..140 {
+            let weight = if second % 4 == 3 { 8.2 } else { 5.0 };
+            desk.asked.push_back((f64::from(second), targets((40.9, weight))));
+            at(&mut desk, f64::from(second));
+            assert_eq!(taken(&mut desk), None, "{second}");
+        }
+        desk.asked.push_back((140.0, targets((60.0, 8.2))));
+        at(&mut desk, 140.0 + 0.9 * WAVERS);
         assert_eq!(taken(&mut desk), None);
-        desk.asked = Some(targets((60.0, 8.2)));
+        at(&mut desk, 140.0 + 1.1 * WAVERS);
         let (members, why) = taken(&mut desk).unwrap();
         assert!(
             members == 0 && why.contains("60.0 r/min and 8.2 kN are asked for now"),
