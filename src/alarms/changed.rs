@@ -59,7 +59,7 @@ impl Changed {
         for change in now.changed_since(before) {
             let request = changes.iter().rev().find(|request| request.name == change.key);
             let by = request.map_or("", |request| request.asked_by.as_str());
-            // What follows the rig has entries of its own.
+            // The journal has these moves under `rig_disagrees`.
             if by == FOLLOW {
                 continue;
             }
@@ -232,7 +232,7 @@ mod tests {
         assert_eq!(changed.due(SPAN).len(), 1);
     }
 
-    /// What follows the rig has entries of its own.
+    /// The journal has the moves of `calibration.follow` under `rig_disagrees`.
     #[test]
     fn what_follows_the_rig_is_no_change_of_a_client() {
         let begun = Arc::new(config().with_value("calibration.follow", true).unwrap());

@@ -3,18 +3,15 @@
 use flexdrill_calibration::BAND;
 use flexdrill_calibration::follow::{Follow, FollowSettings, Frozen, Instant};
 use flexdrill_calibration::following::{Following, FollowingSettings, Held};
-use flexdrill_config::Config;
+use flexdrill_config::{Config, FOLLOWED};
 
 use crate::messages;
 use crate::messages::outputs::ParameterChange;
 
-/// The parameters that follow, factor of friction and torque tare, in the order of every array here.
-pub const FOLLOWED: [&str; 2] = ["calibration.friction_factor", "calibration.torque_tare_nm"];
-
 /// Who asks for a change by following, for the log and the recording.
 pub const FOLLOW: &str = "calibration.follow";
 
-/// Values of the parameters that follow.
+/// Values of the parameters that follow, in the order of [`FOLLOWED`] as every array here.
 pub fn followed(config: &Config) -> [f64; 2] {
     [config.calibration.friction_factor, config.calibration.torque_tare_nm]
 }

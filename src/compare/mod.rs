@@ -19,8 +19,9 @@ use crate::alarms::{Followed, in_words};
 use crate::messages;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Measured;
+pub use flexdrill_config::FOLLOWED;
 use following::Estimate;
-pub use following::{FOLLOW, FOLLOWED, changes, followed};
+pub use following::{FOLLOW, changes, followed};
 
 /// Model time between two comparisons (s).
 const INTERVAL: f64 = 1.0;

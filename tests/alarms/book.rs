@@ -562,8 +562,8 @@ fn two_drivers_call_with_who_they_are() {
     assert!(!find(&list, "two_drivers").active);
 }
 
-/// A value that decides on alarms and that a client has changed is told by list, diagnostics and journal until it is set
-/// back.
+/// List and diagnostics show a value that a client has changed and that alarms depend on, until it is set back; the journal
+/// names the client.
 #[test]
 fn a_twin_that_differs_from_its_configuration_says_so() {
     let begun = config();

@@ -9,8 +9,8 @@ use super::Config;
 
 /// Publishing rates and drawing: they change what is shown of a motion and how often, and no alarm depends on them.
 const SHOWN: &str = "outputs.";
-/// Keys that follow the rig with `calibration.follow`, which has an alarm of its own.
-const FOLLOWED: [&str; 2] = ["calibration.friction_factor", "calibration.torque_tare_nm"];
+/// Keys that `calibration.follow` moves, friction factor and torque tare.
+pub const FOLLOWED: [&str; 2] = ["calibration.friction_factor", "calibration.torque_tare_nm"];
 
 /// A numeric key whose value has changed.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,8 +39,8 @@ impl fmt::Display for ChangedNumber {
 }
 
 impl Config {
-    /// The numeric keys on which motion or alarms depend and whose values differ from `earlier`, by their names. What
-    /// follows the rig is left out.
+    /// The numeric keys on which motion or alarms depend and whose values differ from `earlier`, by their names. Those
+    /// that `calibration.follow` moves are left out: the alarm on rig and twin covers them.
     pub fn changed_since(&self, earlier: &Self) -> Vec<ChangedNumber> {
         let before: BTreeMap<String, f64> = earlier.numbers().into_iter().map(|of| (of.key, of.value)).collect();
         let follows = |key: &str| self.calibration.follow && FOLLOWED.contains(&key);

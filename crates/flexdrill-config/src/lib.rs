@@ -64,7 +64,7 @@ use sha2::{Digest, Sha256};
 pub use alarms::{Advice, AdviceTable, Alarms, NodeAlarm, ToolAlarm};
 pub use boundary::{BottomAxial, Boundary, Drive, Held, Preset};
 pub use calibration::{Calibration, Range};
-pub use changed::ChangedNumber;
+pub use changed::{ChangedNumber, FOLLOWED};
 pub use checker::NumberKey;
 pub use contact::{Contact, Layer, WallFrictionFactors};
 pub use derived::Unknowns;

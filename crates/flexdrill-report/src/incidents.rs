@@ -75,15 +75,21 @@ impl From<&Alarm> for AlarmMoment {
 }
 
 impl AlarmMoment {
-    /// Whether the value of this moment is worse than that of another one of the same alarm and priority: further in the
-    /// direction of the threshold. Without numbers the earlier moment stays.
-    pub fn is_worse_than(&self, other: &Self) -> bool {
+    /// Whether the value of this moment is worse than that of an earlier one of the same alarm and priority: further from the
+    /// threshold, on the side of it on which the earlier one lies. Without numbers the earlier moment stays.
+    pub fn is_worse_than(&self, earlier: &Self) -> bool {
         let scale = if self.threshold.is_finite() && self.threshold != 0.0 {
             self.threshold
         } else {
             1.0
         };
-        self.value / scale > other.value / scale || self.value.is_finite() && !other.value.is_finite()
+        let [new, kept] = [self.value, earlier.value].map(|value| value / scale);
+        match kept.is_finite() {
+            false => new.is_finite(),
+            // A twin that is slower than real time has a value below its threshold, and less of it is worse.
+            true if kept < 1.0 => new < kept,
+            true => new > kept,
+        }
     }
 }
 
@@ -278,6 +284,33 @@ mod tests {
         };
         incidents.event(30 * SECOND, &behind);
         assert_eq!(incidents.worst().unwrap().worst.name, "Shock");
+    }
+
+    #[test]
+    fn worse_is_further_from_the_threshold_on_either_side() {
+        let moment = |value: f64, threshold: f64| {
+            AlarmMoment::from(&Alarm {
+                value,
+                threshold,
+                ..Alarm::default()
+            })
+        };
+        for (new, kept, threshold, worse) in [
+            (8.96, 1.38, 1.0, true),
+            (1.2, 1.38, 1.0, false),
+            // Seconds per second of real time.
+            (0.5, 0.9, 0.98, true),
+            (0.95, 0.9, 0.98, false),
+            // A torque below the band of what is expected.
+            (-60.0, -40.0, -30.0, true),
+            (-35.0, -40.0, -30.0, false),
+            (2.0, 1.0, 0.0, true),
+            (2.0, f64::NAN, 1.0, true),
+            (f64::NAN, 2.0, 1.0, false),
+        ] {
+            let is_worse = moment(new, threshold).is_worse_than(&moment(kept, threshold));
+            assert_eq!(is_worse, worse, "{new} after {kept}, threshold {threshold}");
+        }
     }
 
     /// The event of a raise has 138 %; the lists that follow have the index at its worst, with its place.
