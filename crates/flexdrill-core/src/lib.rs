@@ -51,7 +51,7 @@
 //! - [`motion`]: from motion to whirl, stick-slip, shock, their levels and a table of episodes. Usable alone, on
 //!   measured orbits.
 //! - [`inputs`]: from samples of a rig to inputs of a step: limits, ages, safe values.
-//! - [`dynamics`]: residual, time scheme, Newton, steps; `elements`, `model`, `linear`, `simd` below it.
+//! - [`dynamics`]: residual, time scheme, Newton, steps; `chain`, `model`, `elements`, `simd` below it.
 //! - [`units`]: the only conversions.
 //!
 //! # Conventions
@@ -71,10 +71,11 @@ mod chain;
 pub mod dynamics;
 mod elements;
 pub mod inputs;
-mod linear;
 mod model;
 pub mod motion;
 mod simd;
+#[cfg(test)]
+mod stations;
 pub mod tool;
 pub mod twin;
 pub mod units;

@@ -237,7 +237,7 @@ fn mud_counts_where_spans_are_judged() {
         (tool.guide_bending_factor, tool.mud) = (factor, mud);
         let mut simulation = with(&tool, &SimulationSettings::default(), SolverKind::Chain);
         simulation.set_refinement(MOST_REFINEMENT);
-        (simulation.quality().choice.in_force, simulation.chain_nodes().unwrap())
+        (simulation.quality().choice.in_force, simulation.chain_nodes())
     };
     let ideal = MudDescription {
         damping: MudDamping::None,

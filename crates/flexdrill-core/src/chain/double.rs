@@ -1,10 +1,13 @@
-//! One block of sixteen in double precision: Gauss-Jordan elimination with rows exchanged where that is better, as in
-//! [`crate::linear`].
+//! One block of sixteen in double precision: Gauss-Jordan elimination with rows exchanged where that is better.
 
 use super::NODE as SIZE;
 use super::columns::load;
-use crate::linear::{PIVOT_RATIO, exchange};
 use crate::simd::vector::Vector;
+
+/// Ratio of the diagonal entry to the largest candidate below which rows are exchanged. Stiffness and inertia dominate
+/// their own equations, so exchanges are rare; the factor covers the different units of displacements and rotations
+/// (forces against couples over an element's length of centimetres).
+pub(crate) const PIVOT_RATIO: f64 = 1e-3;
 
 /// Per row k, one in the rows after k: the candidates for its pivot.
 const AFTER: [[f64; SIZE]; SIZE] = table(Rows::After);
@@ -215,11 +218,40 @@ pub(super) fn sixteen<V: Vector, const C: usize>(
     Ok(())
 }
 
+/// Brings the largest candidate to the diagonal.
+///
+/// # Errors
+/// Its size when it is zero or not a number.
+#[cold]
+#[inline(never)]
+pub(crate) fn exchange<const N: usize, const K: usize, const C: usize>(
+    k: usize,
+    a: &mut [[f64; N]; K],
+    b: &mut [[f64; N]; C],
+) -> Result<(), f64> {
+    let mut p = k;
+    for r in k + 1..K {
+        if a[k][r].abs() > a[k][p].abs() {
+            p = r;
+        }
+    }
+    let size = a[k][p].abs();
+    // A block that is singular up to rounding passes this check; Newton's residual then fails to converge.
+    if size.is_nan() || size == 0.0 {
+        return Err(size);
+    }
+    if p != k {
+        let columns = a[k..].iter_mut().chain(b.iter_mut());
+        columns.for_each(|column| column.swap(k, p));
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::solve_columns;
     use crate::simd::vector::Portable;
+    use crate::stations::linear::solve_columns;
 
     fn random(seed: &mut u64) -> f64 {
         *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -242,7 +274,7 @@ mod tests {
                 (0..SIZE).for_each(|k| a[k][k] = 0.0);
             }
             let (mut a1, mut b1) = (a, b);
-            solve_columns::<Portable, SIZE, 13>(&mut a1, &mut b1).unwrap();
+            solve_columns::<SIZE, 13>(&mut a1, &mut b1).unwrap();
             sixteen::<Portable, 13>(&mut a, &mut b, |_| 12).unwrap();
             // Where the diagonal is large only rounding differs. Pivots a thousand times smaller than their column are
             // taken in both ways, but in another order, so that six of sixteen digits are left for certain in the worst

@@ -1,19 +1,19 @@
 //! Newton's equations over the chain: which residual is evaluated, in which precision a correction is solved for.
 
 use super::active::WHOLE_CORRECTIONS;
+use super::geometric::add_geometric;
 use super::residual::Evaluation;
 use super::shortening::StretchTangents;
 use super::slots::add_slots;
-use super::{Chain, NODE, SINGLE_CORRECTIONS};
+use super::{Chain, NODE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Stride};
+use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::Singular;
 use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
@@ -108,6 +108,11 @@ impl ChainEquations<'_> {
         }
         let stiffness = at.factors.stiffness;
         add_slots(&mut chain.additions, &chain.active, &chain.closed_slots, stiffness);
+        if chain.single_corrections == 0 {
+            let of_pipe = if chain.stretches.is_empty() { 1.0 } else { 0.0 };
+            let (to, active) = (&mut chain.additions, &chain.active);
+            add_geometric(to, &chain.model, active, state, [stiffness, of_pipe]);
+        }
         chain.set_spins(model.moment_scale);
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
@@ -211,7 +216,7 @@ impl Equations for ChainEquations<'_> {
             chain.active.set_windows(&chain.residual, weights);
         }
         // The first corrections reduce the residual fast even in single precision; later ones need double.
-        let is_solved = at.corrections < SINGLE_CORRECTIONS && self.solve_in_single(to, at);
+        let is_solved = at.corrections < chain.single_corrections && self.solve_in_single(to, at);
         let solved = if is_solved {
             Ok(())
         } else {

@@ -95,7 +95,7 @@ pub(super) fn constant_forces(
 ) -> ConstantForces {
     let mut out = ConstantForces {
         weight: vec![0.0; unknowns],
-        preload: vec![0.0; if model.preload.is_empty() { 0 } else { unknowns }],
+        preload: vec![0.0; if model.preloads().next().is_some() { unknowns } else { 0 }],
     };
     for (l, link) in links.iter_mut().enumerate() {
         let (first, per) = (nodes.first(l), nodes.elements(l));

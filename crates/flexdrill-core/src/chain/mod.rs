@@ -22,9 +22,10 @@ mod columns;
 mod contacts;
 mod deflection;
 mod dependents;
-mod double;
+pub(crate) mod double;
 mod energy;
 mod equations;
+mod geometric;
 mod links;
 mod mud;
 mod nodes;
@@ -70,6 +71,8 @@ use tangent::Additions;
 
 pub(crate) use equations::ChainEquations;
 use numbering::Numbering;
+#[cfg(test)]
+pub(crate) use tangent::Touching;
 
 /// Unknowns per node.
 const NODE: usize = 16;
@@ -150,6 +153,8 @@ pub(crate) struct Chain {
     /// Step-constant tangents, one per step size.
     operators: Vec<Arc<Operator>>,
     limits: Limits,
+    /// Corrections of a step that are solved in single precision; with none the tangent has the geometric stiffness.
+    single_corrections: u32,
     /// How closely the step is solved.
     accuracy: Accuracy,
     /// The nodes and spans that the present correction changes.
@@ -189,7 +194,24 @@ pub(crate) struct Chain {
 impl Chain {
     /// The chain of a tool for steps of size `h` (s).
     pub(crate) fn of(model: &Model, tolerances: &Tolerances, h: f64, instructions: Instructions) -> Self {
-        let (points, spans) = Nodes::of(model, h);
+        let nodes = Nodes::of(model, h);
+        Self::over(model, tolerances, nodes, SINGLE_CORRECTIONS, instructions)
+    }
+
+    /// The chain with a node at every station, for steps of any size, solved in double precision. Nothing is slaved, so that
+    /// it finds a tool at rest under the contacts of all stations.
+    pub(crate) fn over_stations(model: &Model, tolerances: &Tolerances, instructions: Instructions) -> Self {
+        Self::over(model, tolerances, Nodes::at_every_station(model), 0, instructions)
+    }
+
+    /// Over these nodes, with the matrices of the spans between them.
+    fn over(
+        model: &Model,
+        tolerances: &Tolerances,
+        (points, spans): (Nodes, Vec<LinkMatrices>),
+        single_corrections: u32,
+        instructions: Instructions,
+    ) -> Self {
         let numbering = Numbering::of(model, &points);
         let place = |unknown: usize| numbering::place(model, &points, unknown);
         let places = model.places.renumbered(place, |unknown| numbering.place(unknown));
@@ -248,6 +270,7 @@ impl Chain {
         Self {
             operators: Vec::new(),
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
+            single_corrections,
             accuracy: Accuracy::Rest,
             active: Active::new(nodes),
             foreseen: vec![[0.0; 2]; spans],
@@ -324,6 +347,12 @@ impl Chain {
     /// Number of spans.
     pub(crate) fn spans(&self) -> usize {
         self.model.links.len()
+    }
+
+    /// Makes what steps with these factors need, and forgets what others did.
+    pub(crate) fn prepare_only(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
+        self.operators.clear();
+        self.prepare(model, conditions, factors);
     }
 
     /// Makes what steps with these factors need.

@@ -36,6 +36,12 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
+    /// A node at every station.
+    pub(super) fn at_every_station(model: &Model) -> (Self, Vec<LinkMatrices>) {
+        let spans = (0..model.last()).map(|top| LinkMatrices::of(model, top, 1)).collect();
+        (Self::at(model, &(0..=model.last()).collect::<Vec<_>>()), spans)
+    }
+
     /// The nodes that steps of size `h` (s) need, with the matrices of the spans between them.
     pub(super) fn of(model: &Model, h: f64) -> (Self, Vec<LinkMatrices>) {
         let last = model.last();

@@ -7,12 +7,11 @@ use super::active::Active;
 use super::columns::{TENSION, at_ends, product, store};
 use super::precision::Precision;
 use super::slaving::row;
-use super::tangent::Additions;
+use super::tangent::{Additions, Touching};
 use super::{BOTTOM, Chain, ChainModel, TOP};
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
 use crate::elements::shortening::{Stretch, StretchTangent};
-use crate::linear::Touching;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 

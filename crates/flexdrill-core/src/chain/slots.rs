@@ -3,11 +3,10 @@
 
 use super::active::Active;
 use super::precision::Precision;
-use super::tangent::Additions;
+use super::tangent::{Additions, Touching};
 use super::{Chain, GUIDE};
 use crate::dynamics::state::State;
 use crate::elements::slots::{Closed, Rotations};
-use crate::linear::Touching;
 
 /// First rotation of the guide among a node's unknowns.
 const FIRST: usize = GUIDE + 3;

@@ -7,9 +7,9 @@ use super::nodes::{Node, pass};
 use super::operator::{Block, Operator};
 use super::precision::Double;
 use super::single::SingleElimination;
-use super::tangent::Additions;
+use super::tangent::{Additions, Touching};
 use super::{BOTTOM, Chain, GUIDE, Link, NODE, TIE, TOP};
-use crate::linear::{Singular, Touching};
+use crate::dynamics::newton::Singular;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 

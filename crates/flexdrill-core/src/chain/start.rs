@@ -1,14 +1,13 @@
-//! The start over the chain: a state that was found over all stations is brought into balance over the nodes.
+//! A start over the chain: a state at rest, and accelerations in balance with its forces.
 
 use super::dependents::{FIRST_ROW, SECOND_ROW};
 use super::equations::ChainEquations;
 use super::{NODE, TIE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::newton::{Iteration, correct, worst};
+use crate::dynamics::newton::{Iteration, Singular, correct, worst};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
-use crate::linear::Singular;
 
 /// Most corrections of a state at rest.
 const MOST_STATIC_CORRECTIONS: u32 = 20;
@@ -78,6 +77,7 @@ impl ChainEquations<'_> {
         let has_rows = self.chain.model.joint_rows > 0;
         for residual in self.chain.residual.chunks_exact_mut(NODE) {
             residual[SECOND_ROW] = 0.0;
+            residual[TIE] = 0.0;
             if has_rows {
                 residual[FIRST_ROW] = 0.0;
             }

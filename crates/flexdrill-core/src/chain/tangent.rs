@@ -14,11 +14,21 @@ use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::{State, motion};
 use crate::elements::gap::GapTangent;
-use crate::linear::Touching;
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
+
+/// The closed gaps at a node, or in a span, which determine the unknowns that contacts couple.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Touching {
+    /// No gap is closed: the block counts as zero, and its entries are undefined.
+    Nothing,
+    /// Guide on wall: rows and columns of the guide only.
+    Guide,
+    /// Pipe on guide; the guide may be on the wall too.
+    Both,
+}
 
 /// What is added to a span's coupling, as [`super::operator::Coupling`].
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,4 @@
-//! The tool in motion: steps, Newton, time scheme, interactions, energy; and the plain form over all stations, which finds
-//! the static start.
+//! The tool in motion: steps, Newton, time scheme, interactions, energy, and the static start.
 
 pub(crate) mod conditions;
 pub(crate) mod energy;
@@ -12,7 +11,6 @@ pub mod phases;
 pub(crate) mod scheme;
 pub(crate) mod state;
 pub(crate) mod statics;
-pub(crate) mod stations;
 pub(crate) mod stepper;
 pub(crate) mod sub_steps;
 pub(crate) mod tolerances;

@@ -7,7 +7,6 @@ use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
-use crate::linear::Singular;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Body;
@@ -27,6 +26,15 @@ pub(crate) struct Stride {
     pub accuracy: Accuracy,
     /// Most corrections before the step counts as not converged.
     pub most_iterations: u32,
+}
+
+/// A pivot is zero: the system has no unique solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Singular {
+    /// Station of the block, 0-based from the top.
+    pub station: usize,
+    /// Size of the best pivot found.
+    pub pivot: f64,
 }
 
 /// Where Newton's iteration is within a step.

@@ -19,17 +19,7 @@ pub(crate) struct Numbered<'a> {
     pub pressure: &'a [f64],
 }
 
-impl<'a> Numbered<'a> {
-    /// In the numbering of the model.
-    pub(crate) fn of(model: &'a Model) -> Self {
-        Self {
-            model,
-            places: &model.places,
-            weight: &model.weight,
-            pressure: &model.pressure_forces,
-        }
-    }
-
+impl Numbered<'_> {
     /// Adds axial tie, the string's torque and force, pressure in the pipe, the rock's torque and weight and the loads to the
     /// residual, on unknowns that are `wanted`.
     pub(crate) fn add_end_forces(

@@ -1,14 +1,15 @@
 //! The start: the tool as given, or at rest under gravity and weight on bit.
 
+use crate::chain::Chain;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::newton::{self, Rejected, Stride};
+use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::newton::{self, Rejected, Singular, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::Stepper;
 use crate::dynamics::tolerances::Accuracy;
 use crate::inputs::Inputs;
-use crate::linear::Singular;
 
 /// Why the tool could not be started.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -59,42 +60,57 @@ impl Stepper {
     /// # Errors
     /// [`StartError::Singular`].
     pub fn start_as_given(&mut self, inputs: &Inputs, h: f64) -> Result<State, StartError> {
-        let state = self.as_given(inputs, h)?;
+        let mut chain = self.chain_over_stations();
+        let mut state = self.as_given(&mut chain, inputs, h)?;
+        let conditions = self.held(self.conditions(0.0, inputs));
+        let state = self.in_full(&mut chain, &mut state, &conditions);
         self.start_from(&state, inputs);
         Ok(state)
     }
 
-    /// The state as given over all stations, its accelerations as far as steps of size `h` (s) can follow them.
-    fn as_given(&mut self, inputs: &Inputs, h: f64) -> Result<State, StartError> {
+    /// The state as given in the numbering of `chain`, its accelerations as far as steps of size `h` (s) can follow them.
+    fn as_given(&mut self, chain: &mut Chain, inputs: &Inputs, h: f64) -> Result<State, StartError> {
         let conditions = self.held(self.conditions(0.0, inputs));
         self.lift_off_bottom();
-        let mut equations = self.over_stations();
-        let model = equations.model;
-        let mut state = State::at_rest(model);
+        let model = self.model();
+        let mut given = State::at_rest(model);
         let d = &model.description;
         for station in &model.stations {
+            let to_node = station.pipe_to_station.transpose();
+            let displacement = to_node * nalgebra::Vector3::from(d.initial_pipe_displacement);
+            let velocity = to_node * nalgebra::Vector3::from(d.initial_pipe_velocity);
+            for k in 0..3 {
+                given.q[station.pipe_above + k] = displacement[k];
+                given.v[station.pipe_above + k] = velocity[k];
+            }
             for first in [station.pipe_above, station.pipe_below] {
-                let to_node = station.pipe_to_station.transpose();
-                let displacement = to_node * nalgebra::Vector3::from(d.initial_pipe_displacement);
-                let velocity = to_node * nalgebra::Vector3::from(d.initial_pipe_velocity);
-                for k in 0..3 {
-                    state.q[first + k] = displacement[k];
-                    state.v[first + k] = velocity[k];
-                }
-                state.v[first + 3] = d.initial_spin_rate;
+                given.v[first + 3] = d.initial_spin_rate;
             }
         }
         for &unknown in &model.held {
-            state.q[unknown] = 0.0;
-            state.v[unknown] = 0.0;
+            given.q[unknown] = 0.0;
+            given.v[unknown] = 0.0;
         }
-        state.update_axial(model, &conditions);
+        let mut state = chain.state(model);
+        chain.take(model, &given, &mut state);
+        let mut equations = self.equations_of(chain);
         // Where the stiffness has no numbers, the mass may; the first step then says what is wrong.
         equations
             .balance_accelerations(&mut state, &conditions, h)
             .or_else(|_| equations.balance_accelerations(&mut state, &conditions, 0.0))
             .map_err(StartError::Singular)?;
         Ok(state)
+    }
+
+    /// A `state` of `chain` in the numbering of the model, with what its joints carry.
+    fn in_full(&mut self, chain: &mut Chain, state: &mut State, conditions: &Conditions) -> State {
+        let mut full = State::at_rest(self.model());
+        let mut point = EnergyPoint::new(self.model(), chain.unknowns(), chain.spans());
+        let mut equations = self.equations_of(chain);
+        equations.evaluate(state, conditions, false);
+        equations.energy(&mut point, state, conditions);
+        chain.show(self.model(), state, &point.joints, &mut full);
+        full
     }
 
     /// Brings the tool to rest under gravity and `inputs` by damped steps of growing size. Friction and bit torque of the
@@ -108,7 +124,8 @@ impl Stepper {
             rate_of_penetration: 0.0,
             ..*inputs
         };
-        let mut state = self.as_given(inputs, 0.0)?;
+        let mut chain = self.chain_over_stations();
+        let mut state = self.as_given(&mut chain, inputs, 0.0)?;
         let slid_in = self.model().description.slid_in;
         if slid_in {
             // Along the guide, against the advance.
@@ -119,7 +136,7 @@ impl Stepper {
         }
         let conditions = settling(self.held(self.conditions(0.0, inputs)), slid_in);
         let most_iterations = self.tolerances().max_iterations;
-        let mut equations = self.over_stations();
+        let mut equations = self.equations_of(&mut chain);
         let mut trial = state.clone();
         let mut h = STEPS[0];
         let mut speed = f64::INFINITY;
@@ -136,6 +153,8 @@ impl Stepper {
                 accuracy: Accuracy::Rest,
                 most_iterations,
             };
+            let factors = stride.scheme.factors(h);
+            equations.chain.prepare_only(equations.model, &conditions, factors);
             match newton::step(&mut equations, &stride, &conditions, &state, &mut trial) {
                 Ok(iterations) => {
                     std::mem::swap(&mut state, &mut trial);
@@ -173,12 +192,13 @@ impl Stepper {
         rest.a.fill(0.0);
         rest.time = 0.0;
         let conditions = self.held(self.conditions(0.0, inputs));
-        let mut equations = self.over_stations();
+        let mut equations = self.equations_of(&mut chain);
         equations.polish_rest(&mut rest, &mut trial, &conditions);
         // The remaining unbalanced force becomes an acceleration, so that the first step begins in balance.
         equations
             .balance_accelerations(&mut rest, &conditions, 0.0)
             .map_err(StartError::Singular)?;
+        let rest = self.in_full(&mut chain, &mut rest, &conditions);
         self.start_from(&rest, inputs);
         Ok(rest)
     }

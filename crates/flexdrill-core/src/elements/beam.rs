@@ -6,8 +6,8 @@
 //!
 //! The four motions of a straight symmetric beam (stretch, twist, bending in x-y and in x-z) do not couple, so each
 //! matrix consists of the matrix of a rod, twice, and that of a bending beam, twice. This file has them once, as the
-//! integrals yield them. The kernels use packed copies ([`crate::elements::element_form`]); a test compares the
-//! matrices with the integrals of Eq. 5 and 6.
+//! integrals yield them. A test compares the matrices with the integrals of
+//! Eq. 5 and 6.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -2,7 +2,6 @@
 //! pressure in the pipe, the mud around it, rock, string above.
 
 pub mod beam;
-pub mod element_form;
 pub mod gap;
 pub mod joint;
 pub mod mud;

@@ -63,15 +63,6 @@ impl Lateral {
             guide: self.guide + other.guide,
         }
     }
-
-    /// Forces on pipe and guide by the motions of both, along one direction.
-    #[inline]
-    pub fn product(&self, pipe: f64, guide: f64) -> [f64; 2] {
-        [
-            self.pipe * pipe + self.coupling * guide,
-            self.coupling * pipe + self.guide * guide,
-        ]
-    }
 }
 
 /// Mass and damping by the mud; per length, or lumped at a station.
@@ -283,8 +274,7 @@ mod tests {
             let expected = bore
                 + kinetic_energy(ANNULI[0], 1100.0, [pipe, guide])
                 + kinetic_energy(ANNULI[1], 1100.0, [guide, 0.0]);
-            let [on_pipe, on_guide] = at.product(pipe, guide);
-            let got = on_pipe * pipe + on_guide * guide;
+            let got = at.pipe * pipe * pipe + 2.0 * at.coupling * pipe * guide + at.guide * guide * guide;
             // Rounding.
             assert!(
                 (got / expected - 1.0).abs() < 1e-12,

@@ -119,6 +119,7 @@ impl Preload {
         self.bending * libm::hypot(in_plane, across)
     }
 
+    #[cfg(test)]
     /// dU (J) at the displacements `q` of both nodes.
     pub fn energy(&self, q: &ElementVector) -> f64 {
         0.5 * q.dot(&(self.stiffness * q)) - self.force.dot(q)

@@ -13,8 +13,6 @@ use crate::tool::{FreeCurvature, SectionProperties, ToolDescription, frame_along
 pub struct PipeElement {
     /// Section and length; a link's frame is the beam's own.
     pub beam: Beam,
-    /// Curvature of the hole that the link turns with as it slides (1/m).
-    pub curvature: f64,
     /// G, geometric stiffness per unit of tension (Eq. 41), see [`Beam::geometric_along`].
     pub geometric: ElementMatrix,
     /// Consistent forces of gravity (N).
@@ -26,8 +24,6 @@ pub struct PipeElement {
 pub struct GuideElement {
     /// Beam in its chord's frame.
     pub beam: Beam,
-    /// Curvature of the hole that the element turns with as it slides (1/m).
-    pub curvature: f64,
     /// Node frames to the chord frame, Eq. 8.
     pub rotation: [Matrix3<f64>; 2],
     /// Consistent forces of gravity on the nodes, in their frames (N).
@@ -54,7 +50,6 @@ impl PipeElement {
         let curvature = chord_curvature(bore.chord(link), bore.turn(link));
         Self {
             beam,
-            curvature,
             geometric: beam.geometric_along(curvature),
             weight: beam.weight((bore.link_frames[link].transpose() * gravity(d)).into()),
         }
@@ -86,7 +81,6 @@ impl GuideElement {
             stiffness: turned(beam.stiffness()),
             mass: turned(beam.mass()),
             geometric: turned(beam.geometric_along(curvature)),
-            curvature,
             preload: d
                 .guide_free_curvature
                 .map(|free| Preload::of(free, beam.section.bending, beam.length, turn)),

@@ -6,6 +6,7 @@
 
 mod attached;
 mod element;
+pub(crate) mod layout;
 mod places;
 mod station;
 
@@ -13,18 +14,17 @@ use nalgebra::Vector3;
 
 use crate::dynamics::conditions::Conditions;
 use crate::elements::beam::{Beam, ElementVector};
-use crate::elements::element_form::{ElementForms, Elements};
 use crate::elements::joint::Joint;
-use crate::elements::mud::{Lateral, Mud, MudLump};
+use crate::elements::mud::Mud;
 use crate::elements::preload::Preload;
 use crate::elements::pressure::PipePressure;
 use crate::elements::slots::Slots;
-use crate::linear::Layout;
 use crate::tool::{Direction, Shortening, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
 pub use attached::{HeldNode, ResolvedLoad, ResolvedMass};
 pub use element::{GuideElement, PipeElement};
+use layout::Layout;
 pub use places::{JointPlaces, Places};
 pub use station::Station;
 
@@ -43,16 +43,10 @@ pub struct Model {
     pub pipe: Vec<PipeElement>,
     /// Element e between stations e and e + 1.
     pub guide: Vec<GuideElement>,
-    /// The same elements, pipe then guide, with their matrices packed for the residual.
-    pub elements: Elements,
     /// Consistent forces of gravity on both pipes, per unknown (N, N m).
     pub weight: Vec<f64>,
-    /// Couples of the guide's preload, per unknown (N m); empty without one.
-    pub preload: Vec<f64>,
     /// Pump pressure in the pipe.
     pub pressure: Option<PipePressure>,
-    /// Forces of the pressure on pipe and mud, per unknown and per pressure at the top (N/Pa); empty without it.
-    pub pressure_forces: Vec<f64>,
     /// The mud that moves with the pipes.
     pub mud: Option<Mud>,
     /// Unknowns held at zero, in rising order.
@@ -73,8 +67,6 @@ pub struct Model {
     pub outer_clearance: f64,
     /// Inner and outer radius of the guide (m).
     pub guide_radii: [f64; 2],
-    /// Whether the two pipes' ends are tied axially.
-    pub tied: bool,
     /// Multiplier of the tie, in the last station's block.
     pub tie: Option<usize>,
     /// Stiffness of the connector by which the pipe's top hangs on the guide's, below a hoist (N/m): that of one element of
@@ -109,7 +101,7 @@ impl Model {
 
         let tied = d.wob_path == WobPath::Shared;
         let is_joint = |station: usize| station > 0 && station < last && station.is_multiple_of(per_link);
-        let layout = Layout::new((0..=last).map(|s| is_joint(s) || (s == last && tied)).collect());
+        let layout = Layout::new((0..=last).map(|s| is_joint(s) || (s == last && tied)));
 
         let bore = Bore::new(d);
         let stations: Vec<Station> = (0..=last)
@@ -150,11 +142,8 @@ impl Model {
         let mut model = Self {
             joints,
             joint_stations,
-            elements: Elements::default(),
             weight: vec![0.0; layout.unknowns()],
-            preload: Vec::new(),
             pressure: d.pressure.map(|pressure| PipePressure::of(pressure, d, bore.spacing)),
-            pressure_forces: Vec::new(),
             mud: d.mud.map(|mud| Mud::of(&mud, d, guide.iter().map(|e| e.beam.length))),
             pipe,
             guide,
@@ -171,7 +160,6 @@ impl Model {
                 0.5 * d.guide_section.inner_diameter,
                 0.5 * d.guide_section.outer_diameter,
             ],
-            tied,
             tie,
             hanger: d.string.as_ref().and_then(|string| string.hoist).map(|_| stiffest),
             ends_along: [0, last].map(|s| stations[s].pipe_to_station.row(0).into_owned().into()),
@@ -182,51 +170,25 @@ impl Model {
             stations,
             description: description.clone(),
         };
-        model.collect_elements();
+        model.add_weight();
         model.attach(description)?;
         model.total_weight = model.total_weight();
         model.places = Places::of(&model);
         Ok(model)
     }
 
-    fn collect_elements(&mut self) {
-        let mut add = |forms: ElementForms, weight: &ElementVector, nodes: [usize; 2]| {
-            self.elements.push(forms, nodes);
+    /// Sums up the forces of gravity on the nodes of all elements.
+    fn add_weight(&mut self) {
+        let mut add = |weight: &ElementVector, nodes: [usize; 2]| {
             for (k, w) in weight.iter().enumerate() {
                 self.weight[nodes[k / 6] + k % 6] += w;
             }
         };
         for (ends, element) in self.stations.windows(2).zip(&self.pipe) {
-            let nodes = [ends[0].pipe_below, ends[1].pipe_above];
-            let forms = ElementForms::of(&element.beam, element.curvature, None);
-            add(forms, &element.weight, nodes);
+            add(&element.weight, [ends[0].pipe_below, ends[1].pipe_above]);
         }
         for (ends, element) in self.stations.windows(2).zip(&self.guide) {
-            let nodes = [ends[0].guide, ends[1].guide];
-            let forms = ElementForms::of(&element.beam, element.curvature, Some(&element.rotation));
-            add(forms, &element.weight, nodes);
-        }
-        let mut preload = Vec::new();
-        for (of_element, nodes) in self.preloads() {
-            preload.resize(self.weight.len(), 0.0);
-            for (k, couple) in of_element.force.iter().enumerate() {
-                preload[nodes[k / 6] + k % 6] += couple;
-            }
-        }
-        self.preload = preload;
-        if let Some(pressure) = &self.pressure {
-            let mut forces = vec![0.0; self.weight.len()];
-            for (ends, tension) in self.stations.windows(2).zip(&pressure.unstrained) {
-                forces[ends[0].pipe_below] += tension;
-                forces[ends[1].pipe_above] -= tension;
-            }
-            let bottom = &self.stations[self.stations.len() - 1];
-            forces[bottom.pipe_above] += pressure.on_end;
-            // The seal is in the guide's connector, and pulls it along the pipe's axis.
-            for (k, force) in self.pressure_on_guide().into_iter().enumerate() {
-                forces[bottom.guide + k] += force;
-            }
-            self.pressure_forces = forces;
+            add(&element.weight, [ends[0].guide, ends[1].guide]);
         }
     }
 
@@ -253,27 +215,6 @@ impl Model {
     /// Whether the guide's slots close.
     pub fn has_slots(&self) -> bool {
         self.description.guide_slots_close_at.is_some()
-    }
-
-    /// Adds to `forces` (by unknown) those that matrices over the lateral motion of each station, `matrix` of its mud, make
-    /// of the motion `x`, by unknown.
-    pub fn add_mud_forces(&self, forces: &mut [f64], matrix: impl Fn(&MudLump) -> Lateral, x: impl Fn(usize) -> f64) {
-        let Some(mud) = &self.mud else {
-            return;
-        };
-        for (station, mud) in self.stations.iter().zip(&mud.stations) {
-            let (pipe, guide) = (station.pipe_above, station.guide);
-            let moving = station.pipe_to_station * Vector3::new(x(pipe), x(pipe + 1), x(pipe + 2));
-            let matrix = matrix(mud);
-            let mut on_pipe = Vector3::zeros();
-            for k in 1..3 {
-                let [of_pipe, of_guide] = matrix.product(moving[k], x(guide + k));
-                on_pipe[k] = of_pipe;
-                forces[guide + k] += of_guide;
-            }
-            let on_pipe = station.pipe_to_station.tr_mul(&on_pipe);
-            (0..3).for_each(|k| forces[pipe + k] += on_pipe[k]);
-        }
     }
 
     /// Pressure in the pipe at the tool's top, inside less outside (Pa); 0 without it.

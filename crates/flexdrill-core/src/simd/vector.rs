@@ -11,9 +11,6 @@ use super::single::{PortableSingle, Single};
 pub(crate) trait Vector: Copy {
     /// Sixteen lanes of single precision of the same machine.
     type Single: Single;
-    /// Whether [`Vector::plus_product`] rounds once. Scalar code next to these vectors then rounds once as well, so
-    /// that results do not depend on which of the two computes an entry.
-    const FUSED: bool;
 
     /// Runs `kernel` with these vectors in a separate function, which is not inlined into the caller: a large kernel
     /// that several callers share is compiled once.
@@ -43,22 +40,12 @@ pub(crate) trait Vector: Copy {
     fn plus_product(self, a: Self, b: Self) -> Self;
     /// self - a b, likewise.
     fn minus_product(self, a: Self, b: Self) -> Self;
-    /// Lanes 0, 5, 4, 3, 2, 1, 6, 7: in a node's values, the other unknown of the same bending plane.
-    fn paired(self) -> Self;
-    /// Lanes 2, 1, 0, 5, 4, 3, 6, 7: in a node's values, along and across exchanged.
-    fn across(self) -> Self;
     /// Lanes 1, 0, 3, 2, 5, 4, 7, 6: neighbours exchanged.
     fn swapped(self) -> Self;
     /// Whether some lane of `self` is larger in magnitude than the same lane of `bound`; NaN counts as larger.
     fn any_beyond(self, bound: Self) -> bool;
     /// A bit per lane of `self` that is larger than the same lane of `bound`.
     fn above(self, bound: Self) -> u32;
-}
-
-/// Eight lanes of a longer array from `first` on; `None` at its end.
-#[inline(always)]
-pub(crate) fn part(values: &[f64], first: usize) -> Option<&[f64; 8]> {
-    values.get(first..first + 8)?.first_chunk()
 }
 
 /// Without vector instructions.
@@ -78,7 +65,6 @@ impl Portable {
 
 impl Vector for Portable {
     type Single = PortableSingle;
-    const FUSED: bool = false;
 
     #[inline(always)]
     fn call<K: Kernel>(kernel: K) -> K::Output {
@@ -135,16 +121,6 @@ impl Vector for Portable {
     #[inline(always)]
     fn minus_product(self, a: Self, b: Self) -> Self {
         self.minus(a.times(b))
-    }
-    #[inline(always)]
-    fn paired(self) -> Self {
-        let x = self.0;
-        Self([x[0], x[5], x[4], x[3], x[2], x[1], x[6], x[7]])
-    }
-    #[inline(always)]
-    fn across(self) -> Self {
-        let x = self.0;
-        Self([x[2], x[1], x[0], x[5], x[4], x[3], x[6], x[7]])
     }
     #[inline(always)]
     fn swapped(self) -> Self {

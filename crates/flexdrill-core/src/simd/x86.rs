@@ -32,7 +32,6 @@ pub(super) struct Avx512Single(__m512);
 // sixteen, unaligned.
 impl Vector for Avx2 {
     type Single = Avx2Single;
-    const FUSED: bool = true;
 
     #[inline(always)]
     fn call<K: Kernel>(kernel: K) -> K::Output {
@@ -95,18 +94,6 @@ impl Vector for Avx2 {
         unsafe { Self(_mm256_fnmadd_pd(a.0, b.0, self.0), _mm256_fnmadd_pd(a.1, b.1, self.1)) }
     }
     #[inline(always)]
-    fn paired(self) -> Self {
-        let mut x = [0.0; 8];
-        self.store(&mut x);
-        Self::load(&[x[0], x[5], x[4], x[3], x[2], x[1], x[6], x[7]])
-    }
-    #[inline(always)]
-    fn across(self) -> Self {
-        let mut x = [0.0; 8];
-        self.store(&mut x);
-        Self::load(&[x[2], x[1], x[0], x[5], x[4], x[3], x[6], x[7]])
-    }
-    #[inline(always)]
     fn swapped(self) -> Self {
         unsafe { Self(_mm256_permute_pd::<0b0101>(self.0), _mm256_permute_pd::<0b0101>(self.1)) }
     }
@@ -130,7 +117,6 @@ impl Vector for Avx2 {
 
 impl Vector for Avx512 {
     type Single = Avx512Single;
-    const FUSED: bool = true;
 
     #[inline(always)]
     fn call<K: Kernel>(kernel: K) -> K::Output {
@@ -188,14 +174,6 @@ impl Vector for Avx512 {
     #[inline(always)]
     fn minus_product(self, a: Self, b: Self) -> Self {
         unsafe { Self(_mm512_fnmadd_pd(a.0, b.0, self.0)) }
-    }
-    #[inline(always)]
-    fn paired(self) -> Self {
-        unsafe { Self(_mm512_permutexvar_pd(_mm512_setr_epi64(0, 5, 4, 3, 2, 1, 6, 7), self.0)) }
-    }
-    #[inline(always)]
-    fn across(self) -> Self {
-        unsafe { Self(_mm512_permutexvar_pd(_mm512_setr_epi64(2, 1, 0, 5, 4, 3, 6, 7), self.0)) }
     }
     #[inline(always)]
     fn swapped(self) -> Self {

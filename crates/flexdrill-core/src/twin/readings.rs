@@ -235,9 +235,8 @@ impl Simulation {
         self.stepper().state()
     }
 
-    /// Nodes of the chain that steps are taken over; `None` with
-    /// [`SolverKind::Stations`](crate::dynamics::SolverKind::Stations), which takes them over all stations.
-    pub fn chain_nodes(&self) -> Option<usize> {
+    /// Nodes of the chain that steps are taken over.
+    pub fn chain_nodes(&self) -> usize {
         self.stepper().chain_nodes()
     }
 

@@ -1,7 +1,7 @@
 //! Residual, tangent and solution against those over all stations, multipliers among the unknowns.
 
 use super::*;
-use crate::dynamics::stations::{add_shortening_tangent, add_slots_tangent};
+use crate::stations::{add_shortening_tangent, add_slots_tangent};
 
 /// Over the fewest nodes there can be, and over those that steps of this size need.
 fn check(tool: &ToolDescription, h: f64, seed: u64) {

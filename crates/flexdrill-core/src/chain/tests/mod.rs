@@ -18,11 +18,11 @@ use crate::dynamics::newton::{Equations, Iteration, correct};
 use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stations::Assembler;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::elements::gap::LayerContacts;
 use crate::elements::joint::Joint;
 use crate::model::Model;
+use crate::stations::Assembler;
 use crate::tool::description::LiveParameters;
 use crate::tool::{
     AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,

@@ -5,21 +5,16 @@
 //! Linear elastic forces then store exactly what they take, so the audit's error is what is left: the quadrature of
 //! contacts, stops and joint rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
 
-mod elements;
 mod step;
 
 use serde::{Deserialize, Serialize};
 
-use elements::ElementEnergies;
 pub(crate) use step::{SpanWorks, StepEnds};
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
-#[cfg(test)]
-use crate::dynamics::state::joint_rotations;
-use crate::dynamics::state::{Deflection, State, element_values, motion};
-use crate::dynamics::stations::{Assembler, add_mud_forces, inner_forces, mud_motions, outer_force, slots_energy};
+use crate::dynamics::state::{Deflection, State, motion};
 use crate::elements::string::StringLine;
 use crate::model::Model;
 
@@ -216,56 +211,6 @@ impl EnergyPoint {
         (self.pressure, self.lifted_by_pressure) = (pressure, lifted_by_pressure);
     }
 
-    /// Evaluates at `state`, whose residual (reactions still in it) the assembler holds.
-    pub fn evaluate(
-        &mut self,
-        model: &Model,
-        state: &State,
-        conditions: &Conditions,
-        assembler: &Assembler,
-        interactions: &Interactions,
-    ) {
-        let numbered = Numbered::of(model);
-        let mut stored = assembler.instructions().run(ElementEnergies {
-            point: self,
-            model,
-            state,
-            conditions,
-        });
-        for (preload, nodes) in model.preloads() {
-            stored += preload.energy(&element_values(&state.q, nodes));
-        }
-        if model.has_slots() {
-            stored += slots_energy(model, state);
-        }
-        if model.shortens() {
-            stored += self.add_shortening(model, state, conditions);
-        }
-        self.add_mud(model, state, conditions);
-        self.add_masses(&numbered, state, conditions);
-        stored += self.kinetic + numbered.hanger_energy(state);
-        self.friction.fill(0.0);
-        self.contact_dissipation = 0.0;
-        for (s, touch) in interactions.inner.iter() {
-            let station = &model.stations[s];
-            let (pipe, guide) = inner_forces(model, station, &touch.friction_force().into());
-            for k in 0..6 {
-                self.friction[station.pipe_above + k] += pipe[k];
-                self.friction[station.guide + k] += guide[k];
-            }
-            stored += touch.energy;
-            self.contact_dissipation += touch.dissipation;
-        }
-        for (s, touch) in interactions.outer.iter() {
-            let guide = outer_force(model, &touch.friction_force().into());
-            let first = model.stations[s].guide;
-            (0..6).for_each(|k| self.friction[first + k] += guide[k]);
-            stored += touch.energy;
-            self.contact_dissipation += touch.dissipation;
-        }
-        self.finish(stored, &numbered, conditions, interactions, &assembler.residual);
-    }
-
     /// Adds what the string above stores, has lost, and has been given by the hoist.
     pub(crate) fn add_string(&mut self, string: &StringLine) {
         let [friction, mud] = string.lost();
@@ -275,31 +220,6 @@ impl EnergyPoint {
         if let Some(hoist) = string.hoist() {
             self.advance = hoist.advance;
             self.advance_power = (self.weight_on_bit - string.force_on_tool()) * hoist.advance;
-        }
-    }
-
-    /// Adds kinetic energy, inertia and damping of the mud at all stations, in the numbering of the model.
-    fn add_mud(&mut self, model: &Model, state: &State, conditions: &Conditions) {
-        if self.mud.is_empty() {
-            return;
-        }
-        let alpha = conditions.rayleigh.alpha;
-        // The momentum first, from which the kinetic energy follows.
-        self.mud.fill(0.0);
-        model.add_mud_forces(&mut self.mud, |mud| mud.mass, |unknown| state.v[unknown]);
-        self.kinetic += 0.5 * self.mud.iter().zip(&state.v).map(|(p, v)| p * v).sum::<f64>();
-        let damped = self.damping.iter_mut().zip(&self.mud);
-        damped.for_each(|(force, momentum)| *force += alpha * momentum);
-        model.add_mud_forces(&mut self.inertia, |mud| mud.mass, |unknown| state.a[unknown]);
-        self.mud.fill(0.0);
-        model.add_mud_forces(&mut self.mud, |mud| mud.drag, |unknown| state.v[unknown]);
-        let near_wall = model.mud.as_ref().map(|mud| &mud.near_wall[..]).unwrap_or_default();
-        for (station, near) in model.stations.iter().zip(near_wall) {
-            let motions = mud_motions(model, station, state);
-            let taken = [0, 1].map(|k| near[k].take(&motions[k]));
-            self.kinetic += taken[0].energy + taken[1].energy;
-            add_mud_forces(&mut self.inertia, station, taken.map(|taken| taken.inertia));
-            add_mud_forces(&mut self.mud, station, taken.map(|taken| taken.film));
         }
     }
 
@@ -372,20 +292,4 @@ impl EnergyPoint {
         self.weight_on_bit = interactions.bit.weight;
         self.pressure = model.pressure_at_top(conditions);
     }
-}
-
-#[cfg(test)]
-/// Largest violation of the joint rows, Eq. 12 and 13: translations (m) and rotations (-).
-pub fn joint_violation(model: &Model, state: &State) -> (f64, f64) {
-    let mut worst = (0.0_f64, 0.0_f64);
-    for (j, joint) in model.joints.iter().enumerate() {
-        let station = &model.stations[model.joint_stations[j]];
-        let open = joint.upper * crate::dynamics::state::translation(&state.q, station.pipe_above)
-            - joint.lower * crate::dynamics::state::translation(&state.q, station.pipe_below);
-        worst.0 = worst.0.max(open.norm());
-        let mut rows: [_; 2] = Default::default();
-        joint.law.rows(&joint_rotations(model, j, &state.q), &mut rows);
-        worst.1 = rows.iter().fold(worst.1, |w, row| w.max(row.value.abs()));
-    }
-    worst
 }

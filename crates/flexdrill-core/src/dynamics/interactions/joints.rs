@@ -1,5 +1,8 @@
 //! Rotational rows (Eq. 13), stops, play and pin friction of all joints, eight joints at a time.
 
+#[cfg(test)]
+mod one_by_one;
+
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;
@@ -30,22 +33,6 @@ impl Joints {
     /// Forgets what the corrections of the step before learned of friction.
     pub(super) fn begin(&mut self) {
         self.groups.iter_mut().for_each(JointGroup::begin);
-    }
-
-    /// Linearises rows, stops, play and friction of all joints at `state`, whose rotations are at `places`, and hands each
-    /// joint with its number to `visit`.
-    pub(crate) fn linearise(
-        &mut self,
-        places: &[JointPlaces],
-        state: &State,
-        visit: impl FnMut(usize, &JointLinearisation<'_>),
-    ) {
-        self.instructions.run(LineariseJoints {
-            groups: &mut self.groups,
-            places,
-            state,
-            visit,
-        });
     }
 
     /// Hands the tangent of every joint that is `wanted` with its number to `visit`; `lambda` gives the multipliers (N m)
@@ -147,22 +134,10 @@ pub(crate) struct PlayReport {
 /// What a joint adds to the tangent.
 pub(crate) struct JointTangent<'a> {
     rotations: &'a [[Lane; 6]; 6],
-    group: &'a JointGroup,
     lane: usize,
 }
 
 impl JointTangent<'_> {
-    /// Gradients of its rotational rows in the six rotations; of rows that are constraints.
-    pub fn row_gradients(&self) -> impl Iterator<Item = [f64; 6]> + '_ {
-        let constraints = if self.group.has_play() {
-            0
-        } else {
-            self.group.rows().len()
-        };
-        let rows = self.group.rows()[..constraints].iter();
-        rows.map(|row| std::array::from_fn(|k| row.gradient[k][self.lane]))
-    }
-
     /// Derivative of moment `k` in rotation `l`: stop, play, friction, and the curvature of the rotational rows.
     #[inline(always)]
     pub fn rotation(&self, l: usize, k: usize) -> f64 {
@@ -178,50 +153,6 @@ fn lanes_of(lambda: impl Fn(usize) -> [f64; 2], first: usize, count: usize) -> [
         (lanes[0][lane], lanes[1][lane]) = (of[0], of[1]);
     }
     lanes
-}
-
-/// A joint as linearised by the last residual.
-pub(crate) struct JointLinearisation<'a> {
-    group: &'a JointGroup,
-    lane: usize,
-}
-
-impl JointLinearisation<'_> {
-    /// Number of its rotational rows that are constraints.
-    #[inline(always)]
-    pub fn rows(&self) -> usize {
-        if self.group.has_play() {
-            0
-        } else {
-            self.group.rows().len()
-        }
-    }
-
-    /// Value of rotational row `r` (-).
-    #[inline(always)]
-    pub fn value(&self, r: usize) -> f64 {
-        self.group.rows()[r].value[self.lane]
-    }
-
-    /// Its gradient in the six rotations.
-    #[inline(always)]
-    pub fn gradient(&self, r: usize) -> [f64; 6] {
-        let gradient = &self.group.rows()[r].gradient;
-        [0, 1, 2, 3, 4, 5].map(|k| gradient[k][self.lane])
-    }
-
-    /// Moments of the stop on the six rotations (N m); `None` where no stop of its group of eight is shut.
-    #[inline(always)]
-    pub fn stop_moments(&self) -> Option<[f64; 6]> {
-        let (stop, lane) = (self.group.shut_stop()?, self.lane);
-        Some([0, 1, 2, 3, 4, 5].map(|k| stop.gradient[k][lane] * stop.moment[lane]))
-    }
-
-    /// Moments of play and friction on the six rotations (N m); `None` where there is neither.
-    #[inline(always)]
-    pub fn further_moments(&self) -> Option<[f64; 6]> {
-        self.group.further_moments(self.lane)
-    }
 }
 
 /// Moments with which slipping pins resist (N m), of the up to eight joints from `first` on; lanes without a joint have
@@ -250,38 +181,6 @@ pub(crate) fn rotations(places: &[JointPlaces], state: &State) -> ([Lane; 6], [L
         }
     }
     (q, rate)
-}
-
-/// Rotational rows and stops, eight joints at a time.
-struct LineariseJoints<'a, F> {
-    groups: &'a mut [JointGroup],
-    places: &'a [JointPlaces],
-    state: &'a State,
-    visit: F,
-}
-
-impl<F: FnMut(usize, &JointLinearisation<'_>)> Kernel for LineariseJoints<'_, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Vector>(self) {
-        let Self {
-            groups,
-            places,
-            state,
-            mut visit,
-        } = self;
-        for (g, group) in groups.iter_mut().enumerate() {
-            let first = 8 * g;
-            let places = &places[first..];
-            let count = places.len().min(8);
-            let (q, rate) = rotations(&places[..count], state);
-            group.linearise::<V>(&q, &rate, &pin_lanes(&state.pin_moments, first));
-            for lane in 0..count {
-                visit(first + lane, &JointLinearisation { group, lane });
-            }
-        }
-    }
 }
 
 /// Derivatives of the moments of rotational rows and stops, eight joints at a time.
@@ -324,7 +223,6 @@ where
             for lane in 0..count {
                 let tangent = JointTangent {
                     rotations: &rotations,
-                    group,
                     lane,
                 };
                 if wanted(first + lane) {
@@ -334,3 +232,6 @@ where
         }
     }
 }
+
+#[cfg(test)]
+pub(crate) use one_by_one::JointLinearisation;

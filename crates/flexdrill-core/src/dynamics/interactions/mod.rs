@@ -7,12 +7,13 @@ mod joints;
 
 use crate::dynamics::state::{State, bristles};
 use crate::elements::gap::LayerContacts;
-use crate::elements::mud_wall::Motion;
 use crate::elements::rock::BitLoad;
 use crate::model::Model;
 use crate::simd::Instructions;
 
-pub(crate) use joints::{JointLinearisation, JointTangent, Joints, pin_lanes, rotations};
+#[cfg(test)]
+pub(crate) use joints::JointLinearisation;
+pub(crate) use joints::{JointTangent, Joints, pin_lanes, rotations};
 
 /// Contacts, joints and what the rock does to the bit at the last residual.
 #[derive(Clone)]
@@ -25,8 +26,6 @@ pub struct Interactions {
     pub joints: Joints,
     /// Torque and weight of the rock on the bit.
     pub bit: BitLoad,
-    /// How each station moves in both annuli of mud, over all stations; empty where mud near walls does not count.
-    pub(crate) mud: Vec<[Motion; 2]>,
     /// Whether a layer's friction has bristles.
     has_bristles: bool,
     /// Displacements at the start of the step, in the numbering that it is taken in; for bristles only.
@@ -50,7 +49,6 @@ impl Interactions {
             ),
             joints: Joints::new(model, instructions),
             bit: BitLoad::new(&model.description.rock),
-            mud: vec![[Motion::default(); 2]; model.mud.as_ref().map_or(0, |mud| mud.near_wall.len())],
             has_bristles,
             // A station has at most 24 unknowns in the numbering of the model, and at most a node of 16 in the chain's.
             start: Vec::with_capacity(if has_bristles { 24 * model.stations.len() } else { 0 }),

@@ -1,22 +1,18 @@
 //! A step in time: in parts that are halved and retried until they converge.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use super::Stepper;
 use super::settings::Forcing;
 use crate::chain::ChainEquations;
 use crate::dynamics::conditions::{Conditions, TopEnd};
-use crate::dynamics::energy::{SpanWorks, StepEnds};
+use crate::dynamics::energy::StepEnds;
 use crate::dynamics::newton::{self, Rejected, Stride};
-use crate::dynamics::numbered::Numbered;
 use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::Phase;
-use crate::dynamics::stations::StationEquations;
 use crate::dynamics::sub_steps::SubSteps;
 use crate::dynamics::tolerances::Accuracy;
 use crate::elements::string::StringStep;
-use crate::tool::description::Direction;
 
 /// Whole turns after which they are subtracted from the pipe's spins, so that the rounding of the angles stays below that of
 /// the forces however long the tool runs.
@@ -156,7 +152,6 @@ impl Stepper {
         let Self {
             model,
             chain,
-            stations,
             interactions,
             stopwatch,
             track,
@@ -164,43 +159,26 @@ impl Stepper {
             ..
         } = self;
         let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
-        let (iterations, numbered, spans) = if let Some(chain) = chain {
-            // Spans are deflected by the forces at the start of the step.
-            to.deflection.copy_from_slice(&track.energy.deflection);
-            // Pins resist by the forces there, too.
-            chain.set_pin_moments(
-                &model.description.joint.friction,
-                &track.energy.joints,
-                &mut to.pin_moments,
-            );
-            let mut equations = ChainEquations {
-                model,
-                chain,
-                interactions,
-                stopwatch,
-            };
-            let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
-            equations.interactions.keep_bristles(to);
-            equations.energy(energy, to, &conditions);
-            track.measure_displacements();
-            let spans = chain.span_works(&track.moved, &track.energy.spans, &track.trial_energy.spans);
-            (made, chain.model.numbered(model), spans)
-        } else {
-            let stations = Arc::make_mut(stations);
-            stations.set_pin_moments(model, from, &mut to.pin_moments);
-            let mut equations = StationEquations {
-                model,
-                room: stations,
-                interactions,
-                stopwatch,
-            };
-            let made = newton::step(&mut equations, &stride, &conditions, from, to)?;
-            stations.show_torque_of_play(model, interactions, to);
-            interactions.keep_bristles(to);
-            energy.evaluate(model, to, &conditions, &stations.assembler, interactions);
-            track.measure_displacements();
-            (made, Numbered::of(model), SpanWorks::default())
+        // Spans are deflected by the forces at the start of the step.
+        to.deflection.copy_from_slice(&track.energy.deflection);
+        // Pins resist by the forces there, too.
+        chain.set_pin_moments(
+            &model.description.joint.friction,
+            &track.energy.joints,
+            &mut to.pin_moments,
+        );
+        let mut equations = ChainEquations {
+            model,
+            chain,
+            interactions,
+            stopwatch,
         };
+        let iterations = newton::step(&mut equations, &stride, &conditions, from, to)?;
+        equations.interactions.keep_bristles(to);
+        equations.energy(energy, to, &conditions);
+        track.measure_displacements();
+        let spans = chain.span_works(&track.moved, &track.energy.spans, &track.trial_energy.spans);
+        let numbered = chain.model.numbered(model);
         interactions.bit.accept();
         if let Some(string) = string {
             let (trial, places) = (&track.trial, numbered.places);
@@ -231,16 +209,7 @@ impl Stepper {
         self.turns += turns;
         state.drive_angle -= turns * TAU;
         self.interactions.bit.unwind(turns);
-        let mut unwind = |spin: usize| state.q[spin] -= turns * TAU;
-        if let Some(chain) = &self.chain {
-            chain.spins().for_each(unwind);
-            return;
-        }
-        for station in &self.model.stations {
-            unwind(station.pipe_above + Direction::Psi as usize);
-            if station.pipe_below != station.pipe_above {
-                unwind(station.pipe_below + Direction::Psi as usize);
-            }
-        }
+        let unwind = |spin: usize| state.q[spin] -= turns * TAU;
+        self.chain.spins().for_each(unwind);
     }
 }

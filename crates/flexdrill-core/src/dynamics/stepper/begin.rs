@@ -1,7 +1,5 @@
 //! How the motion begins: from a given state, with the string's end held until then.
 
-use std::sync::Arc;
-
 use super::Stepper;
 use super::advance::apply_string;
 use super::settings::Counters;
@@ -25,35 +23,31 @@ impl Stepper {
         let mut conditions = self.held(self.conditions(state.time, inputs));
         self.lift_off_bottom();
         let (to, scratch) = (&mut self.track.state, &mut self.track.trial);
-        if let Some(chain) = &mut self.chain {
-            // The view keeps what the chain has no unknowns for, and never writes: supports' and padding's values.
-            self.view.copy_from(state);
-            chain.take(&self.model, state, to);
-            let mut equations = ChainEquations {
-                model: &self.model,
-                chain,
-                interactions: &mut self.interactions,
-                stopwatch: &mut self.stopwatch,
-            };
-            // The balance over all stations is not quite the balance over the nodes.
-            let at_rest = to.v.iter().all(|&v| v == 0.0);
-            if at_rest {
-                equations.polish_rest(to, scratch, &conditions);
-            }
-            let h = if at_rest { 0.0 } else { self.prepared_for };
-            scratch.copy_from(to);
-            if equations.balance_accelerations(scratch, &conditions, h).is_ok() {
-                to.copy_from(scratch);
-            }
-        } else {
-            to.copy_from(state);
+        // The view keeps what the chain has no unknowns for, and never writes: supports' and padding's values.
+        self.view.copy_from(state);
+        self.chain.take(&self.model, state, to);
+        let mut equations = ChainEquations {
+            model: &self.model,
+            chain: &mut self.chain,
+            interactions: &mut self.interactions,
+            stopwatch: &mut self.stopwatch,
+        };
+        // The balance over all stations is not quite the balance over the nodes.
+        let at_rest = to.v.iter().all(|&v| v == 0.0);
+        if at_rest {
+            equations.polish_rest(to, scratch, &conditions);
+        }
+        let h = if at_rest { 0.0 } else { self.prepared_for };
+        scratch.copy_from(to);
+        if equations.balance_accelerations(scratch, &conditions, h).is_ok() {
+            to.copy_from(scratch);
         }
         if state.scheme_step == 0.0 {
             let State { a, lagged, .. } = to;
             lagged.copy_from_slice(a);
         }
         self.begin_string(&mut conditions);
-        self.evaluate(&conditions, self.chain.is_none());
+        self.evaluate(&conditions, false);
         self.audit = EnergyAudit::default();
         self.counters = Counters::default();
         self.turns = 0.0;
@@ -102,7 +96,6 @@ impl Stepper {
         let Self {
             model,
             chain,
-            stations,
             interactions,
             stopwatch,
             track,
@@ -110,20 +103,14 @@ impl Stepper {
         } = self;
         let (state, energy) = (&mut track.state, &mut track.energy);
         interactions.begin(state, 0.0);
-        if let Some(chain) = chain {
-            let mut equations = ChainEquations {
-                model,
-                chain,
-                interactions,
-                stopwatch,
-            };
-            equations.evaluate(state, conditions, keep_axial);
-            equations.energy(energy, state, conditions);
-        } else {
-            let stations = Arc::make_mut(stations);
-            stations.assembler.residual(interactions, model, state, conditions);
-            energy.evaluate(model, state, conditions, &stations.assembler, interactions);
-        }
+        let mut equations = ChainEquations {
+            model,
+            chain,
+            interactions,
+            stopwatch,
+        };
+        equations.evaluate(state, conditions, keep_axial);
+        equations.energy(energy, state, conditions);
         if let Some(string) = &self.string {
             energy.add_string(string);
         }

@@ -11,11 +11,7 @@ impl Stepper {
         for station in &self.model.stations {
             for direction in [Direction::V, Direction::W] {
                 let unknown = station.pipe_above + direction as usize;
-                let place = match &self.chain {
-                    Some(chain) => chain.model.place(unknown),
-                    None => Some(unknown),
-                };
-                if let Some(place) = place
+                if let Some(place) = self.chain.model.place(unknown)
                     && self.model.held.binary_search(&unknown).is_err()
                 {
                     self.track.state.v[place] += velocity();

@@ -2,25 +2,22 @@
 //! what every step needs of it without that.
 
 use super::Stepper;
-use crate::dynamics::state::{State, translation};
+use crate::dynamics::state::State;
 use crate::dynamics::view::BottomMotion;
-use crate::tool::description::Direction;
 
 impl Stepper {
     /// State at the end of the last step, in the numbering of the model: a copy.
     pub fn state(&self) -> State {
-        let Some(chain) = &self.chain else {
-            return self.track.state.clone();
-        };
         let mut state = self.view.clone();
-        chain.show(&self.model, &self.track.state, &self.track.energy.joints, &mut state);
+        self.chain
+            .show(&self.model, &self.track.state, &self.track.energy.joints, &mut state);
         state
     }
 
     /// Makes [`Stepper::view`] the state at the end of the last step.
     pub(crate) fn refresh_view(&mut self) {
-        if let (Some(chain), false) = (&self.chain, self.view_is_current) {
-            chain.show(
+        if !self.view_is_current {
+            self.chain.show(
                 &self.model,
                 &self.track.state,
                 &self.track.energy.joints,
@@ -32,43 +29,26 @@ impl Stepper {
 
     /// The same as [`Stepper::state`] without a copy, after [`Stepper::refresh_view`].
     pub(crate) fn view(&self) -> &State {
-        debug_assert!(self.chain.is_none() || self.view_is_current, "an earlier step's view");
-        if self.chain.is_some() {
-            &self.view
-        } else {
-            &self.track.state
-        }
+        debug_assert!(self.view_is_current, "an earlier step's view");
+        &self.view
     }
 
     /// One of the displacements, velocities or accelerations at the end of the last step, by the model's unknown.
     pub(crate) fn value(&self, of: fn(&State) -> &[f64], unknown: usize) -> f64 {
         let values = of(&self.track.state);
-        match &self.chain {
-            Some(chain) => chain.value(&self.model, values, unknown),
-            None => values[unknown],
-        }
+        self.chain.value(&self.model, values, unknown)
     }
 
     /// How the bottom of the pipe moves at the end of the last step.
     pub(crate) fn bottom_motion(&self) -> BottomMotion {
-        let (state, last) = (&self.track.state, self.model.last());
-        let bottom = &self.model.stations[last];
-        let (spin, axial) = (bottom.pipe_above + Direction::Psi as usize, bottom.pipe_above);
-        match &self.chain {
-            Some(chain) => {
-                let mut above = chain.pipe_translation(&state.a, last - 1);
-                if let Some(joint) = self.model.stations[last - 1].joint {
-                    let at = &self.model.joints[joint];
-                    above = at.lower.tr_mul(&(at.upper * above));
-                }
-                let at_bottom = chain.pipe_translation(&state.a, last);
-                let spin = chain.model.places.bit_spin;
-                BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
-            }
-            None => {
-                let above = translation(&state.a, self.model.stations[last - 1].pipe_below);
-                BottomMotion::new([state.v[spin], state.a[spin]], state.a[axial], above)
-            }
+        let (chain, state, last) = (&self.chain, &self.track.state, self.model.last());
+        let mut above = chain.pipe_translation(&state.a, last - 1);
+        if let Some(joint) = self.model.stations[last - 1].joint {
+            let at = &self.model.joints[joint];
+            above = at.lower.tr_mul(&(at.upper * above));
         }
+        let at_bottom = chain.pipe_translation(&state.a, last);
+        let spin = chain.model.places.bit_spin;
+        BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
     }
 }

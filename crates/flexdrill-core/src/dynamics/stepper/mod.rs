@@ -12,23 +12,19 @@ mod settings;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::chain::Chain;
+use crate::chain::{Chain, ChainEquations};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure};
 use crate::dynamics::phases::{PhaseTimes, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stations::{StationEquations, StationRoom};
 use crate::dynamics::sub_steps::most_attempts;
 use crate::dynamics::tolerances::Tolerances;
 use crate::dynamics::track::Track;
 use crate::elements::rock::BitMark;
 use crate::elements::string::StringLine;
 use crate::inputs::{InputKind, Inputs};
-#[cfg(test)]
-use crate::linear::SparseReference;
-use crate::linear::{BlockLu, LinearSolver};
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::tool::description::{Body, LiveParameters, ToolDescription};
@@ -59,13 +55,11 @@ pub struct Stepper {
     /// Paths of the bit at the start of the step.
     bit_mark: Option<BitMark>,
     stopwatch: Stopwatch,
-    /// The tool over its nodes; `None` where steps are taken over all stations.
-    chain: Option<Chain>,
-    /// The tool over all stations, for the start; forks share it until one of them writes to it.
-    stations: Arc<StationRoom>,
-    /// Where the motion is: in the numbering of the chain, or without one in that of the model.
+    /// The tool over its nodes.
+    chain: Chain,
+    /// Where the motion is, in the numbering of the chain.
     track: Track,
-    /// The present state in the numbering of the model, as it was asked for last; of a chain only.
+    /// The present state in the numbering of the model, as it was asked for last.
     view: State,
     view_is_current: bool,
     audit: EnergyAudit,
@@ -90,21 +84,15 @@ impl Stepper {
             scheme,
             tolerances,
             max_halvings,
-            solver: kind,
+            solver,
             instructions,
         } = *settings;
         let model = Arc::new(Model::new(description)?);
-        let solver: Box<dyn LinearSolver> = match kind {
-            SolverKind::Chain | SolverKind::Stations => Box::new(BlockLu::new(&model.layout, instructions)),
-            #[cfg(test)]
-            SolverKind::Reference => Box::new(SparseReference::default()),
+        let chain = match solver {
+            SolverKind::Chain => Chain::of(&model, &tolerances, h, instructions),
+            SolverKind::Stations => Chain::over_stations(&model, &tolerances, instructions),
         };
-        let view = State::at_rest(&model);
-        let chain = (kind == SolverKind::Chain).then(|| Chain::of(&model, &tolerances, h, instructions));
-        let track = match &chain {
-            Some(chain) => Track::new(&model, chain.state(&model), chain.spans()),
-            None => Track::new(&model, view.clone(), 0),
-        };
+        let track = Track::new(&model, chain.state(&model), chain.spans());
         let mut stepper = Self {
             tolerances,
             instructions,
@@ -116,10 +104,9 @@ impl Stepper {
             string: description.string.as_ref().map(|string| StringLine::new(string, h)),
             bit_mark: None,
             stopwatch: Stopwatch::default(),
-            stations: Arc::new(StationRoom::new(&model, solver, tolerances, instructions)),
             chain,
             track,
-            view,
+            view: State::at_rest(&model),
             view_is_current: false,
             audit: EnergyAudit::default(),
             counters: Counters::default(),
@@ -142,12 +129,6 @@ impl Stepper {
         &self.interactions
     }
 
-    #[cfg(test)]
-    /// The last residual over all stations, with its reactions.
-    pub(crate) fn station_residual(&self) -> &[f64] {
-        &self.stations.assembler.residual
-    }
-
     /// When a step counts as solved.
     pub(super) fn tolerances(&self) -> &Tolerances {
         &self.tolerances
@@ -163,9 +144,9 @@ impl Stepper {
         &self.counters
     }
 
-    /// Nodes of the chain, if steps are taken over one.
-    pub fn chain_nodes(&self) -> Option<usize> {
-        self.chain.as_ref().map(Chain::nodes)
+    /// Nodes of the chain.
+    pub fn chain_nodes(&self) -> usize {
+        self.chain.nodes()
     }
 
     /// Most Newton corrections (each an assembly and a solution) that one [`Stepper::advance`] can make, whatever
@@ -192,8 +173,7 @@ impl Stepper {
     /// Most halvings of the step that may be asked for: down to the smallest step for which the inner stations of a span
     /// follow its ends, [`MOST_REFINEMENT`] at most.
     pub fn finest_refinement(&self) -> u32 {
-        let finest = |chain: &Chain| chain.finest_refinement(self.prepared_for);
-        self.chain.as_ref().map_or(MOST_REFINEMENT, finest).min(MOST_REFINEMENT)
+        self.chain.finest_refinement(self.prepared_for).min(MOST_REFINEMENT)
     }
 
     /// Times the phases of [`Stepper::advance`] while it runs.
@@ -244,14 +224,19 @@ impl Stepper {
         self.live = live;
     }
 
-    /// The equations over all stations.
-    pub(super) fn over_stations(&mut self) -> StationEquations<'_> {
-        StationEquations {
+    /// The equations of `chain`, which is another one than that of the steps, with the contacts of this tool.
+    pub(super) fn equations_of<'a>(&'a mut self, chain: &'a mut Chain) -> ChainEquations<'a> {
+        ChainEquations {
             model: &self.model,
-            room: Arc::make_mut(&mut self.stations),
+            chain,
             interactions: &mut self.interactions,
             stopwatch: &mut self.stopwatch,
         }
+    }
+
+    /// A chain with a node at every station, on which the start is found.
+    pub(super) fn chain_over_stations(&self) -> Chain {
+        Chain::over_stations(&self.model, &self.tolerances, self.instructions)
     }
 
     /// Conditions at `time` under `inputs`.
@@ -261,10 +246,7 @@ impl Stepper {
 
     /// Where unknowns are in the numbering in which steps are taken.
     pub(super) fn places(&self) -> &Places {
-        match &self.chain {
-            Some(chain) => &chain.model.places,
-            None => &self.model.places,
-        }
+        &self.chain.model.places
     }
 
     /// Angle of the drive since the start (rad).
@@ -279,11 +261,9 @@ impl Stepper {
         }
         self.prepared_for = h;
         let (conditions, finest) = (self.conditions(0.0, &Inputs::ZERO), self.finest_level());
-        if let Some(chain) = &mut self.chain {
-            for level in 0..=finest {
-                let factors = self.scheme.factors(h / f64::from(1_u32 << level));
-                chain.prepare(&self.model, &conditions, factors);
-            }
+        for level in 0..=finest {
+            let factors = self.scheme.factors(h / f64::from(1_u32 << level));
+            self.chain.prepare(&self.model, &conditions, factors);
         }
     }
 

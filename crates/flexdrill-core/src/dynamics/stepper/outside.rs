@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
-use crate::dynamics::stations::turned_by_shortening;
+use crate::dynamics::energy::SpanForces;
 use crate::elements::string::{Feed, StringLine};
 use crate::model::HeldNode;
 use crate::tool::Body;
@@ -155,13 +155,7 @@ impl Stepper {
     /// Sum of the forces of the tensions in the geometric stiffness (N, along the axes of the world). Tensions alone have none:
     /// this is how far the wall's forces turn as the tool moves along the hole.
     fn turned_with_the_tool(&self) -> Vector3<f64> {
-        let (model, energy) = (&self.model, &self.track.energy);
-        match &self.chain {
-            Some(chain) => chain.turned_with_the_tool(model, energy),
-            None => {
-                model.sum_in_world(&energy.geometric) + turned_by_shortening(model, &self.track.state, energy.pressure)
-            }
-        }
+        self.chain.turned_with_the_tool(&self.model, &self.track.energy)
     }
 
     /// The sums of all forces on the tool from outside.
@@ -177,16 +171,15 @@ impl Stepper {
             let direction = load.unknown - node;
             (direction < 3).then(|| frame.column(direction) * *value)
         });
-        let sum = |values: &[f64], spans: fn(&crate::dynamics::energy::SpanForces) -> &[[f64; 16]; 2]| match &self.chain
-        {
-            Some(chain) => chain.sum_in_world(model, values, energy.spans.iter().map(spans)),
-            None => model.sum_in_world(values),
+        let chain = &self.chain;
+        let sum = |values: &[f64], spans: fn(&SpanForces) -> &[[f64; 16]; 2]| {
+            chain.sum_in_world(model, values, energy.spans.iter().map(spans))
         };
         // The guide moves against the wall through mud; between pipe and guide it acts on both alike.
-        let mud = match &self.chain {
-            _ if energy.mud.is_empty() => Vector3::zeros(),
-            Some(chain) => chain.sum_in_world(model, &energy.mud, std::iter::empty()),
-            None => model.sum_in_world(&energy.mud),
+        let mud = if energy.mud.is_empty() {
+            Vector3::zeros()
+        } else {
+            chain.sum_in_world(model, &energy.mud, std::iter::empty())
         };
         OutsideForces {
             supports: model

@@ -54,17 +54,14 @@ impl Forcing {
     }
 }
 
-/// Which linear solver to use.
+/// Over which nodes steps are taken.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum SolverKind {
-    /// Over the chain of nodes.
+    /// Over the fewest nodes that a step resolves, corrections in single precision where that is enough.
     #[default]
     Chain,
-    /// Over all stations by block LU: slower and plain, to hold the chain against.
+    /// Over a chain with a node at every station, in double precision: slower, nothing slaved, to hold the other against.
     Stations,
-    /// faer's sparse LU over all stations, which the tests hold block LU against.
-    #[cfg(test)]
-    Reference,
 }
 
 /// How steps are taken.

@@ -6,11 +6,11 @@ use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stations::Assembler;
 use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::inputs::Inputs;
 use crate::model::Model;
+use crate::stations::Assembler;
 use crate::support::{Random, small};
 use crate::tool::{
     AddedMass, Body, FreeCurvature, FrictionLaw, JointKind, Location, MudDamping, MudDescription, MudFilm, PointMass,

@@ -23,12 +23,15 @@ mod vector;
 
 pub use layer::LayerContacts;
 
-use nalgebra::{SVector, Vector2};
+#[cfg(test)]
+use nalgebra::SVector;
+use nalgebra::Vector2;
 
 use super::slip::Slip;
 use crate::simd::number::{Lane, Number};
 use crate::tool::{FrictionLaw, GapDescription};
 
+#[cfg(test)]
 /// Local motion or force of a gap.
 pub type GapVector = SVector<f64, 6>;
 
@@ -121,6 +124,7 @@ pub struct GapTangent {
     pub by_other: f64,
 }
 
+#[cfg(test)]
 /// A dyad of a [`GapTangent`].
 #[derive(Debug, Clone, Copy)]
 pub struct TangentTerm {
@@ -130,6 +134,7 @@ pub struct TangentTerm {
     pub by: GapVector,
 }
 
+#[cfg(test)]
 impl GapTangent {
     /// The four dyads in local directions; the first is Eq. 22.
     pub fn terms(&self) -> [TangentTerm; 4] {

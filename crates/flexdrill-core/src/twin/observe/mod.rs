@@ -87,8 +87,10 @@ impl Observer {
             transfer: TransferWatch::new(&settings.transfer, hoist_response(stepper)),
             hole_depth: stepper.bit_depth(),
             bit: Means::default(),
-            guide_preload: (settings.guide_preload.filter(|_| !model.preload.is_empty()))
-                .map(|load| LoadWatch::new(&load, model.guide.len())),
+            guide_preload: (settings
+                .guide_preload
+                .filter(|_| model.description.guide_free_curvature.is_some()))
+            .map(|load| LoadWatch::new(&load, model.guide.len())),
             pressure_folding: (settings.pressure_folding.filter(|_| model.pressure.is_some()))
                 .map(|load| LoadWatch::new(&load, model.pipe.len())),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),

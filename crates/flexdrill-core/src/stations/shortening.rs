@@ -1,8 +1,7 @@
 //! Shortening of the pipe's elements over all stations.
 
-use nalgebra::Vector3;
-
 use super::assembler::Assembler;
+use super::linear::BlockSystem;
 use super::tangent::add_pipe_element;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
@@ -10,7 +9,6 @@ use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
 use crate::elements::beam::ElementVector;
 use crate::elements::shortening::{Stretch, StretchTangent};
-use crate::linear::BlockSystem;
 use crate::model::Model;
 
 /// An element at one state.
@@ -52,23 +50,6 @@ impl Stretched {
             slopes,
         }
     }
-}
-
-/// Sum of the forces N G q of the pipe's elements in the world (N), under the pressure `at_top` (Pa); zero where they do not
-/// shorten. Tensions alone have no sum; the wall's part in an arc has.
-pub(crate) fn turned_by_shortening(model: &Model, state: &State, at_top: f64) -> Vector3<f64> {
-    let mut sum = Vector3::zeros();
-    if !model.shortens() {
-        return sum;
-    }
-    for e in 0..model.pipe.len() {
-        let at = Stretched::under(model, e, state, model.description.rayleigh.beta, at_top);
-        let slopes = &at.slopes[0];
-        let (_, _, frame) = model.node_of(model.stations[e + 1].pipe_above);
-        let both = Vector3::from_fn(|k, _| slopes[k] + slopes[6 + k]);
-        sum += frame * both * at.stretch.across();
-    }
-    sum
 }
 
 /// First unknowns of both nodes of the pipe's element `e`.

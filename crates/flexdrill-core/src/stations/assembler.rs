@@ -6,9 +6,11 @@
 //!
 //! [`Interactions`]: crate::dynamics::interactions::Interactions
 
+use super::constants::Constants;
+use super::linear::{BlockSystem, TangentIncrement};
 use crate::dynamics::factors::TangentFactors;
 use crate::elements::joint::Joint;
-use crate::linear::{BlockSystem, TangentIncrement};
+use crate::elements::mud_wall::Motion;
 use crate::model::Model;
 use crate::simd::Instructions;
 
@@ -23,6 +25,10 @@ pub struct Assembler {
     pub(super) step_constant: BlockSystem,
     pub(super) step_constant_for: Option<(TangentFactors, f64, f64)>,
     pub(super) instructions: Instructions,
+    /// Packed elements and constant forces.
+    pub(super) constants: Constants,
+    /// How each station moves in both annuli of mud; empty where mud near walls does not count.
+    pub(super) mud: Vec<[Motion; 2]>,
     /// What contacts, joints and the bit add to the tangent.
     pub increment: TangentIncrement,
 }
@@ -36,6 +42,8 @@ impl Assembler {
             step_constant: system.clone(),
             step_constant_for: None,
             instructions,
+            constants: Constants::of(model),
+            mud: vec![[Motion::default(); 2]; model.mud.as_ref().map_or(0, |mud| mud.near_wall.len())],
             increment: TangentIncrement::new(
                 &model.layout,
                 model.joints.len(),

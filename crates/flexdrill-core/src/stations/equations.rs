@@ -1,31 +1,27 @@
-//! The equations of a step station by station: the static start, and the plain form that the chain is held against.
+//! The equations of a step station by station.
 
 use super::assembler::Assembler;
+use super::linear::LinearSolver;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Stride, correct, worst};
+use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
 use crate::elements::joint::rotation::LARGEST_TILT;
-use crate::linear::{LinearSolver, Singular};
 use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
 
 /// Room for Newton's iteration over all stations.
-#[derive(Clone)]
 pub struct StationRoom {
     /// Residual and tangent.
     pub assembler: Assembler,
     /// Solves with the tangent.
     pub solver: Box<dyn LinearSolver>,
-    /// When an iterate is accepted.
-    pub tolerances: Tolerances,
     correction: Vec<f64>,
     limits: Limits,
-    multiplier: Vec<bool>,
     /// 0 for multipliers, else 1.
     moving: Vec<f64>,
     /// Axial forces of pipe and guide foreseen for the end of the step, and what part of them counts.
@@ -73,11 +69,9 @@ impl StationRoom {
         Self {
             assembler: Assembler::new(model, instructions),
             solver,
-            tolerances,
             correction: vec![0.0; n],
             limits: Limits::new(inverse(&limits), inverse(&moving_limits)),
             moving: multiplier.iter().map(|&m| if m { 0.0 } else { 1.0 }).collect(),
-            multiplier,
             foreseen: [vec![0.0; model.pipe.len()], vec![0.0; model.guide.len()]],
             foreseen_part: 0.0,
         }
@@ -117,81 +111,6 @@ impl StationEquations<'_> {
         } = &mut *self.room;
         assembler.tangent(self.interactions, self.model, state, conditions, factors);
         solver.solve(&assembler.system, correction)
-    }
-
-    /// Accelerations and multipliers in balance with the forces at `state`, Eq. 17: M a + Phi_q^T lambda = F.
-    ///
-    /// With `h` (s) above 0 as far as steps of that size can follow them: (M + h C + h^2 K) a + Phi_q^T lambda = F, the
-    /// forces with what the accelerations themselves do to them within a step. Motion of frequency omega keeps its
-    /// acceleration but for the part (omega h)^2.
-    ///
-    /// # Errors
-    /// When the mass matrix with the constraints is singular.
-    pub(crate) fn balance_accelerations(
-        &mut self,
-        state: &mut State,
-        conditions: &Conditions,
-        h: f64,
-    ) -> Result<(), Singular> {
-        state.a.fill(0.0);
-        self.interactions.begin(state, 0.0);
-        self.evaluate(state, conditions);
-        self.room.assembler.drop_reactions(self.model);
-        let factors = TangentFactors {
-            stiffness: h * h,
-            damping: h,
-            mass: 1.0,
-        };
-        let StationRoom {
-            assembler,
-            correction,
-            multiplier,
-            ..
-        } = &mut *self.room;
-        for (i, c) in correction.iter_mut().enumerate() {
-            // The rows ask for accelerations along the constraints, not for corrections of position.
-            *c = if multiplier[i] { 0.0 } else { -assembler.residual[i] };
-        }
-        self.solve_correction(state, conditions, factors)?;
-        for (i, &x) in self.room.correction.iter().enumerate() {
-            if self.room.multiplier[i] {
-                state.q[i] += x;
-            } else {
-                state.a[i] = x;
-            }
-        }
-        self.evaluate(state, conditions);
-        Ok(())
-    }
-
-    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten. Where
-    /// the static tangent has no inverse (a body that could float), the state is not changed.
-    pub(crate) fn polish_rest(&mut self, state: &mut State, scratch: &mut State, conditions: &Conditions) {
-        let factors = TangentFactors {
-            stiffness: 1.0,
-            damping: 0.0,
-            mass: 0.0,
-        };
-        let mut at = Iteration::first(conditions, factors);
-        self.interactions.begin(state, 0.0);
-        self.evaluate(state, conditions);
-        let mut best = worst(self.residuals(), self.weights(Accuracy::Rest));
-        while at.corrections < self.room.tolerances.max_iterations {
-            scratch.copy_from(state);
-            if self.solve(scratch, &at).is_err() {
-                return;
-            }
-            at.corrections += 1;
-            correct(self, scratch, factors);
-            scratch.update_axial(self.model, conditions);
-            self.evaluate(scratch, conditions);
-            let ratio = worst(self.residuals(), self.weights(Accuracy::Rest));
-            if ratio.is_nan() || ratio >= best || self.out_of_range(scratch).is_some() {
-                return;
-            }
-            best = ratio;
-            state.copy_from(scratch);
-        }
     }
 }
 

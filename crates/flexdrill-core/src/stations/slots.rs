@@ -1,12 +1,12 @@
 //! Slots of the guide's elements that close, over all stations.
 
 use super::assembler::Assembler;
+use super::linear::BlockSystem;
 use super::tangent::add_guide_element;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
 use crate::elements::beam::ElementMatrix;
 use crate::elements::slots::{Closed, Rotations};
-use crate::linear::BlockSystem;
 use crate::model::Model;
 
 /// The closed slots at a state: number of the element, first unknowns of its nodes, and what they do.

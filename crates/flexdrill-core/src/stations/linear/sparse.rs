@@ -5,8 +5,9 @@ use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, MatMut};
 
+use super::LinearSolver;
 use super::system::BlockSystem;
-use super::{LinearSolver, Singular};
+use crate::dynamics::newton::Singular;
 
 /// The reference solver: general, slower, allocates.
 #[derive(Clone, Default)]
@@ -15,10 +16,6 @@ pub struct SparseReference {
 }
 
 impl LinearSolver for SparseReference {
-    fn boxed_clone(&self) -> Box<dyn LinearSolver> {
-        Box::new(self.clone())
-    }
-
     fn solve(&mut self, system: &BlockSystem, rhs: &mut [f64]) -> Result<(), Singular> {
         let n = system.layout().unknowns();
         let mut triplets = Vec::new();

@@ -2,11 +2,7 @@
 
 use nalgebra::SMatrix;
 
-/// Unknowns of a plain station: pipe node, guide node.
-pub const PLAIN_BLOCK: usize = 12;
-/// Unknowns of a joint station: end of the link above (0..6), guide (6..12), start of the link below (12..18),
-/// multipliers (18..23), padding.
-pub const JOINT_BLOCK: usize = 24;
+use crate::model::layout::{JOINT_BLOCK, Layout, PLAIN_BLOCK};
 
 /// Coupling of a station's outgoing nodes with the same nodes of the next station. Pipe and guide meet inside stations
 /// only.
@@ -27,7 +23,6 @@ impl Coupling {
         }
     }
 
-    #[cfg(test)]
     /// An entry of the 12 x 12 matrix over pipe and guide.
     pub fn entry(&self, row: usize, column: usize) -> f64 {
         match (row < 6, column < 6) {
@@ -57,70 +52,27 @@ impl Coupling {
     }
 }
 
-/// Which stations are joints, and where each station's unknowns begin: how q_rd of Eq. 19 is stacked.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Layout {
-    offsets: Vec<usize>,
-    large: Vec<bool>,
-    slots: Vec<usize>,
-}
-
 impl Layout {
-    /// A layout with a block of 24 where `large` says so, else of 12.
-    pub fn new(large: Vec<bool>) -> Self {
-        let mut offsets = Vec::with_capacity(large.len() + 1);
-        let mut slots = Vec::with_capacity(large.len());
-        let (mut offset, mut plain, mut joint) = (0, 0, 0);
-        for &is_large in &large {
-            offsets.push(offset);
-            if is_large {
-                slots.push(joint);
-                joint += 1;
-                offset += JOINT_BLOCK;
-            } else {
-                slots.push(plain);
-                plain += 1;
-                offset += PLAIN_BLOCK;
-            }
-        }
-        offsets.push(offset);
-        Self { offsets, large, slots }
-    }
-
-    /// Number of stations.
-    pub fn stations(&self) -> usize {
-        self.large.len()
-    }
-
-    /// Number of unknowns, padding included.
-    pub fn unknowns(&self) -> usize {
-        self.offsets[self.stations()]
-    }
-
-    /// First unknown of a station.
-    pub fn offset(&self, station: usize) -> usize {
-        self.offsets[station]
-    }
-
     /// Whether the station has a block of 24.
     pub fn is_large(&self, station: usize) -> bool {
-        self.large[station]
+        self.offset(station + 1) - self.offset(station) == JOINT_BLOCK
     }
 
-    /// Index of the station's block among those of its size.
-    pub fn slot(&self, station: usize) -> usize {
-        self.slots[station]
+    /// Index of each station's block among those of its size.
+    pub fn slots(&self) -> Vec<usize> {
+        let mut made = [0; 2];
+        let mut slot = |station| {
+            let of_size = &mut made[usize::from(self.is_large(station))];
+            *of_size += 1;
+            *of_size - 1
+        };
+        (0..self.stations()).map(&mut slot).collect()
     }
 
     /// Local index in the station's block of outgoing unknown `k` (0..6 the pipe node towards the bit, 6..12 the
     /// guide).
     pub fn outgoing(&self, station: usize, k: usize) -> usize {
-        if self.large[station] && k < 6 { k + 12 } else { k }
-    }
-
-    /// Station of an unknown.
-    pub fn station_of(&self, unknown: usize) -> usize {
-        self.offsets.partition_point(|&offset| offset <= unknown) - 1
+        if self.is_large(station) && k < 6 { k + 12 } else { k }
     }
 }
 
@@ -145,6 +97,8 @@ impl Diagonal {
 #[derive(Debug, Clone)]
 pub struct BlockSystem {
     layout: Layout,
+    /// Index of each station's block among those of its size.
+    pub slots: Vec<usize>,
     /// Diagonal blocks.
     pub diagonal: Diagonal,
     /// Rows of station i (outgoing), columns of station i + 1.
@@ -156,7 +110,9 @@ pub struct BlockSystem {
 impl BlockSystem {
     /// A zero system.
     pub fn new(layout: Layout) -> Self {
-        let joint = layout.large.iter().filter(|&&large| large).count();
+        let joint = (0..layout.stations())
+            .filter(|&station| layout.is_large(station))
+            .count();
         let couplings = layout.stations().saturating_sub(1);
         Self {
             diagonal: Diagonal {
@@ -165,6 +121,7 @@ impl BlockSystem {
             },
             upper: vec![Coupling::zeros(); couplings],
             lower: vec![Coupling::zeros(); couplings],
+            slots: layout.slots(),
             layout,
         }
     }
@@ -198,8 +155,8 @@ impl BlockSystem {
     /// An entry of a station's diagonal block.
     #[inline]
     pub fn entry(&mut self, station: usize, row: usize, column: usize) -> &mut f64 {
-        let slot = self.layout.slots[station];
-        if self.layout.large[station] {
+        let slot = self.slots[station];
+        if self.layout.is_large(station) {
             &mut self.diagonal.joint[slot][(row, column)]
         } else {
             &mut self.diagonal.plain[slot][(row, column)]
@@ -209,8 +166,8 @@ impl BlockSystem {
     /// Adds a matrix, given by columns, times `factor` at (`first`, `first`) of a station's diagonal block.
     #[inline]
     pub fn add_scaled<const N: usize>(&mut self, station: usize, first: usize, matrix: &[[f64; N]; N], factor: f64) {
-        let slot = self.layout.slots[station];
-        if self.layout.large[station] {
+        let slot = self.slots[station];
+        if self.layout.is_large(station) {
             add_columns(&mut self.diagonal.joint[slot].data.0, first, matrix, factor);
         } else {
             add_columns(&mut self.diagonal.plain[slot].data.0, first, matrix, factor);
@@ -226,8 +183,8 @@ impl BlockSystem {
         column: usize,
         matrix: &SMatrix<f64, N, N>,
     ) {
-        let slot = self.layout.slots[station];
-        if self.layout.large[station] {
+        let slot = self.slots[station];
+        if self.layout.is_large(station) {
             let mut view = self.diagonal.joint[slot].fixed_view_mut::<N, N>(row, column);
             view += matrix;
         } else {
@@ -239,9 +196,9 @@ impl BlockSystem {
     /// Makes an unknown's equation `x = rhs`, decoupled from all others.
     pub fn hold(&mut self, unknown: usize) {
         let station = self.layout.station_of(unknown);
-        let local = unknown - self.layout.offsets[station];
-        let slot = self.layout.slots[station];
-        if self.layout.large[station] {
+        let local = unknown - self.layout.offset(station);
+        let slot = self.slots[station];
+        if self.layout.is_large(station) {
             self.diagonal.joint[slot].row_mut(local).fill(0.0);
             self.diagonal.joint[slot].column_mut(local).fill(0.0);
             self.diagonal.joint[slot][(local, local)] = 1.0;
@@ -262,22 +219,21 @@ impl BlockSystem {
         }
     }
 
-    #[cfg(test)]
     /// Visits every stored entry as (row, column, value) in global indices; zeros inside blocks included, so that the
     /// pattern does not depend on the values.
     pub fn for_each_entry(&self, mut visit: impl FnMut(usize, usize, f64)) {
         let layout = &self.layout;
         for station in 0..layout.stations() {
-            let offset = layout.offsets[station];
-            let slot = layout.slots[station];
-            let size = if layout.large[station] {
+            let offset = layout.offset(station);
+            let slot = self.slots[station];
+            let size = if layout.is_large(station) {
                 JOINT_BLOCK
             } else {
                 PLAIN_BLOCK
             };
             for column in 0..size {
                 for row in 0..size {
-                    let value = if layout.large[station] {
+                    let value = if layout.is_large(station) {
                         self.diagonal.joint[slot][(row, column)]
                     } else {
                         self.diagonal.plain[slot][(row, column)]
@@ -286,7 +242,7 @@ impl BlockSystem {
                 }
             }
             if station + 1 < layout.stations() {
-                let next = layout.offsets[station + 1];
+                let next = layout.offset(station + 1);
                 for i in 0..12 {
                     let out = offset + layout.outgoing(station, i);
                     for j in 0..12 {
@@ -298,7 +254,6 @@ impl BlockSystem {
         }
     }
 
-    #[cfg(test)]
     /// r = rhs - A x.
     pub fn residual(&self, x: &[f64], rhs: &[f64], r: &mut [f64]) {
         r.copy_from_slice(rhs);

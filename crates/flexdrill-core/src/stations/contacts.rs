@@ -4,13 +4,15 @@
 use nalgebra::{Vector2, Vector3};
 
 use super::assembler::Assembler;
+use super::axial::node;
+use super::linear::ContactBlock;
+use crate::chain::Touching;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::state::{State, inner_lateral, node};
+use crate::dynamics::state::{State, inner_lateral};
 use crate::elements::gap::{GapVector, LayerContacts};
 use crate::elements::mud_wall::Motion;
-use crate::linear::{ContactBlock, Touching};
 use crate::model::{Model, Station};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -42,8 +44,8 @@ impl Assembler {
         let residual = &mut self.residual;
         if let Some(mud) = model.mud.as_ref().filter(|mud| !mud.near_wall.is_empty()) {
             for (s, (station, near)) in model.stations.iter().zip(&mud.near_wall).enumerate() {
-                interactions.mud[s] = mud_motions(model, station, state);
-                let taken = [0, 1].map(|k| near[k].take(&interactions.mud[s][k]));
+                self.mud[s] = mud_motions(model, station, state);
+                let taken = [0, 1].map(|k| near[k].take(&self.mud[s][k]));
                 let total = taken.map(|taken| [0, 1].map(|k| taken.film[k] + taken.inertia[k]));
                 add_mud_forces(residual, station, total);
             }
@@ -75,7 +77,7 @@ impl Assembler {
             };
             let near = model.mud.as_ref().and_then(|mud| mud.near_wall.get(s));
             let near = near.map_or([None; 2], |near| {
-                [0, 1].map(|k| near[k].tangent(&interactions.mud[s][k], &factors))
+                [0, 1].map(|k| near[k].tangent(&self.mud[s][k], &factors))
             });
             if near.iter().any(Option::is_some) {
                 self.increment.touching[s] = Touching::Both;

@@ -3,7 +3,7 @@
 use super::assembler::Assembler;
 use super::equations::StationRoom;
 use crate::dynamics::factors::TangentFactors;
-use crate::dynamics::interactions::{Interactions, JointLinearisation, JointTangent, Joints};
+use crate::dynamics::interactions::{JointLinearisation, JointTangent, Joints};
 use crate::dynamics::state::{State, translation};
 use crate::model::Model;
 
@@ -12,7 +12,7 @@ impl Assembler {
     /// linearises the rotational rows and stops.
     pub(super) fn joint_forces(&mut self, joints: &mut Joints, model: &Model, state: &State) {
         self.translational_rows(model, state);
-        let residual = &mut self.residual;
+        let (residual, increment) = (&mut self.residual, &mut self.increment.joints);
         joints.linearise(&model.places.joints, state, |joint, at: &JointLinearisation<'_>| {
             let lambda = rotational_multipliers(model, state, joint);
             let places = &model.places.joints[joint];
@@ -28,6 +28,7 @@ impl Assembler {
             let first = model.multipliers(joint) + 3;
             for row in 0..at.rows() {
                 residual[first + row] = model.moment_scale * at.value(row);
+                increment[joint].rows[row] = at.gradient(row).map(|x| x * model.moment_scale);
             }
         });
     }
@@ -64,9 +65,6 @@ impl Assembler {
                         *x = tangent.rotation(l, k);
                     }
                 }
-                for (row, gradient) in to.rows.iter_mut().zip(tangent.row_gradients()) {
-                    *row = gradient.map(|x| x * model.moment_scale);
-                }
             },
         );
     }
@@ -82,14 +80,6 @@ impl StationRoom {
         for (joint, moment) in moments.iter_mut().enumerate() {
             let force = translation(&from.q, model.multipliers(joint)).norm() * model.force_scale;
             *moment = pins.moment(rotational_multipliers(model, from, joint)[0], force);
-        }
-    }
-
-    /// Writes the torque of joints with play where that of others has its multiplier: in a place of padding, whose value no
-    /// equation reads.
-    pub(crate) fn show_torque_of_play(&self, model: &Model, interactions: &Interactions, to: &mut State) {
-        for (joint, play) in interactions.joints.plays().enumerate() {
-            to.q[model.multipliers(joint) + 3] = play.multiplier / model.moment_scale;
         }
     }
 }

@@ -4,22 +4,13 @@
 //! pivot row has a zero multiplier and stays unchanged. Eliminating above and below the pivot at once avoids a second
 //! sweep over the right-hand sides.
 
-use crate::simd::vector::Vector;
-
-/// Ratio of the diagonal entry to the largest candidate below which rows are exchanged. Stiffness and inertia dominate
-/// their own equations, so exchanges are rare; the factor covers the different units of displacements and rotations
-/// (forces against couples over an element's length of centimetres).
-pub const PIVOT_RATIO: f64 = 1e-3;
+use crate::chain::double::{PIVOT_RATIO, exchange};
 
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed.
 ///
 /// # Errors
 /// The size of the largest available pivot when it is zero or not a number.
-#[inline(always)]
-pub fn solve_columns<V: Vector, const N: usize, const C: usize>(
-    a: &mut [[f64; N]; N],
-    b: &mut [[f64; N]; C],
-) -> Result<(), f64> {
+pub fn solve_columns<const N: usize, const C: usize>(a: &mut [[f64; N]; N], b: &mut [[f64; N]; C]) -> Result<(), f64> {
     let mut reciprocals = [0.0; N];
     for k in 0..N {
         // The search has no branch inside, so that it runs in vectors; exchanges are rare and cold.
@@ -39,7 +30,7 @@ pub fn solve_columns<V: Vector, const N: usize, const C: usize>(
         }
         // Columns left of the pivot are eliminated already and not read again.
         for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
-            subtract::<V, N>(column, &multipliers, column[k]);
+            subtract::<N>(column, &multipliers, column[k]);
         }
     }
     // `a` is diagonal now; the division by the pivots comes last, so that elimination works on unscaled rows.
@@ -51,70 +42,30 @@ pub fn solve_columns<V: Vector, const N: usize, const C: usize>(
     Ok(())
 }
 
-/// Brings the largest candidate to the diagonal.
-///
-/// # Errors
-/// Its size when it is zero or not a number.
-#[cold]
-#[inline(never)]
-pub fn exchange<const N: usize, const K: usize, const C: usize>(
-    k: usize,
-    a: &mut [[f64; N]; K],
-    b: &mut [[f64; N]; C],
-) -> Result<(), f64> {
-    let mut p = k;
-    for r in k + 1..K {
-        if a[k][r].abs() > a[k][p].abs() {
-            p = r;
-        }
-    }
-    let size = a[k][p].abs();
-    // A block that is singular up to rounding passes this check; Newton's residual then fails to converge.
-    if size.is_nan() || size == 0.0 {
-        return Err(size);
-    }
-    if p != k {
-        let columns = a[k..].iter_mut().chain(b.iter_mut());
-        columns.for_each(|column| column.swap(k, p));
-    }
-    Ok(())
-}
-
 /// out -= a x, for a C-column `a` and a vector `x`.
-#[inline(always)]
-pub fn subtract_product<V: Vector, const N: usize, const C: usize>(
-    out: &mut [f64; N],
-    a: &[[f64; N]; C],
-    x: &[f64; C],
-) {
+pub fn subtract_product<const N: usize, const C: usize>(out: &mut [f64; N], a: &[[f64; N]; C], x: &[f64; C]) {
     for (column, &scale) in a.iter().zip(x) {
-        subtract::<V, N>(out, column, scale);
+        subtract::<N>(out, column, scale);
     }
 }
 
-/// column -= other scale, each product and difference rounded once together where the machine does that.
-#[inline(always)]
-fn subtract<V: Vector, const N: usize>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
+/// column -= other scale.
+fn subtract<const N: usize>(column: &mut [f64; N], other: &[f64; N], scale: f64) {
     for (x, y) in column.iter_mut().zip(other) {
-        *x = if V::FUSED {
-            y.mul_add(-scale, *x)
-        } else {
-            *x - y * scale
-        };
+        *x -= y * scale;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::vector::Portable;
 
     #[test]
     fn a_block_that_needs_pivoting_is_solved() {
         // Zero diagonal: fails without pivoting. x = (3, 1, 2) by hand.
         let mut a = [[0.0, 1.0, 2.0], [2.0, 0.0, 1.0], [1.0, 4.0, 0.0]];
         let mut b = [[4.0, 11.0, 7.0]];
-        solve_columns::<Portable, 3, 1>(&mut a, &mut b).unwrap();
+        solve_columns::<3, 1>(&mut a, &mut b).unwrap();
         for (x, expected) in b[0].iter().zip([3.0, 1.0, 2.0]) {
             assert!((x - expected).abs() < 1e-14);
         }
@@ -126,7 +77,7 @@ mod tests {
         // 2) by hand.
         let mut a = [[0.0, 2.0], [-1.0, 4.0]];
         let mut b = [[0.0, 10.0], [-2.0, 10.0]];
-        solve_columns::<Portable, 2, 2>(&mut a, &mut b).unwrap();
+        solve_columns::<2, 2>(&mut a, &mut b).unwrap();
         for (column, expected) in b.iter().zip([[5.0, 0.0], [1.0, 2.0]]) {
             assert!((column[0] - expected[0]).abs() < 1e-14 && (column[1] - expected[1]).abs() < 1e-14);
         }
@@ -136,13 +87,13 @@ mod tests {
     fn a_singular_block_is_an_error() {
         let mut a = [[1.0, 2.0], [2.0, 4.0]];
         let mut b = [[1.0, 1.0]];
-        assert!(solve_columns::<Portable, 2, 1>(&mut a, &mut b).is_err());
+        assert!(solve_columns::<2, 1>(&mut a, &mut b).is_err());
     }
 
     #[test]
     fn a_block_that_is_not_a_number_is_an_error() {
         let mut a = [[f64::NAN, 2.0], [2.0, 4.0]];
         let mut b = [[1.0, 1.0]];
-        assert!(solve_columns::<Portable, 2, 1>(&mut a, &mut b).is_err());
+        assert!(solve_columns::<2, 1>(&mut a, &mut b).is_err());
     }
 }

@@ -2,15 +2,16 @@
 //! forces, and what contacts, joints and the bit add in each iteration.
 
 use super::assembler::Assembler;
+use super::linear::{BlockSystem, ContactBlock, add_columns};
 use super::shortening::add_shortening_tangent;
 use super::slots::add_slots_tangent;
+use crate::chain::Touching;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::numbered::{Numbered, along_the_hole};
+use crate::dynamics::numbered::along_the_hole;
 use crate::dynamics::state::{State, motion};
 use crate::elements::beam::ElementMatrix;
-use crate::linear::{BlockSystem, ContactBlock, Touching, add_columns};
 use crate::model::{Model, ResolvedMass};
 
 impl Assembler {
@@ -61,13 +62,15 @@ impl Assembler {
     ) {
         self.contact_tangent(interactions, model, factors);
         self.joint_tangent(&interactions.joints, model, state, factors);
-        let numbered = Numbered::of(model);
-        numbered.end_tangents(&interactions.bit, conditions, factors, |row, column, value| {
-            // The nodes at both ends have no joint: pipe and guide are in the contact block.
-            let station = model.layout.station_of(column);
-            let first = model.layout.offset(station);
-            self.contact_block(station)[column - first][row - first] += value;
-        });
+        let constants = self.constants.clone();
+        constants
+            .numbered(model)
+            .end_tangents(&interactions.bit, conditions, factors, |row, column, value| {
+                // The nodes at both ends have no joint: pipe and guide are in the contact block.
+                let station = model.layout.station_of(column);
+                let first = model.layout.offset(station);
+                self.contact_block(station)[column - first][row - first] += value;
+            });
         for (point, places) in model.masses.iter().zip(&model.places.masses) {
             if point.body.is_coupled() {
                 self.point_tangent(model, point, places, state, conditions, factors);
@@ -169,7 +172,7 @@ impl Assembler {
             self.step_constant.add_block(station, 0, 18, &upper.transpose());
             self.step_constant.add_block(station, 12, 18, &lower.transpose());
         }
-        if model.tied {
+        if model.tie.is_some() {
             let (last, scale) = (model.last(), model.force_scale);
             for (unknown, share) in along_the_hole(model.ends_along[1], 0, 6) {
                 self.step_constant.add(last, unknown, 18, scale * share);

@@ -1,18 +1,9 @@
 //! The part of an iteration's tangent that contacts and joints add. It is separate from the step-constant part, which
 //! stays as long as the step size does.
 
-use super::system::{BlockSystem, Layout};
-
-/// The closed gaps of a station, which determine the unknowns that its contacts couple.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Touching {
-    /// No gap is closed: the station's contact block counts as zero, and its entries are undefined.
-    Nothing,
-    /// Guide on wall: rows and columns of the guide only.
-    Guide,
-    /// Pipe on guide; the guide may be on the wall too.
-    Both,
-}
+use super::system::BlockSystem;
+use crate::chain::Touching;
+use crate::model::layout::Layout;
 
 /// The contacts' part of a station's block over (pipe end above, guide), by columns.
 pub type ContactBlock = [[f64; 12]; 12];
