@@ -526,6 +526,48 @@ fn every_page_is_in_the_summary() {
     assert!(missing.is_empty(), "not in docs/SUMMARY.md: {missing:?}");
 }
 
+/// What a page of `docs/effects/` says, in this order; a picture of a run is not there for every effect.
+const OF_AN_EFFECT: [&str; 6] = [
+    "## Law",
+    "## Keys",
+    "## Size",
+    "## Closed form",
+    "## Cost",
+    "## Left out",
+];
+
+#[test]
+fn every_page_of_an_effect_has_the_same_sections_and_is_in_their_list() {
+    let folder = root().join("docs/effects");
+    let list = read(&folder.join("README.md"));
+    let pages: Vec<PathBuf> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    assert!(pages.len() > 10, "{} pages", pages.len());
+    for page in pages.iter().filter(|page| !page.ends_with("README.md")) {
+        let text = read(page);
+        let found: Vec<&str> = text.lines().filter(|line| OF_AN_EFFECT.contains(line)).collect();
+        assert_eq!(found, OF_AN_EFFECT, "{}", name(page));
+        let file = page.file_name().unwrap().to_string_lossy().into_owned();
+        assert!(
+            list.contains(&format!("]({file})")),
+            "{file} is not in docs/effects/README.md"
+        );
+    }
+}
+
+/// Lines of text that a reader sees before the first picture: one screen.
+const SCREEN: usize = 40;
+
+#[test]
+fn the_readme_fits_a_screen_before_its_first_picture() {
+    let readme = read(&root().join("README.md"));
+    let before = readme.lines().take_while(|line| !line.starts_with("![")).count();
+    assert!(before <= SCREEN, "{before} lines");
+    assert!(before < readme.lines().count(), "no picture");
+}
+
 #[test]
 fn every_crate_has_a_row_in_the_architecture() {
     let page = read(&root().join("docs/architecture.md"));
