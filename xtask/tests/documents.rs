@@ -148,9 +148,9 @@ fn headings(text: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// Documents that speak of the present, and not of what was (the changelog) or of other projects' files.
+/// Documents that speak of the present, and not of what was (changelog, history) or of other projects' files.
 fn present_documents() -> Vec<PathBuf> {
-    let past = |path: &PathBuf| path.ends_with("CHANGELOG.md");
+    let past = |path: &PathBuf| path.ends_with("CHANGELOG.md") || name(path).starts_with("docs/history/");
     let foreign = |path: &PathBuf| path.components().any(|part| part.as_os_str() == "upstream");
     let all = files(&[".md"]).into_iter();
     all.filter(|path| !past(path) && !foreign(path)).collect()
@@ -526,6 +526,48 @@ fn every_page_is_in_the_summary() {
     assert!(missing.is_empty(), "not in docs/SUMMARY.md: {missing:?}");
 }
 
+/// What a page of `docs/effects/` says, in this order; a picture of a run is not there for every effect.
+const OF_AN_EFFECT: [&str; 6] = [
+    "## Law",
+    "## Keys",
+    "## Size",
+    "## Closed form",
+    "## Cost",
+    "## Left out",
+];
+
+#[test]
+fn every_page_of_an_effect_has_the_same_sections_and_is_in_their_list() {
+    let folder = root().join("docs/effects");
+    let list = read(&folder.join("README.md"));
+    let pages: Vec<PathBuf> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    assert!(pages.len() > 10, "{} pages", pages.len());
+    for page in pages.iter().filter(|page| !page.ends_with("README.md")) {
+        let text = read(page);
+        let found: Vec<&str> = text.lines().filter(|line| OF_AN_EFFECT.contains(line)).collect();
+        assert_eq!(found, OF_AN_EFFECT, "{}", name(page));
+        let file = page.file_name().unwrap().to_string_lossy().into_owned();
+        assert!(
+            list.contains(&format!("]({file})")),
+            "{file} is not in docs/effects/README.md"
+        );
+    }
+}
+
+/// Lines of text that a reader sees before the first picture: one screen.
+const SCREEN: usize = 40;
+
+#[test]
+fn the_readme_fits_a_screen_before_its_first_picture() {
+    let readme = read(&root().join("README.md"));
+    let before = readme.lines().take_while(|line| !line.starts_with("![")).count();
+    assert!(before <= SCREEN, "{before} lines");
+    assert!(before < readme.lines().count(), "no picture");
+}
+
 #[test]
 fn every_crate_has_a_row_in_the_architecture() {
     let page = read(&root().join("docs/architecture.md"));
@@ -536,6 +578,58 @@ fn every_crate_has_a_row_in_the_architecture() {
         .filter(|name| !page.lines().any(|line| line.starts_with(&format!("| `{name}` |"))))
         .collect();
     assert!(missing.is_empty(), "no row in docs/architecture.md: {missing:?}");
+}
+
+/// The crates of the workspace that a manifest lists under its `[dependencies]`, without their common beginning.
+fn own_dependencies(manifest: &str) -> BTreeSet<String> {
+    let section = manifest.split("\n[dependencies]\n").nth(1).unwrap_or_default();
+    let lines = section.lines().take_while(|line| !line.starts_with('['));
+    lines
+        .filter_map(|line| line.strip_prefix("flexdrill-")?.split([' ', '.', '=']).next())
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn what_a_crate_may_use_is_what_its_manifest_says() {
+    let page = read(&root().join("docs/architecture.md"));
+    let crates = std::fs::read_dir(root().join("crates")).unwrap();
+    let folders = crates.map(|entry| entry.unwrap().path());
+    let own = |folder: &PathBuf| name(folder).contains("flexdrill-");
+    // Folder and name differ in the workshop.
+    let workshop = [
+        ("flexdrill-pages", root().join("xtask/pages")),
+        ("flexdrill-measurements", root().join("xtask/bench")),
+    ];
+    let named = folders
+        .filter(own)
+        .map(|folder| (folder.file_name().unwrap().to_string_lossy().into_owned(), folder));
+    let all: Vec<(String, PathBuf)> = named
+        .chain(workshop.map(|(name, folder)| (name.to_owned(), folder)))
+        .collect();
+    let names: BTreeSet<&str> = all
+        .iter()
+        .filter_map(|(name, _)| name.strip_prefix("flexdrill-"))
+        .collect();
+    for (name, folder) in &all {
+        let begin = format!("| `{name}` ");
+        let row = page.lines().find(|line| line.starts_with(&begin));
+        let cells: Vec<&str> = row.unwrap_or_else(|| panic!("no row of {name}")).split(" | ").collect();
+        let cell = cells[2].trim_end_matches('|');
+        // The column also names foreign crates, by kind.
+        let stated: BTreeSet<String> = cell
+            .split(',')
+            .map(str::trim)
+            .filter(|word| names.contains(word))
+            .map(str::to_owned)
+            .collect();
+        let manifest = read(&folder.join("Cargo.toml"));
+        assert_eq!(
+            stated,
+            own_dependencies(&manifest),
+            "docs/architecture.md, row of {name}"
+        );
+    }
 }
 
 /// The string literals of a source of Rust or TypeScript, without what is filled in between braces.
