@@ -10,12 +10,12 @@ use std::f64::consts::TAU;
 
 use crate::alarms::{AlarmId, called_at};
 use flexdrill_config::Config;
-use flexdrill_core::motion::{
-    AlarmThresholds, BIT, DriveState, HazardKind, SURFACE, Severity, ShockSettings, WhirlKind, WhirlSettings,
-};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{SimulationSettings, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::{
+    AlarmThresholds, BIT, DriveState, HazardKind, SURFACE, Severity, ShockSettings, WhirlKind, WhirlSettings,
+};
 
 /// Part by which speed and weight must be above a gate: those of a rig fluctuate by some percent, and an alarm that is
 /// judged now and then ends between.

@@ -51,8 +51,8 @@ use flexdrill_alarms::{
 };
 use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
-use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_motion::HazardKind;
 
 use crate::window::SafeWindow;
 use adjusted::Adjusted;

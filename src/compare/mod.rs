@@ -12,8 +12,8 @@ use flexdrill_calibration::monitor::{Compared, Monitor, MonitorSettings, Reading
 use flexdrill_calibration::residual::{Quantity, Residual};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputState, MeasuredKind};
-use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
 use flexdrill_core::twin::{Frame, Snapshot};
+use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 use crate::alarms::{Followed, in_words};
 use crate::messages;

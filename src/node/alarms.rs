@@ -366,7 +366,7 @@ impl Accepted {
 mod tests {
     use super::*;
     use crate::alarms::{AlarmSet, Change, Quantity, Tested};
-    use flexdrill_core::motion::{DriveState, HazardKind, Severity};
+    use flexdrill_motion::{DriveState, HazardKind, Severity};
 
     #[test]
     fn a_request_without_a_reason_has_no_empty_brackets() {

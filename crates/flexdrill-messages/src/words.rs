@@ -3,9 +3,9 @@
 
 use super::{Alarm, TwinStatus, WhirlState};
 use flexdrill_alarms::{Priority, State};
-use flexdrill_core::motion::Severity;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::QualityLevel;
+use flexdrill_motion::Severity;
 
 /// The word for an unknown code.
 const UNKNOWN: &str = "?";

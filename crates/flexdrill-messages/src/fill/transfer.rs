@@ -2,8 +2,8 @@
 
 use crate::Transfer;
 use crate::std_msgs::Header;
-use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
 use flexdrill_core::twin::Snapshot;
+use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 /// Fills `out`.
 pub fn transfer(snapshot: &Snapshot, header: &Header, out: &mut Transfer) {

@@ -3,10 +3,10 @@
 use super::copy;
 use crate::std_msgs::Header;
 use crate::{WhirlState, WhirlWarning};
-use flexdrill_core::motion::{DriveState, Severity, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_motion::{DriveState, Severity, WhirlKind, WhirlWarningLevel};
 
 fn body_code(body: Body) -> u8 {
     match body {

@@ -1,6 +1,5 @@
 //! Messages made from a snapshot say what the snapshot says.
 
-use flexdrill_core::motion::{DriveState, Hold, Severity, ShockLevel, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Holder, Snapshot};
 use flexdrill_messages::builtin_interfaces::Time;
@@ -10,6 +9,7 @@ use flexdrill_messages::visualization_msgs::{Marker, MarkerArray};
 use flexdrill_messages::{
     Ageing, BitState, ContactForces, JointDeflections, Reactions, Transfer, WhirlWarning, sensor_msgs,
 };
+use flexdrill_motion::{DriveState, Hold, Severity, ShockLevel, WhirlKind};
 
 fn header() -> Header {
     Header {

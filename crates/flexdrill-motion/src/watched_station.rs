@@ -9,7 +9,7 @@ use super::orbit_window::OrbitWindow;
 use super::settings::WhirlSettings;
 use super::severity::{Elapsed, Evaluation, Evidence, StationSeverity};
 use super::{Severity, WhirlKind};
-use crate::tool::Body;
+use flexdrill_base::Body;
 
 /// Weight with which time that does not appear chaotic reduces the chaotic time.
 const CHAOS_FADES: f64 = 1.5;

@@ -15,7 +15,7 @@ use super::severity::{Elapsed, Evidence};
 use super::tool_level::Lead;
 use super::watched_station::{Circumstances, StationWatch};
 use super::{Severity, StationSample, WatchedStation, WhirlKind, WhirlReport, WhirlWarningLevel};
-use crate::tool::Body;
+use flexdrill_base::Body;
 
 /// Part of the long window that must be filled before the first evaluation.
 const MIN_FILL: f64 = 0.5;

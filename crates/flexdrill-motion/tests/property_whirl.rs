@@ -6,18 +6,20 @@
     reason = "helpers of tests fail by panicking"
 )]
 
-mod support;
+#[allow(dead_code, reason = "each test takes what it needs")]
+#[path = "../../flexdrill-core/tests/support/random.rs"]
+mod random;
 mod synthetic_orbits;
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use flexdrill_core::motion::{
+use flexdrill_base::Body;
+use flexdrill_motion::{
     Alarm, AlarmThresholds, Hold, Severity, StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlSettings,
 };
-use flexdrill_core::tool::Body;
 use proptest::prelude::*;
-use support::Random;
+use random::Random;
 use synthetic_orbits::{Bench, CLEARANCE, Ellipse, Labelled, SAMPLE_INTERVAL, circle};
 
 /// 40 r/min.

@@ -7,14 +7,16 @@
 //!   - `classify` derives the kind of motion from these, `severity` the level from kind, bending cycles and friction, and
 //!     `tool_level` the leading station and the one warning from the stations' levels.
 //! - [`StickSlip`] watches the bit's speed, [`ShockWatch`] the impulses of contact, [`JointLoadWatch`] the stops of the
-//!   joints, [`ChaoticWhirlWatch`] the power that collisions dissipate, [`LoadWatch`] a load against its rating. `hysteresis` defines how levels rise and fall;
-//!   `drive` detects run-ups, in which no level rises.
+//!   joints, [`ChaoticWhirlWatch`] the power that collisions dissipate, [`LoadWatch`] a load against its rating. `hysteresis`
+//!   defines how levels rise and fall; `drive` detects run-ups, in which no level rises.
 //! - [`TransferWatch`] averages torque, weight and power from the surface to the bit.
 //! - [`Hazards`] lists the results of all watches; alarms are made from it.
 //! - [`AgeingWatch`] finds what ages fastest, from cycles counted in `rainflow` and from the work of the friction.
 //! - [`EpisodeLog`] tabulates the levels over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] accumulate values between two outputs.
-//! - [`WhirlSettings`] and the settings of the other watches: every threshold, with its reason.
+//! - [`WhirlSettings`] and the settings of the other watches: every threshold, with its reason; `validation` checks them.
+
+#![deny(missing_docs)]
 
 mod ageing;
 mod chaotic_whirl;
@@ -37,6 +39,7 @@ mod shock;
 mod stick_slip;
 mod tool_level;
 mod transfer;
+mod validation;
 mod watched_station;
 mod whirl;
 
@@ -54,7 +57,12 @@ pub use settings::{InputTrust, WhirlSettings};
 pub use shock::{MOST_REPEATS, ShockSettings, ShockWatch, Shocks};
 pub use stick_slip::{StickSlip, StickSlipSettings};
 pub use transfer::{
-    Along, BIT, KICK_OFF, Powers, SURFACE, Transfer, TransferLevel, TransferSample, TransferSettings, TransferWatch,
+    Along, BIT, EnergyTerms, KICK_OFF, SURFACE, Transfer, TransferLevel, TransferSample, TransferSettings,
+    TransferWatch,
 };
 pub use watched_station::{StationSample, WatchedStation};
 pub use whirl::WhirlAnalysis;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

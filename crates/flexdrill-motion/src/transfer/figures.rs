@@ -1,7 +1,6 @@
 //! What transfer is made from, and its figures.
 
-use crate::dynamics::outcome::EnergyAudit;
-use crate::motion::{Hold, Severity};
+use crate::{Hold, Severity};
 
 /// The readings of one step. NaN where the tool has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,10 +128,11 @@ impl Default for Along {
     }
 }
 
-/// Mean powers over the window by the terms of [`EnergyAudit`] (W), whose signs they have.
+/// The terms of an energy audit: energies since the start (J) or mean powers over the window (W). `drive`, `hoist`,
+/// `weight_on_bit`, `gravity`, `loads`, `feed` and `pressure` are put into the tool and the string above it; `bit`,
+/// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping`, `string` and `mud` are taken from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Powers {
+pub struct EnergyTerms {
     /// Of the top drive.
     pub drive: f64,
     /// Of the hoist.
@@ -171,7 +171,7 @@ pub struct Powers {
 
 pub(super) const TERMS: usize = 17;
 
-impl Powers {
+impl EnergyTerms {
     pub(super) fn of(
         [
             drive,
@@ -213,35 +213,36 @@ impl Powers {
             mud,
         }
     }
-}
 
-impl Default for Powers {
-    fn default() -> Self {
-        Self::of([f64::NAN; TERMS])
+    /// In the order of [`EnergyTerms::of`].
+    pub(super) fn values(&self) -> [f64; TERMS] {
+        [
+            self.drive,
+            self.hoist,
+            self.weight_on_bit,
+            self.gravity,
+            self.loads,
+            self.feed,
+            self.pressure,
+            self.bit,
+            self.friction,
+            self.contact_damping,
+            self.rayleigh_damping,
+            self.numerical_damping,
+            self.string,
+            self.axial_update,
+            self.stored,
+            self.error,
+            self.mud,
+        ]
     }
 }
 
-/// The audit's terms in the order of [`Powers::of`] (J).
-pub(super) fn terms(audit: &EnergyAudit) -> [f64; TERMS] {
-    [
-        audit.drive,
-        audit.hoist,
-        audit.weight_on_bit,
-        audit.gravity,
-        audit.loads,
-        audit.feed,
-        audit.pressure,
-        audit.bit,
-        audit.friction,
-        audit.contact_damping,
-        audit.rayleigh_damping,
-        audit.numerical_damping,
-        audit.string,
-        audit.axial_update,
-        audit.stored,
-        audit.error,
-        audit.mud,
-    ]
+impl Default for EnergyTerms {
+    /// Nothing is known.
+    fn default() -> Self {
+        Self::of([f64::NAN; TERMS])
+    }
 }
 
 /// Transfer over the window. NaN where the tool has no such figure, and before the first tenth of a second.
@@ -266,7 +267,7 @@ pub struct Transfer {
     /// near zero, and while the tool does not turn: a bit that holds a wound string takes more than the drive gives.
     pub torque_efficiency: f64,
     /// Mean powers by the terms of the audit (W).
-    pub power: Powers,
+    pub power: EnergyTerms,
 }
 
 /// State of a condition on transfer.

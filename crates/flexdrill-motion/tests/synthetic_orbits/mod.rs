@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
-use flexdrill_core::tool::Body;
+use flexdrill_base::Body;
+use flexdrill_motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 
-use crate::support::Random;
+use crate::random::Random;
 
 /// m: that of the default configuration's pipe in its guide.
 pub const CLEARANCE: f64 = 8.5e-3;

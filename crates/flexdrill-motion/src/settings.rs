@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::rpm_to_rad_per_s;
+use flexdrill_base::units::rpm_to_rad_per_s;
 
 /// How whirl is found and judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -13,14 +13,13 @@ mod figures;
 #[cfg(test)]
 mod tests;
 
-pub use figures::{Along, Powers, Transfer, TransferLevel, TransferSample};
-use figures::{TERMS, VALUES, terms};
+pub use figures::{Along, EnergyTerms, Transfer, TransferLevel, TransferSample};
+use figures::{TERMS, VALUES};
 
 use serde::{Deserialize, Serialize};
 
 use super::hysteresis::{Alarm, AlarmThresholds};
-use crate::dynamics::outcome::EnergyAudit;
-use crate::units::kn_to_n;
+use flexdrill_base::units::kn_to_n;
 
 /// Blocks per window: a tenth of a second each in the default window of 5 s.
 const BLOCKS: usize = 50;
@@ -232,9 +231,9 @@ impl TransferWatch {
         }
     }
 
-    /// Takes the readings of a step of `dt` (s) that ends at model time `time` (s), with the audit then. While the drive
-    /// does not turn steadily (`judged` is false) no level rises.
-    pub fn push(&mut self, time: f64, dt: f64, sample: &TransferSample, audit: &EnergyAudit, judged: bool) {
+    /// Takes the readings of a step of `dt` (s) that ends at model time `time` (s), with the energies since the start (J)
+    /// then. While the drive does not turn steadily (`judged` is false) no level rises.
+    pub fn push(&mut self, time: f64, dt: f64, sample: &TransferSample, energies: &EnergyTerms, judged: bool) {
         let values = sample.values();
         let block = &mut self.current;
         block.duration += dt;
@@ -250,7 +249,7 @@ impl TransferWatch {
         if length + 0.5 * dt < self.settings.window / BLOCKS as f64 {
             return;
         }
-        let now = terms(audit);
+        let now = energies.values();
         for (energy, (now, before)) in block.energies.iter_mut().zip(now.into_iter().zip(self.before)) {
             *energy = now - before;
         }
@@ -310,7 +309,7 @@ impl TransferWatch {
             } else {
                 f64::NAN
             },
-            power: Powers::of(total.energies.map(|energy| energy / total.duration)),
+            power: EnergyTerms::of(total.energies.map(|energy| energy / total.duration)),
         };
     }
 

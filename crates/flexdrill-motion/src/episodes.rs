@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Severity, ShockLevel, WhirlKind, WhirlReport};
-use crate::tool::Body;
+use flexdrill_base::Body;
 
 /// The kind of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -1,10 +1,9 @@
-//! Checks of descriptions and settings: one error type and a few kinds of bounds, for [`crate::tool`] and
-//! [`crate::twin`].
+//! Checks of descriptions and settings: one error type and a few kinds of bounds.
 //!
 //! The bounds here are those that the mechanics needs to compute at all: a mass above zero, a step above zero, lists of
 //! the right length. The YAML schema has the narrower bounds of sensible practice.
 
-use crate::tool::Location;
+use crate::Location;
 
 /// A description, settings or parameters that the mechanics cannot compute with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -59,7 +58,7 @@ pub enum ValidationError {
 
 /// Bounds of a number; all of them exclude NaN and infinity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Bound {
+pub enum Bound {
     /// Any finite number.
     Finite,
     /// Above 0.
@@ -102,7 +101,7 @@ impl Bound {
     ///
     /// # Errors
     /// [`ValidationError::Value`].
-    pub(crate) fn check(self, field: &str, value: f64, unit: &'static str) -> Result<(), ValidationError> {
+    pub fn check(self, field: &str, value: f64, unit: &'static str) -> Result<(), ValidationError> {
         if self.holds(value) {
             Ok(())
         } else {
@@ -119,12 +118,7 @@ impl Bound {
     ///
     /// # Errors
     /// As [`Bound::check`].
-    pub(crate) fn check_all(
-        self,
-        under: &str,
-        fields: &[(&str, f64)],
-        unit: &'static str,
-    ) -> Result<(), ValidationError> {
+    pub fn check_all(self, under: &str, fields: &[(&str, f64)], unit: &'static str) -> Result<(), ValidationError> {
         fields
             .iter()
             .try_for_each(|(name, value)| self.check(&format!("{under}.{name}"), *value, unit))
@@ -135,7 +129,7 @@ impl Bound {
 ///
 /// # Errors
 /// [`ValidationError::Value`].
-pub(crate) fn count(field: &str, value: usize, least: usize, most: usize) -> Result<(), ValidationError> {
+pub fn count(field: &str, value: usize, least: usize, most: usize) -> Result<(), ValidationError> {
     Bound::Within(least as f64, most as f64).check(field, value as f64, "")
 }
 
@@ -143,7 +137,7 @@ pub(crate) fn count(field: &str, value: usize, least: usize, most: usize) -> Res
 ///
 /// # Errors
 /// [`ValidationError::Length`].
-pub(crate) fn length(field: &str, got: usize, expected: usize, why: &str) -> Result<(), ValidationError> {
+pub fn length(field: &str, got: usize, expected: usize, why: &str) -> Result<(), ValidationError> {
     if got == expected {
         Ok(())
     } else {
@@ -159,7 +153,7 @@ pub(crate) fn length(field: &str, got: usize, expected: usize, why: &str) -> Res
 ///
 /// # Errors
 /// [`ValidationError::Contradiction`].
-pub(crate) fn require(holds: bool, field: &str, conflict: &'static str) -> Result<(), ValidationError> {
+pub fn require(holds: bool, field: &str, conflict: &'static str) -> Result<(), ValidationError> {
     if holds {
         Ok(())
     } else {

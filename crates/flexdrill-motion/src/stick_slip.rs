@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::Severity;
 use super::hazards::Hold;
 use super::hysteresis::{Alarm, AlarmThresholds};
-use crate::units::rpm_to_rad_per_s;
+use flexdrill_base::units::rpm_to_rad_per_s;
 
 /// Blocks per window. The window moves block by block, so that its extremes need no queue.
 const BLOCKS: usize = 100;

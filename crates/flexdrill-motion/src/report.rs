@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::hazards::Hold;
-use crate::tool::Body;
+use flexdrill_base::Body;
 
 /// Kinds of motion, in the words of D-WIS where it has one. The discriminants are those of the messages.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,14 +1,14 @@
 //! Means over the window, and the levels of what does not arrive.
 
 use super::*;
-use crate::motion::Severity;
+use crate::Severity;
 
 const DT: f64 = 1e-3;
 
 /// A tool below a string with a hoist: weight and torque at the surface and at the bit.
 struct Fed {
     watch: TransferWatch,
-    audit: EnergyAudit,
+    energies: EnergyTerms,
     time: f64,
 }
 
@@ -16,7 +16,7 @@ impl Fed {
     fn new() -> Self {
         Self {
             watch: TransferWatch::new(&TransferSettings::default(), 2.0),
-            audit: EnergyAudit::default(),
+            energies: EnergyTerms::default(),
             time: 0.0,
         }
     }
@@ -24,8 +24,9 @@ impl Fed {
     fn run(&mut self, seconds: f64, judged: bool, sample: impl Fn(f64) -> TransferSample) {
         for _ in 0..(seconds / DT).round() as usize {
             self.time += DT;
-            self.audit.drive += 1500.0 * DT;
-            self.watch.push(self.time, DT, &sample(self.time), &self.audit, judged);
+            self.energies.drive += 1500.0 * DT;
+            self.watch
+                .push(self.time, DT, &sample(self.time), &self.energies, judged);
         }
     }
 
