@@ -396,7 +396,7 @@ mod tests {
     use flexdrill_core::dynamics::StepOutcome;
     use flexdrill_core::inputs::Inputs;
     use flexdrill_core::twin::{Run, RunInputs, Simulation};
-    use flexdrill_messages::outputs::schedule;
+    use flexdrill_outputs::schedule;
 
     fn config() -> Config {
         Config::from_text("default.yaml", include_str!("../../config/default.yaml")).unwrap()

@@ -274,6 +274,7 @@ mod tests {
     use super::*;
     use crate::messages::RigMeasured;
     use crate::messages::builtin_interfaces::Time;
+    use flexdrill_outputs::MeasuredValues as _;
 
     const SECOND: i64 = 1_000_000_000;
     const START: i64 = 1_700_000_000 * SECOND;

@@ -78,7 +78,7 @@ pub use look_ahead::LookAhead;
 pub use map::SafeMap;
 pub use motion::PROMPT_OFF_DELAY;
 pub use mud::Mud;
-pub use network::{Network, Reach, is_peer};
+pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
 pub use pipe::{AsBuilt, FreeBend, Guide, Never, Piece, Pipe, SlotsClose};
 pub use place::At;

@@ -9,9 +9,9 @@ use serde::Serialize;
 
 use super::log::LogPlace;
 use crate::cli::output::say;
-use crate::messages::words;
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
 use flexdrill_motion::{Episode, EpisodeKind, Severity, WhirlKind};
+use flexdrill_outputs::words;
 
 /// Most rows that are printed; the JSON has all.
 const ROWS: usize = 40;

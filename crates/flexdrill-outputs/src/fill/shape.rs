@@ -4,10 +4,10 @@
 //! from the bore axis are drawn larger than they are, the bore itself is not.
 
 use super::arrows::{POINTS_PER_ARROW, colour, push_arrow};
-use crate::geometry_msgs::{Point, Pose, Quaternion, Vector3};
-use crate::std_msgs::{ColorRGBA, Header};
-use crate::visualization_msgs::{Marker, MarkerArray};
 use flexdrill_core::twin::{ContactLayer, Snapshot};
+use flexdrill_messages::geometry_msgs::{Point, Pose, Quaternion, Vector3};
+use flexdrill_messages::std_msgs::{ColorRGBA, Header};
+use flexdrill_messages::visualization_msgs::{Marker, MarkerArray};
 
 /// How the tool is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,13 +3,13 @@
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ContactLayer, Holder, Snapshot};
 use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::fill::{self, ShapeStyle};
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::visualization_msgs::{Marker, MarkerArray};
 use flexdrill_messages::{
     Ageing, BitState, ContactForces, JointDeflections, Reactions, Transfer, WhirlWarning, sensor_msgs,
 };
 use flexdrill_motion::{DriveState, Hold, Severity, ShockLevel, WhirlKind};
+use flexdrill_outputs::fill::{self, ShapeStyle};
 
 fn header() -> Header {
     Header {

@@ -9,7 +9,8 @@ use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::rpm_to_rad_per_s;
 use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{BitState, Reactions, Transfer, fill};
+use flexdrill_messages::{BitState, Reactions, Transfer};
+use flexdrill_outputs::fill;
 use serde_json::Value;
 
 /// The states, in the order of the columns of [`TABLE`].
@@ -226,7 +227,7 @@ fn plan(state: &str) -> ([f64; 2], [f64; 2], f64, f64) {
 
 /// The tool in a state: all figures of the three messages by name, with what they are made from.
 fn run(state: &str) -> (BTreeMap<String, Value>, Snapshot) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/messages/states.yaml");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/outputs/states.yaml");
     let (first, then, pressure, limit) = plan(state);
     let config = Config::load(path).unwrap();
     let config = config.with_value("string.top_drive.torque_limit", limit).unwrap();

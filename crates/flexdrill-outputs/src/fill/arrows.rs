@@ -3,8 +3,8 @@
 //! One marker with all arrows stays far below the size at which a hundred single arrows would be cut into many packets,
 //! and needs no deletion of those whose contact has ended.
 
-use crate::geometry_msgs::Point;
-use crate::std_msgs::ColorRGBA;
+use flexdrill_messages::geometry_msgs::Point;
+use flexdrill_messages::std_msgs::ColorRGBA;
 
 /// Length of the head over that of the arrow.
 const HEAD_LENGTH: f64 = 0.3;

@@ -1,8 +1,8 @@
 //! [`BitState`].
 
-use crate::BitState;
-use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::BitState;
+use flexdrill_messages::std_msgs::Header;
 
 /// Fills `out`.
 pub fn bit_state(snapshot: &Snapshot, header: &Header, out: &mut BitState) {

@@ -1,10 +1,10 @@
 //! [`JointDeflections`] and the stock [`JointState`].
 
 use super::{copy, largest};
-use crate::JointDeflections;
-use crate::sensor_msgs::JointState;
-use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::JointDeflections;
+use flexdrill_messages::sensor_msgs::JointState;
+use flexdrill_messages::std_msgs::Header;
 
 /// Fills `out`.
 pub fn joint_deflections(snapshot: &Snapshot, header: &Header, out: &mut JointDeflections) {

@@ -1,9 +1,9 @@
 //! [`Ageing`].
 
 use super::copy;
-use crate::Ageing;
-use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::Ageing;
+use flexdrill_messages::std_msgs::Header;
 
 /// Seconds in an hour.
 const HOUR: f64 = 3600.0;

@@ -1,9 +1,9 @@
 //! [`ContactForces`].
 
 use super::{copy, largest};
-use crate::ContactForces;
-use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::ContactForces;
+use flexdrill_messages::std_msgs::Header;
 
 /// Fills `out`. The largest forces are those of the publishing interval, not of the instant.
 pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactForces) {

@@ -1,11 +1,11 @@
 //! [`WhirlState`] and [`WhirlWarning`].
 
 use super::copy;
-use crate::std_msgs::Header;
-use crate::{WhirlState, WhirlWarning};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::{WhirlState, WhirlWarning};
 use flexdrill_motion::{DriveState, Severity, WhirlKind, WhirlWarningLevel};
 
 fn body_code(body: Body) -> u8 {

@@ -20,7 +20,7 @@ pub use shape::{ShapeStyle, tool_shape};
 pub use transfer::transfer;
 pub use whirl::{whirl_state, whirl_warning, whirl_warning_is_suppressed};
 
-use super::std_msgs::Header;
+use flexdrill_messages::std_msgs::Header;
 
 /// Copies a header, keeping the target's memory.
 fn stamp(target: &mut Header, header: &Header) {

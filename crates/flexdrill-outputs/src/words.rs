@@ -1,10 +1,10 @@
 //! Words for the codes of the messages, the same in logs, tables and dashboards. A name of the core is used where there is
 //! one.
 
-use super::{Alarm, TwinStatus, WhirlState};
 use flexdrill_alarms::{Priority, State};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::QualityLevel;
+use flexdrill_messages::{Alarm, TwinStatus, WhirlState};
 use flexdrill_motion::Severity;
 
 /// The word for an unknown code.

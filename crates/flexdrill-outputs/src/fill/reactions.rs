@@ -1,10 +1,10 @@
 //! [`Reactions`].
 
 use super::copy;
-use crate::Reactions;
-use crate::std_msgs::Header;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{Holder, Snapshot};
+use flexdrill_messages::Reactions;
+use flexdrill_messages::std_msgs::Header;
 
 /// Fills `out`.
 pub fn reactions(snapshot: &Snapshot, header: &Header, out: &mut Reactions) {

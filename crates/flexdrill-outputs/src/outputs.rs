@@ -3,20 +3,20 @@
 
 use std::collections::BTreeMap;
 
-use super::builtin_interfaces::Time;
-use super::fill::{self, ShapeStyle};
-use super::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
-use super::sensor_msgs::JointState;
-use super::std_msgs::Header;
-use super::tf2_msgs::TFMessage;
-use super::topics::{self, TopicInfo};
-use super::visualization_msgs::MarkerArray;
-use super::{
+use crate::fill::{self, ShapeStyle};
+use flexdrill_config::{Config, Rates};
+use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
+use flexdrill_messages::sensor_msgs::JointState;
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::tf2_msgs::TFMessage;
+use flexdrill_messages::topics::{self, TopicInfo};
+use flexdrill_messages::visualization_msgs::MarkerArray;
+use flexdrill_messages::{
     Ageing, AppliedInputs, BitState, CdrError, ContactForces, JointDeflections, Reactions, SessionInfo, Transfer,
     WhirlState, WhirlWarning, to_cdr_into,
 };
-use flexdrill_config::{Config, Rates};
-use flexdrill_core::twin::{Frame, Output, RunInputs, Schedule, Timeline};
 
 /// How often the alarms of the tool are judged, per second of model time: ten times within the shortest duration that a
 /// level has by default.

@@ -1,8 +1,8 @@
 //! `rig/measured` and `rig/inputs`: their values by quantity, where they are given.
 
-use super::std_msgs::Header;
-use super::{RigInputs, RigMeasured};
 use flexdrill_core::inputs::{InputKind, MeasuredKind};
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::{RigInputs, RigMeasured};
 
 /// A value that its sender gives: not NaN, and with its bit set in `given`. A sender that sets no bit does not know the
 /// field; it has left at 0 what it does not know either, where `may_be_unknown`.
@@ -14,9 +14,20 @@ fn given_value(value: f64, given: u32, bit: u32, may_be_unknown: bool) -> Option
     (is_given && !value.is_nan()).then_some(value)
 }
 
-impl RigInputs {
+/// The values of `rig/inputs`.
+pub trait InputValues: Sized {
     /// A message with those of the values, in the order of [`InputKind::ALL`] and in their units, that are given.
-    pub fn of(header: Header, values: [Option<f64>; InputKind::COUNT], quality: u8, source: String) -> Self {
+    fn of(header: Header, values: [Option<f64>; InputKind::COUNT], quality: u8, source: String) -> Self;
+
+    /// The value of an input in its unit, if it is given.
+    fn value(&self, kind: InputKind) -> Option<f64>;
+
+    /// Whether a value of 0 was taken as not given, because the sender does not say which are.
+    fn has_doubtful_zero(&self) -> bool;
+}
+
+impl InputValues for RigInputs {
+    fn of(header: Header, values: [Option<f64>; InputKind::COUNT], quality: u8, source: String) -> Self {
         let given = (0..).zip(values).filter(|(_, value)| value.is_some());
         let [speed, weight, rate, pressure] = values.map(|value| value.unwrap_or(f64::NAN));
         Self {
@@ -31,8 +42,7 @@ impl RigInputs {
         }
     }
 
-    /// The value of an input in its unit, if it is given.
-    pub fn value(&self, kind: InputKind) -> Option<f64> {
+    fn value(&self, kind: InputKind) -> Option<f64> {
         // Programs that were written before the rate and the pressure were inputs leave those at 0 once they are built again.
         let (value, bit, may_be_unknown) = match kind {
             InputKind::RotarySpeed => (self.rotary_speed_rpm, Self::GIVEN_ROTARY_SPEED, false),
@@ -43,15 +53,31 @@ impl RigInputs {
         given_value(value, self.given, bit, may_be_unknown)
     }
 
-    /// Whether a value of 0 was taken as not given, because the sender does not say which are.
-    pub fn has_doubtful_zero(&self) -> bool {
+    fn has_doubtful_zero(&self) -> bool {
         self.given == 0 && (self.rate_of_penetration_m_per_h == 0.0 || self.standpipe_pressure_mpa == 0.0)
     }
 }
 
-impl RigMeasured {
+/// The values of `rig/measured`.
+pub trait MeasuredValues: Sized {
     /// A message in which no value is given.
-    pub fn not_given(header: Header, quality: u8, source: String) -> Self {
+    fn not_given(header: Header, quality: u8, source: String) -> Self;
+
+    /// The value of a quantity (SI), if it is given.
+    fn value(&self, kind: MeasuredKind) -> Option<f64>;
+
+    /// Whether a value of 0 was taken as not given, because the sender does not say which are.
+    fn has_doubtful_zero(&self) -> bool;
+
+    /// Sets the value of a quantity (SI).
+    fn set(&mut self, kind: MeasuredKind, value: f64);
+
+    /// Whether no value is given.
+    fn is_empty(&self) -> bool;
+}
+
+impl MeasuredValues for RigMeasured {
+    fn not_given(header: Header, quality: u8, source: String) -> Self {
         let mut message = Self {
             header,
             quality,
@@ -59,66 +85,64 @@ impl RigMeasured {
             ..Self::default()
         };
         for kind in MeasuredKind::ALL {
-            *message.field(kind) = f64::NAN;
+            *field(&mut message, kind) = f64::NAN;
         }
         message
     }
 
-    /// The value of a quantity (SI), if it is given.
-    pub fn value(&self, kind: MeasuredKind) -> Option<f64> {
-        given_value(self.written(kind), self.given, 1 << kind.index(), true)
+    fn value(&self, kind: MeasuredKind) -> Option<f64> {
+        given_value(written(self, kind), self.given, 1 << kind.index(), true)
     }
 
-    /// Whether a value of 0 was taken as not given, because the sender does not say which are.
-    pub fn has_doubtful_zero(&self) -> bool {
-        self.given == 0 && MeasuredKind::ALL.into_iter().any(|kind| self.written(kind) == 0.0)
+    fn has_doubtful_zero(&self) -> bool {
+        self.given == 0 && MeasuredKind::ALL.into_iter().any(|kind| written(self, kind) == 0.0)
     }
 
-    fn written(&self, kind: MeasuredKind) -> f64 {
-        match kind {
-            MeasuredKind::SurfaceTorque => self.surface_torque,
-            MeasuredKind::StandpipePressure => self.standpipe_pressure,
-            MeasuredKind::HookLoad => self.hook_load,
-            MeasuredKind::RateOfPenetration => self.rate_of_penetration,
-            MeasuredKind::BitDepth => self.bit_depth,
-            MeasuredKind::HoleDepth => self.hole_depth,
-            MeasuredKind::DownholeRotarySpeed => self.downhole_rotary_speed,
-            MeasuredKind::DownholeTorque => self.downhole_torque,
-            MeasuredKind::DownholeWeightOnBit => self.downhole_weight_on_bit,
-            MeasuredKind::AxialVibration => self.axial_vibration,
-            MeasuredKind::LateralVibration => self.lateral_vibration,
-            MeasuredKind::AxialShock => self.axial_shock,
-            MeasuredKind::LateralShock => self.lateral_shock,
-        }
-    }
-
-    /// Sets the value of a quantity (SI).
-    pub fn set(&mut self, kind: MeasuredKind, value: f64) {
-        *self.field(kind) = value;
+    fn set(&mut self, kind: MeasuredKind, value: f64) {
+        *field(self, kind) = value;
         self.given |= 1 << kind.index();
     }
 
-    /// Whether no value is given.
-    pub fn is_empty(&self) -> bool {
+    fn is_empty(&self) -> bool {
         MeasuredKind::ALL.into_iter().all(|kind| self.value(kind).is_none())
     }
+}
 
-    fn field(&mut self, kind: MeasuredKind) -> &mut f64 {
-        match kind {
-            MeasuredKind::SurfaceTorque => &mut self.surface_torque,
-            MeasuredKind::StandpipePressure => &mut self.standpipe_pressure,
-            MeasuredKind::HookLoad => &mut self.hook_load,
-            MeasuredKind::RateOfPenetration => &mut self.rate_of_penetration,
-            MeasuredKind::BitDepth => &mut self.bit_depth,
-            MeasuredKind::HoleDepth => &mut self.hole_depth,
-            MeasuredKind::DownholeRotarySpeed => &mut self.downhole_rotary_speed,
-            MeasuredKind::DownholeTorque => &mut self.downhole_torque,
-            MeasuredKind::DownholeWeightOnBit => &mut self.downhole_weight_on_bit,
-            MeasuredKind::AxialVibration => &mut self.axial_vibration,
-            MeasuredKind::LateralVibration => &mut self.lateral_vibration,
-            MeasuredKind::AxialShock => &mut self.axial_shock,
-            MeasuredKind::LateralShock => &mut self.lateral_shock,
-        }
+/// The number in the field of a quantity.
+fn written(message: &RigMeasured, kind: MeasuredKind) -> f64 {
+    match kind {
+        MeasuredKind::SurfaceTorque => message.surface_torque,
+        MeasuredKind::StandpipePressure => message.standpipe_pressure,
+        MeasuredKind::HookLoad => message.hook_load,
+        MeasuredKind::RateOfPenetration => message.rate_of_penetration,
+        MeasuredKind::BitDepth => message.bit_depth,
+        MeasuredKind::HoleDepth => message.hole_depth,
+        MeasuredKind::DownholeRotarySpeed => message.downhole_rotary_speed,
+        MeasuredKind::DownholeTorque => message.downhole_torque,
+        MeasuredKind::DownholeWeightOnBit => message.downhole_weight_on_bit,
+        MeasuredKind::AxialVibration => message.axial_vibration,
+        MeasuredKind::LateralVibration => message.lateral_vibration,
+        MeasuredKind::AxialShock => message.axial_shock,
+        MeasuredKind::LateralShock => message.lateral_shock,
+    }
+}
+
+/// The field of a quantity.
+fn field(message: &mut RigMeasured, kind: MeasuredKind) -> &mut f64 {
+    match kind {
+        MeasuredKind::SurfaceTorque => &mut message.surface_torque,
+        MeasuredKind::StandpipePressure => &mut message.standpipe_pressure,
+        MeasuredKind::HookLoad => &mut message.hook_load,
+        MeasuredKind::RateOfPenetration => &mut message.rate_of_penetration,
+        MeasuredKind::BitDepth => &mut message.bit_depth,
+        MeasuredKind::HoleDepth => &mut message.hole_depth,
+        MeasuredKind::DownholeRotarySpeed => &mut message.downhole_rotary_speed,
+        MeasuredKind::DownholeTorque => &mut message.downhole_torque,
+        MeasuredKind::DownholeWeightOnBit => &mut message.downhole_weight_on_bit,
+        MeasuredKind::AxialVibration => &mut message.axial_vibration,
+        MeasuredKind::LateralVibration => &mut message.lateral_vibration,
+        MeasuredKind::AxialShock => &mut message.axial_shock,
+        MeasuredKind::LateralShock => &mut message.lateral_shock,
     }
 }
 

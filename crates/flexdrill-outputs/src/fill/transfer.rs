@@ -1,8 +1,8 @@
 //! [`Transfer`].
 
-use crate::Transfer;
-use crate::std_msgs::Header;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::Transfer;
+use flexdrill_messages::std_msgs::Header;
 use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 /// Fills `out`.
