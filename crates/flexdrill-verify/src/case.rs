@@ -155,7 +155,7 @@ pub fn head(case: &str) -> Option<String> {
 }
 
 /// A running case.
-pub struct Bench {
+pub struct CaseTwin {
     case: &'static str,
     /// Its configuration.
     pub config: Config,
@@ -164,7 +164,7 @@ pub struct Bench {
     inputs: Inputs,
 }
 
-impl Bench {
+impl CaseTwin {
     /// Builds the case's tool.
     ///
     /// # Errors
@@ -176,7 +176,7 @@ impl Bench {
     /// The same with a changed configuration.
     ///
     /// # Errors
-    /// As [`Bench::new`].
+    /// As [`CaseTwin::new`].
     pub fn with(
         case: &'static str,
         change: impl FnOnce(Config) -> Result<Config, flexdrill_config::ConfigError>,
@@ -187,7 +187,7 @@ impl Bench {
     /// The same with a factor on the forces that Newton's iteration may leave unbalanced.
     ///
     /// # Errors
-    /// As [`Bench::new`].
+    /// As [`CaseTwin::new`].
     pub fn within(
         case: &'static str,
         residual_factor: f64,
@@ -260,7 +260,7 @@ impl Bench {
             .unwrap_or(f64::NAN)
     }
 
-    /// Velocity (m/s or rad/s), as [`Bench::displacement`].
+    /// Velocity (m/s or rad/s), as [`CaseTwin::displacement`].
     pub fn velocity(&self, station: usize, body: Body, direction: Direction) -> f64 {
         self.simulation.velocity(station, body, direction).unwrap_or(f64::NAN)
     }
@@ -276,7 +276,7 @@ impl Bench {
     }
 }
 
-impl Drop for Bench {
+impl Drop for CaseTwin {
     fn drop(&mut self) {
         if runs::wanted() {
             runs::ended(CaseRun {
