@@ -9,10 +9,10 @@ use anyhow::{Context as _, bail, ensure};
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::WhirlKind;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::{kn_to_n, rad_to_deg, rpm_to_rad_per_s};
+use flexdrill_motion::WhirlKind;
 use flexdrill_paper::figures::{Figure, Line, Panel, svg};
 
 /// Time between two samples (s), as the analysis has by default.

@@ -21,7 +21,7 @@
 //!
 //! Below them are crates, most of them also under a short name here: [`flexdrill_dashboard`], [`flexdrill_report`],
 //! [`flexdrill_live`], [`flexdrill_bag`], [`flexdrill_field_log`], [`flexdrill_ros2`], [`flexdrill_messages`],
-//! [`flexdrill_text`], and the mechanics with the crates around it. `docs/architecture.md` draws the house.
+//! [`flexdrill_outputs`], [`flexdrill_text`], and the mechanics with the crates around it. `docs/architecture.md` draws the house.
 
 pub mod ahead;
 pub mod alarms;

@@ -25,13 +25,13 @@ use flexdrill::alarms::{AlarmBook, NodeState};
 use flexdrill::dds::port::{Health, Restart};
 use flexdrill::health::status::{OutputCount, Sources, StatusKeeper};
 use flexdrill::messages::builtin_interfaces::Time as Stamp;
-use flexdrill::messages::outputs::{self, Encoded, Outputs};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmList, CdrError, TwinStatus, from_cdr, topics};
 use flexdrill::rig_inputs::{DriverId, Intake, RigSample};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputKind, InputState};
 use flexdrill_core::twin::{Output, Run, Simulation};
+use flexdrill_outputs::{Encoded, Outputs};
 use flexdrill_realtime::clock::Clock;
 use flexdrill_realtime::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
 use flexdrill_realtime::{PaceReading, RealTimeLoop};
@@ -244,7 +244,7 @@ impl World {
                     live: self.config.live(),
                     slew: simulation.slew(),
                     whirl: self.config.whirl_settings(),
-                    schedule: outputs::schedule(&self.config, &self.config.outputs.rates),
+                    schedule: flexdrill_outputs::schedule(&self.config, &self.config.outputs.rates),
                 })
             }
         };
@@ -474,7 +474,7 @@ impl Clock for WorldClock {
 fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
     let mut simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     simulation.restore(fresh).unwrap();
-    let run = Run::new(simulation, outputs::schedule(config, &config.outputs.rates));
+    let run = Run::new(simulation, flexdrill_outputs::schedule(config, &config.outputs.rates));
     let targets = Targets::new(config.simulation().initial_inputs);
     let gauges = Arc::new(Gauges::default());
     let (end, publisher, requests) = link(Arc::clone(&targets), Arc::clone(&gauges));

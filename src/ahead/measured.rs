@@ -10,12 +10,12 @@ use std::f64::consts::TAU;
 
 use crate::alarms::{AlarmId, called_at};
 use flexdrill_config::Config;
-use flexdrill_core::motion::{
-    AlarmThresholds, BIT, DriveState, HazardKind, SURFACE, Severity, ShockSettings, WhirlKind, WhirlSettings,
-};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{SimulationSettings, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::{
+    AlarmThresholds, BIT, DriveState, HazardKind, SURFACE, Severity, ShockSettings, WhirlKind, WhirlSettings,
+};
 
 /// Part by which speed and weight must be above a gate: those of a rig fluctuate by some percent, and an alarm that is
 /// judged now and then ends between.
@@ -396,7 +396,7 @@ mod tests {
     use flexdrill_core::dynamics::StepOutcome;
     use flexdrill_core::inputs::Inputs;
     use flexdrill_core::twin::{Run, RunInputs, Simulation};
-    use flexdrill_messages::outputs::schedule;
+    use flexdrill_outputs::schedule;
 
     fn config() -> Config {
         Config::from_text("default.yaml", include_str!("../../config/default.yaml")).unwrap()

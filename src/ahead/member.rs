@@ -9,10 +9,10 @@ use crate::alarms::{AlarmBook, AlarmId};
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
-use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{QualityLevel, Run, RunInputs, Snapshot};
 use flexdrill_core::units::rad_per_s_to_rpm;
+use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 /// Largest lateral velocity (m/s) by which members differ at the beginning. It is a ten-thousandth of the velocities that
 /// the pipe has in drilling, and no instrument in a well resolves it; a turn later the places of the pipe differ by

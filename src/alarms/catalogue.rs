@@ -4,7 +4,7 @@ use crate::messages::Alarm;
 use flexdrill_alarms::{Definition, Delays, Priority};
 use flexdrill_config::{Alarms, NodeAlarm, ToolAlarm};
 use flexdrill_core::inputs::InputKind;
-use flexdrill_core::motion::HazardKind;
+use flexdrill_motion::HazardKind;
 
 /// A condition that requires a response of an operator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use super::catalogue::AlarmId;
 use flexdrill_alarms::{Priority, Time};
-use flexdrill_core::motion::ToolLocation;
+use flexdrill_motion::ToolLocation;
 
 /// The present condition. Sentences begin with a capital and end with a full stop.
 #[derive(Debug, Clone, PartialEq)]

@@ -42,7 +42,6 @@ pub(crate) use tool::called_at;
 
 use std::sync::Arc;
 
-use crate::messages::outputs::{Encoded, ParameterChange};
 use crate::messages::std_msgs::Header;
 use crate::messages::topics;
 use crate::messages::{AlarmEvent, AlarmList, CdrError, Residuals, to_cdr_into};
@@ -51,8 +50,9 @@ use flexdrill_alarms::{
 };
 use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
-use flexdrill_core::motion::HazardKind;
 use flexdrill_core::twin::Snapshot;
+use flexdrill_motion::HazardKind;
+use flexdrill_outputs::{Encoded, ParameterChange};
 
 use crate::window::SafeWindow;
 use adjusted::Adjusted;

@@ -6,10 +6,10 @@ use super::finding::Finding;
 use super::sentence::number;
 use flexdrill_alarms::{Priority, Time, span};
 use flexdrill_config::{Advice, AdviceTable, Config, Law};
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Hold, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_motion::{DriveState, Hazard, HazardKind, Hold, Severity, ToolLocation};
 use flexdrill_text::percent;
 
 /// Largest difference of the whirl rate from that of rolling without slip, over the latter, for whirl that is called

@@ -6,9 +6,9 @@ use super::finding::Finding;
 use super::sentence::{capitalized, number};
 use crate::window::{Location, SafeWindow};
 use flexdrill_alarms::Priority;
-use flexdrill_core::motion::DriveState;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_motion::DriveState;
 
 /// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged, nor are a speed and
 /// weight that are the twin's own.

@@ -2,7 +2,8 @@
 
 use flexdrill_bridge::mqtt::{SparkplugNode, json};
 use flexdrill_bridge::{Figure, TwinFigures};
-use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals, words};
+use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals};
+use flexdrill_outputs::words;
 
 /// Whether the twin is there; it keeps its value when the others are no longer known.
 pub const ALIVE: &str = "Twin/alive";

@@ -9,6 +9,7 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_field_log::InputSequence;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::{Message, RigInputs, RigMeasured, topics};
+use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 
 /// The measured quantity of a channel.
 pub const fn kind(channel: Channel) -> MeasuredKind {

@@ -13,8 +13,8 @@ use crate::bag::Losses;
 use crate::cli::output::say;
 use crate::dds::network::Network;
 use crate::live::Token;
+use crate::messages::TwinStatus;
 use crate::messages::topics::{self, Cadence};
-use crate::messages::{TwinStatus, outputs};
 use crate::node::DEFAULT_NODE_NAME;
 use crate::node::parameters;
 use crate::node::{self, LiveAddress, NodeSetup, RunSummary};
@@ -22,6 +22,7 @@ use crate::ros::args::RosArgs;
 use crate::ros::service::ServiceMapping;
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
+use flexdrill_ros2::dds::network::Reach;
 use flexdrill_ros2::logging;
 use flexdrill_text::counted;
 
@@ -98,7 +99,10 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let (config, config_file) = load_config(chosen_config(args.config.as_deref(), named)?)?;
     let started = parameters::apply_overrides(&config, &overrides)?;
     let (network, notes) = Network::read(args.domain, |name| std::env::var(name).ok()).map_err(WrongUse::new)?;
-    let network = network.configured(&started.config.network).map_err(WrongUse::new)?;
+    let asked = &started.config.network;
+    let network = network
+        .configured(reach(asked.reach), &asked.interfaces, &asked.peers)
+        .map_err(WrongUse::new)?;
     let state_dir = args
         .state_dir
         .clone()
@@ -216,7 +220,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {what}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
-    let schedule = outputs::published(config);
+    let schedule = flexdrill_outputs::published(config);
     for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
         let rate = match topic.cadence {
             Cadence::Rate(key) => rate(config, &schedule, key),
@@ -319,6 +323,15 @@ fn print_summary(summary: &RunSummary) {
                 counted(recording.doubtful, "message")
             );
         }
+    }
+}
+
+/// The reach that the configuration asks for; `None` where ROS 2's variables decide.
+fn reach(asked: flexdrill_config::Reach) -> Option<Reach> {
+    match asked {
+        flexdrill_config::Reach::Environment => None,
+        flexdrill_config::Reach::Subnet => Some(Reach::Subnet),
+        flexdrill_config::Reach::Localhost => Some(Reach::Localhost),
     }
 }
 

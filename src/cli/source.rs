@@ -17,6 +17,7 @@ use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
 use crate::messages::{RigInputs, RigMeasured};
 use flexdrill_core::inputs::{InputKind, Stamp};
+use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 
 /// End of the seconds in a stamp of ROS, which have 32 bits (s since 1970).
 const LATEST_STAMP: f64 = i32::MAX as f64;

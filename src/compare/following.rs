@@ -6,7 +6,7 @@ use flexdrill_calibration::following::{Following, FollowingSettings, Held};
 use flexdrill_config::{Config, FOLLOWED};
 
 use crate::messages;
-use crate::messages::outputs::ParameterChange;
+use flexdrill_outputs::ParameterChange;
 
 /// Who asks for a change by following, for the log and the recording.
 pub const FOLLOW: &str = "calibration.follow";

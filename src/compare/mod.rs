@@ -12,8 +12,8 @@ use flexdrill_calibration::monitor::{Compared, Monitor, MonitorSettings, Reading
 use flexdrill_calibration::residual::{Quantity, Residual};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputState, MeasuredKind};
-use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
 use flexdrill_core::twin::{Frame, Snapshot};
+use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 use crate::alarms::{Followed, in_words};
 use crate::messages;
@@ -274,6 +274,7 @@ mod tests {
     use super::*;
     use crate::messages::RigMeasured;
     use crate::messages::builtin_interfaces::Time;
+    use flexdrill_outputs::MeasuredValues as _;
 
     const SECOND: i64 = 1_000_000_000;
     const START: i64 = 1_700_000_000 * SECOND;

@@ -2,7 +2,8 @@
 
 use crate::alarms::AlarmId;
 use crate::messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
-use crate::messages::{Alarm, AlarmList, words};
+use crate::messages::{Alarm, AlarmList};
+use flexdrill_outputs::words;
 
 /// An item before it is held against the alarms.
 pub(super) struct Item {

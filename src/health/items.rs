@@ -3,8 +3,9 @@
 use super::diagnostics::RigEvidence;
 use super::item::{Item, figure, figure_in};
 use crate::alarms::{AlarmId, another_of_this_name, not_in_real_time};
-use crate::messages::{Residuals, TwinStatus, words};
+use crate::messages::{Residuals, TwinStatus};
 use flexdrill_core::inputs::{InputKind, MeasuredKind};
+use flexdrill_outputs::words;
 
 /// Said of a rig whose measured values were not compared with the twin yet.
 const NOT_COMPARED: &str = "nothing: rig and twin were not compared yet";

@@ -2,10 +2,10 @@
 
 use super::item::{Item, figure, figure_in};
 use crate::alarms::AlarmId;
-use crate::messages::words;
-use flexdrill_core::motion::{Hazard, HazardKind, Severity, ShockLevel, WhirlKind, WhirlWarningLevel};
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_motion::{Hazard, HazardKind, Severity, ShockLevel, WhirlKind, WhirlWarningLevel};
+use flexdrill_outputs::words;
 
 /// The figures of the motion in the newest snapshot.
 #[derive(Debug, Clone, Copy, Default)]
@@ -179,8 +179,8 @@ impl MotionEvidence {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::motion::ToolLocation;
     use flexdrill_core::tool::Body;
+    use flexdrill_motion::ToolLocation;
 
     #[test]
     fn figures_carry_their_units() {

@@ -13,7 +13,7 @@ pub mod table;
 use crate::ahead::Figure;
 use crate::alarms::AlarmId;
 use flexdrill_core::Instructions;
-use flexdrill_core::motion::HazardKind;
+use flexdrill_motion::HazardKind;
 use flexdrill_sweep::spec::Program;
 
 /// What this program says of itself in a plan.

@@ -4,12 +4,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::ahead::{Candidate, CandidateAnswer, Figure, Goal, Start as Begin, look_ahead};
-use crate::messages::outputs::schedule;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{Run, RunInputs, Simulation};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_outputs::schedule;
 use flexdrill_sweep::map::{self, AlarmCount, Start};
 use flexdrill_sweep::plan::Running;
 use flexdrill_sweep::{Outcome, Plan, Point};

@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use crate::alarms::{Leading, Tested, Trial};
 use flexdrill_config::Config;
-use flexdrill_core::motion::WhirlSettings;
 use flexdrill_core::tool::LiveParameters;
 use flexdrill_core::twin::Applied;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_motion::WhirlSettings;
 
 /// Time for which the same alarm leads at the same speed and weight before a search begins.
 const SETTLED: Duration = Duration::from_secs(2);

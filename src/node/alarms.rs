@@ -20,12 +20,13 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_messages::outputs::{Encoded, ParameterChange};
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
     AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest,
-    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, words,
+    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse,
 };
+use flexdrill_outputs::words;
+use flexdrill_outputs::{Encoded, ParameterChange};
 use flexdrill_realtime::PaceReading;
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::PortBuilder;
@@ -366,7 +367,7 @@ impl Accepted {
 mod tests {
     use super::*;
     use crate::alarms::{AlarmSet, Change, Quantity, Tested};
-    use flexdrill_core::motion::{DriveState, HazardKind, Severity};
+    use flexdrill_motion::{DriveState, HazardKind, Severity};
 
     #[test]
     fn a_request_without_a_reason_has_no_empty_brackets() {

@@ -29,7 +29,6 @@ use crate::window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{BuildError, Run, Simulation};
-use flexdrill_messages::outputs;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_realtime::clock::{SimulatedClock, WallClock};
 use flexdrill_realtime::link::{Gauges, LoopEnd, PublisherEnd, Targets, link};
@@ -376,7 +375,7 @@ impl Solver {
             "the tool is at its start after {:.1} s; model time runs",
             began.elapsed().as_secs_f64()
         );
-        let schedule = outputs::schedule(&self.config, &self.config.outputs.rates);
+        let schedule = flexdrill_outputs::schedule(&self.config, &self.config.outputs.rates);
         Ok(Run::new(simulation, schedule))
     }
 }

@@ -11,6 +11,7 @@ use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Message, RigMeasured, message_from_cdr_body};
+use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::frames::Peer;
 use flexdrill_ros2::dds::plan::Guid;

@@ -3,9 +3,9 @@
 use super::publish::PublisherParts;
 use crate::bag::RecordingThread;
 use crate::live::LiveServer;
-use flexdrill_messages::outputs::Encoded;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{CdrError, Message, to_cdr};
+use flexdrill_outputs::Encoded;
 use flexdrill_text::log_ending;
 
 impl PublisherParts {

@@ -6,9 +6,9 @@
 
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, Schedule};
-use flexdrill_messages::outputs::published;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{BitState, CdrError, ContactForces, from_cdr, to_cdr};
+use flexdrill_outputs::published;
 
 /// Outputs with a rate, and their topics.
 const THINNED: [(Output, &TopicInfo); 9] = [
@@ -237,7 +237,7 @@ impl Statistics for BitState {
 mod tests {
     use super::*;
     use flexdrill_core::twin::EndsInterval;
-    use flexdrill_messages::outputs::schedule;
+    use flexdrill_outputs::schedule;
 
     /// Contact forces of two stations at 50 Hz: `force` at the first, half of it at the second.
     fn contacts(force: f64) -> Vec<u8> {

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use flexdrill_config::{Config, ConfigError, Law};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{BIT, KICK_OFF};
 use flexdrill_core::tool::{Body, PressureSource, SectionProperties, ToolDescription, WellPath};
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::n_to_kn;
+use flexdrill_motion::{BIT, KICK_OFF};
 
 use super::soft_string::weights;
 

@@ -5,6 +5,7 @@ use std::fmt;
 
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_messages::RigMeasured;
+use flexdrill_outputs::MeasuredValues as _;
 
 /// Later than this (ns) a stamp of 0 is one that the sender has not set. A simulated clock begins at 0, and measurements of
 /// its first hour may say so.

@@ -2,6 +2,7 @@
 
 use flexdrill_core::inputs::{InputKind, Stamp};
 use flexdrill_messages::RigInputs;
+use flexdrill_outputs::InputValues as _;
 
 /// The values of a message at `rig_time` (ns since 1970, on the clock of its stamp); `None` for an input that the message
 /// does not give.

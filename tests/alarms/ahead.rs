@@ -10,14 +10,14 @@ use super::with_off_delay;
 use crate::random::Random;
 use flexdrill::ahead::{Answer, Candidate, Figure, Goal, GoalError, Start, keep_priority, look_ahead, search};
 use flexdrill::alarms::{AlarmBook, AlarmId, Quantity, Trial};
-use flexdrill::messages::outputs::schedule;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::WhirlKind;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{Run, RunInputs, Simulation, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::WhirlKind;
+use flexdrill_outputs::schedule;
 
 /// The coarse tool with a pipe that rubs in its guide as in `alarms::advice`.
 fn config(friction: f64) -> Arc<Config> {

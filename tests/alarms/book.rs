@@ -11,7 +11,6 @@ use flexdrill::health::diagnostics::{self, RigEvidence};
 use flexdrill::health::motion::MotionEvidence;
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::DiagnosticStatus;
-use flexdrill::messages::outputs::ParameterChange;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
     AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr, topics,
@@ -21,10 +20,11 @@ use flexdrill::rig_inputs::{Driver, DriverId, Drivers, Rule};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::{FailureCause, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute};
-use flexdrill_core::motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityCause, QualityLevel, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::{DriveState, Hazard, HazardKind, Severity, ToolLocation};
+use flexdrill_outputs::ParameterChange;
 use flexdrill_realtime::link::RunState;
 use flexdrill_realtime::{Pace, PaceReading};
 
@@ -832,7 +832,7 @@ fn diagnostics_never_contradict_the_alarms() {
     };
     let motion = MotionEvidence {
         stick_slip_index: 1.5,
-        shock: flexdrill_core::motion::ShockLevel {
+        shock: flexdrill_motion::ShockLevel {
             severity: Severity::Critical,
             impulse: 90.0,
             ..Default::default()

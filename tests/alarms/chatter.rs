@@ -16,9 +16,9 @@ use flexdrill::messages::{AcknowledgeAlarmRequest, Alarm, CdrError};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{HazardKind, Hold, Severity};
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::{HazardKind, Hold, Severity};
 
 /// Model time between two looks at the alarms (s), as in the node.
 const LOOK: f64 = 0.1;

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use flexdrill::ahead::{Held, Signal, Start, forecast, keep_priority};
-use flexdrill::messages::outputs::schedule;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_core::twin::{Run, RunInputs, Simulation};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_field_log::{InputSequence, Mapping, read};
+use flexdrill_outputs::schedule;
 
 /// Time between two looks (s), and between two forecasts (s), as in the node.
 const LOOK: f64 = 0.1;

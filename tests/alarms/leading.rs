@@ -6,7 +6,7 @@ use flexdrill::dds::port::Health;
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::{AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, ShelveAlarmRequest};
 use flexdrill_core::inputs::Conditioner;
-use flexdrill_core::motion::{Hazard, HazardKind, Hold, Severity};
+use flexdrill_motion::{Hazard, HazardKind, Hold, Severity};
 use flexdrill_realtime::link::RunState;
 use flexdrill_realtime::{Pace, PaceReading};
 use proptest::prelude::*;

@@ -12,7 +12,7 @@ mod random;
 
 use flexdrill::alarms::AlarmId;
 use flexdrill_config::Config;
-use flexdrill_core::motion::HazardKind;
+use flexdrill_motion::HazardKind;
 
 /// A configuration whose alarms of the tool's motion return so long (s) after the end of the motion: a test of the motion
 /// does not wait for as long as an operator's alarm is held.

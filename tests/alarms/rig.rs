@@ -9,9 +9,9 @@ use flexdrill::messages::{AlarmEvent, CdrError};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::BIT;
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::{m_per_h_to_m_per_s, rpm_to_rad_per_s};
+use flexdrill_motion::BIT;
 use serde_json::{Value, json};
 
 /// Model time between two looks at the alarms (s), as in the node.

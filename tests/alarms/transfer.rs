@@ -10,9 +10,9 @@ use flexdrill::messages::{Alarm, AlarmEvent, CdrError};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::Transfer;
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::rpm_to_rad_per_s;
+use flexdrill_motion::Transfer;
 
 /// Model time between two looks at the alarms (s), as in the node.
 const LOOK: f64 = 0.1;

@@ -2,16 +2,16 @@
 //! doubtful inputs do to what is said of them.
 
 use flexdrill::messages::WhirlWarning;
-use flexdrill::messages::fill;
-use flexdrill::messages::outputs::schedule;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::InputState;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{DriveState, HazardKind, Severity, WhirlKind};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{Frame, Run, Simulation};
+use flexdrill_motion::{DriveState, HazardKind, Severity, WhirlKind};
+use flexdrill_outputs::fill;
+use flexdrill_outputs::schedule;
 
 /// The closed-form case of a rolling rotor, d = 60 mm in D = 80 mm at 60 r/min, with both its stations watched.
 fn rolling_rotor() -> Config {

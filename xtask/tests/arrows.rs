@@ -1,4 +1,5 @@
-//! Crates that wrap a foreign library are the only ones that depend on it.
+//! Crates that wrap a foreign library are the only ones that depend on it, and the crates of the workspace use each other as
+//! `docs/architecture.md` says.
 
 #![allow(
     clippy::unwrap_used,
@@ -6,6 +7,7 @@
     reason = "helpers of tests fail by panicking"
 )]
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A foreign crate, and the crate of the workspace that may use it.
@@ -33,7 +35,7 @@ fn root() -> PathBuf {
 fn manifests() -> Vec<(String, String)> {
     let crates = std::fs::read_dir(root().join("crates")).unwrap();
     let mut folders: Vec<PathBuf> = crates.map(|entry| entry.unwrap().path()).collect();
-    folders.extend([root(), root().join("xtask")]);
+    folders.extend(["", "xtask", "xtask/bench", "xtask/pages", "benches"].map(|folder| root().join(folder)));
     folders
         .iter()
         .filter_map(|folder| std::fs::read_to_string(folder.join("Cargo.toml")).ok())
@@ -46,12 +48,17 @@ fn manifests() -> Vec<(String, String)> {
 
 /// The crates that a manifest lists under its `[dependencies]`, those for tests left out.
 fn dependencies(manifest: &str) -> Vec<&str> {
+    listed(manifest, "[dependencies]")
+}
+
+/// The crates that a manifest lists in a section.
+fn listed<'a>(manifest: &'a str, wanted: &str) -> Vec<&'a str> {
     let mut section = "";
     let mut found = Vec::new();
     for line in manifest.lines() {
         if line.starts_with('[') {
             section = line;
-        } else if section == "[dependencies]"
+        } else if section == wanted
             && let Some((name, _)) = line.split_once(['=', '.'])
         {
             found.push(name.trim());
@@ -86,5 +93,52 @@ fn no_crate_uses_the_product_or_the_workshop() {
         for above in ["flexdrill", "xtask"] {
             assert!(!dependencies(&manifest).contains(&above), "{name} depends on {above}");
         }
+    }
+}
+
+/// Words of the column "may use" that are no crate of the workspace.
+const OTHERS: [&str; 4] = ["all of these", "none of these", "numeric crates", "serde"];
+
+/// Rows of the table of crates: name and the words of the column "may use".
+fn table(page: &str) -> Vec<(&str, Vec<&str>)> {
+    let (_, section) = page.split_once("## Crates and arrows").unwrap();
+    let rows = section.lines().skip_while(|line| !line.starts_with("| `"));
+    rows.take_while(|line| line.starts_with('|'))
+        .map(|row| {
+            let name = row.split('`').nth(1).unwrap();
+            let (_, column) = row.trim_end_matches('|').rsplit_once('|').unwrap();
+            let words = column.split(',').map(str::trim).filter(|word| !word.is_empty());
+            (name, words.collect())
+        })
+        .collect()
+}
+
+#[test]
+fn crates_use_each_other_as_the_architecture_says() {
+    let page = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
+    let table = table(&page);
+    // RustDDS is a fork with a page of its own.
+    let manifests: Vec<(String, String)> = manifests().into_iter().filter(|(name, _)| name != "rustdds").collect();
+    let names: BTreeSet<&str> = manifests.iter().map(|(name, _)| name.as_str()).collect();
+    let rows: BTreeSet<&str> = table.iter().map(|(name, _)| *name).collect();
+    assert_eq!(rows, names, "one row per crate");
+    for (name, words) in &table {
+        let (_, manifest) = manifests.iter().find(|(found, _)| found == name).unwrap();
+        let mut uses: BTreeSet<&str> = dependencies(manifest).into_iter().collect();
+        if *name == "flexdrill-benches" {
+            // Benchmarks are compiled like tests.
+            uses.extend(listed(manifest, "[dev-dependencies]"));
+        }
+        uses.retain(|used| names.contains(used));
+        if words.contains(&"all of these") {
+            continue;
+        }
+        let crates = words.iter().filter(|word| !OTHERS.contains(word));
+        let allowed: BTreeSet<String> = crates.map(|word| format!("flexdrill-{word}")).collect();
+        let allowed: BTreeSet<&str> = allowed.iter().map(String::as_str).collect();
+        assert_eq!(
+            uses, allowed,
+            "{name}: its Cargo.toml, and its row of docs/architecture.md"
+        );
     }
 }

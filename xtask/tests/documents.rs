@@ -590,48 +590,6 @@ fn own_dependencies(manifest: &str) -> BTreeSet<String> {
         .collect()
 }
 
-#[test]
-fn what_a_crate_may_use_is_what_its_manifest_says() {
-    let page = read(&root().join("docs/architecture.md"));
-    let crates = std::fs::read_dir(root().join("crates")).unwrap();
-    let folders = crates.map(|entry| entry.unwrap().path());
-    let own = |folder: &PathBuf| name(folder).contains("flexdrill-");
-    // Folder and name differ in the workshop.
-    let workshop = [
-        ("flexdrill-pages", root().join("xtask/pages")),
-        ("flexdrill-measurements", root().join("xtask/bench")),
-    ];
-    let named = folders
-        .filter(own)
-        .map(|folder| (folder.file_name().unwrap().to_string_lossy().into_owned(), folder));
-    let all: Vec<(String, PathBuf)> = named
-        .chain(workshop.map(|(name, folder)| (name.to_owned(), folder)))
-        .collect();
-    let names: BTreeSet<&str> = all
-        .iter()
-        .filter_map(|(name, _)| name.strip_prefix("flexdrill-"))
-        .collect();
-    for (name, folder) in &all {
-        let begin = format!("| `{name}` ");
-        let row = page.lines().find(|line| line.starts_with(&begin));
-        let cells: Vec<&str> = row.unwrap_or_else(|| panic!("no row of {name}")).split(" | ").collect();
-        let cell = cells[2].trim_end_matches('|');
-        // The column also names foreign crates, by kind.
-        let stated: BTreeSet<String> = cell
-            .split(',')
-            .map(str::trim)
-            .filter(|word| names.contains(word))
-            .map(str::to_owned)
-            .collect();
-        let manifest = read(&folder.join("Cargo.toml"));
-        assert_eq!(
-            stated,
-            own_dependencies(&manifest),
-            "docs/architecture.md, row of {name}"
-        );
-    }
-}
-
 /// The string literals of a source of Rust or TypeScript, without what is filled in between braces.
 fn literals(source: &str) -> String {
     let source = source.replace("'\"'", "").replace("'`'", "");

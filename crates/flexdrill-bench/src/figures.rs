@@ -121,7 +121,7 @@ impl Figures {
             ]);
         }
         let kinds = |kind| last.whirl.kind.iter().filter(|&&k| k == kind).count();
-        use flexdrill_core::motion::WhirlKind::{Backward, Chaotic, Forward};
+        use flexdrill_motion::WhirlKind::{Backward, Chaotic, Forward};
         table.row([
             "whirl at the end: forward, backward, chaotic of all places".into(),
             format!(

@@ -3,6 +3,7 @@
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{RigInputs, RigMeasured};
+use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 
 use crate::Quantity;
 

@@ -78,7 +78,7 @@ pub use look_ahead::LookAhead;
 pub use map::SafeMap;
 pub use motion::PROMPT_OFF_DELAY;
 pub use mud::Mud;
-pub use network::{Network, Reach, is_peer};
+pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
 pub use pipe::{AsBuilt, FreeBend, Guide, Never, Piece, Pipe, SlotsClose};
 pub use place::At;
@@ -97,10 +97,10 @@ pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
 
 use checker::Checker;
 use flexdrill_core::inputs::{InputKind, Inputs};
-use flexdrill_core::motion::WhirlSettings;
 use flexdrill_core::tool::{FrictionLaw, GapDescription, LiveParameters, ToolDescription};
 use flexdrill_core::twin::SimulationSettings;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
+use flexdrill_motion::WhirlSettings;
 use lines::Lines;
 use place::Mesh;
 

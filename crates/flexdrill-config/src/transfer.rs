@@ -3,8 +3,8 @@
 use super::checker::Checker;
 use super::section::section;
 use super::vibration::Steps;
-use flexdrill_core::motion::{AlarmThresholds, LoadSettings, TransferSettings};
 use flexdrill_core::units::{kn_to_n, n_to_kn};
+use flexdrill_motion::{AlarmThresholds, LoadSettings, TransferSettings};
 
 section! {
     /// Torque and weight from the surface to the bit (`twin/transfer`), and the levels of what does not arrive. Judged

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::section::section;
-use flexdrill_core::motion::{
+use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
+use flexdrill_motion::{
     AgeingSettings, AlarmThresholds, ChaoticWhirlSettings, JointLoadSettings, MOST_REPEATS, ShockSettings,
     StickSlipSettings,
 };
-use flexdrill_core::units::{rad_per_s_to_rpm, rpm_to_rad_per_s};
 
 section! {
     /// Stick-slip of the bit.

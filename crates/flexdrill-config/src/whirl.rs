@@ -7,9 +7,9 @@ use super::checker::Checker;
 use super::place::Mesh;
 use super::section::section;
 use super::vibration::Steps;
-use flexdrill_core::motion::{self, WhirlSettings};
 use flexdrill_core::tool::Body;
 use flexdrill_core::units::rpm_to_rad_per_s;
+use flexdrill_motion::WhirlSettings;
 
 section! {
     /// Whirl analysis and warnings.
@@ -83,23 +83,23 @@ section! {
     #[derive(Copy)]
     pub struct InputTrust(this) {
         /// Factor while an input is SLOW: late by a sample or two.
-        slow: f64 = motion::InputTrust::default().slow, within(0.0, 1.0), "",
+        slow: f64 = flexdrill_motion::InputTrust::default().slow, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
         /// Factor while an input is REJECTED: the newest sample was refused.
-        rejected: f64 = motion::InputTrust::default().rejected, within(0.0, 1.0), "",
+        rejected: f64 = flexdrill_motion::InputTrust::default().rejected, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
         /// Factor while an input is STALE: held, or on the ramp to the safe value.
-        stale: f64 = motion::InputTrust::default().stale, within(0.0, 1.0), "",
+        stale: f64 = flexdrill_motion::InputTrust::default().stale, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
         /// Factor while an input is NOT_RECEIVED: the configured start value acts.
-        not_received: f64 = motion::InputTrust::default().not_received, within(0.0, 1.0), "",
+        not_received: f64 = flexdrill_motion::InputTrust::default().not_received, within(0.0, 1.0), "",
             "a factor on the confidence; 0 lets no level rise";
     }
 }
 
 impl InputTrust {
-    fn describe(&self) -> motion::InputTrust {
-        motion::InputTrust {
+    fn describe(&self) -> flexdrill_motion::InputTrust {
+        flexdrill_motion::InputTrust {
             slow: self.slow,
             rejected: self.rejected,
             stale: self.stale,

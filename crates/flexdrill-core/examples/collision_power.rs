@@ -6,10 +6,10 @@
 //!     cargo run --release -p flexdrill-core --example collision_power -- 30 0.7 80,100,120 10 48
 
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{HazardKind, Severity, WhirlKind};
 use flexdrill_core::tool::{Body, ToolDescription};
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::{HazardKind, Severity, WhirlKind};
 
 /// Model time that is passed over at the start of a run (s): the run-up to 120 r/min and the first turns.
 const SETTLED: f64 = 8.0;

@@ -9,10 +9,10 @@
 
 use flexdrill_core::dynamics::EnergyAudit;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::WhirlKind;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 use flexdrill_core::units::{kn_to_n, rad_per_s_to_rpm, rpm_to_rad_per_s};
+use flexdrill_motion::WhirlKind;
 
 /// Model time until the motion is judged, and for how long it is (s).
 const DEVELOPED: f64 = 4.0;

@@ -48,11 +48,12 @@
 //! # Layout
 //! - [`tool`]: what is modelled, as plain structs, and its checks.
 //! - [`twin`]: simulation, settings, snapshots, checkpoints, the schedule of outputs.
-//! - [`motion`]: from motion to whirl, stick-slip, shock, their levels and a table of episodes. Usable alone, on
-//!   measured orbits.
 //! - [`inputs`]: from samples of a rig to inputs of a step: limits, ages, safe values.
 //! - [`dynamics`]: residual, time scheme, Newton, steps; `chain`, `model`, `elements`, `simd` below it.
-//! - [`units`]: the only conversions.
+//! - [`units`] and [`validation`], of the crate `flexdrill-base`: the only conversions; the checks of numbers.
+//!
+//! The crate `flexdrill-motion` says what the motion means: whirl, stick-slip, shock, their levels and a table of episodes.
+//! [`twin`] feeds it.
 //!
 //! # Conventions
 //! SI inside, angles in radians. World: X horizontal in the direction of build, Y horizontal, Z down. Station frame: x
@@ -72,15 +73,13 @@ pub mod dynamics;
 mod elements;
 pub mod inputs;
 mod model;
-pub mod motion;
 mod simd;
 #[cfg(test)]
 mod stations;
 pub mod tool;
 pub mod twin;
-pub mod units;
-pub mod validation;
 
+pub use flexdrill_base::{units, validation};
 pub use simd::Instructions;
 
 #[cfg(doctest)]

@@ -10,10 +10,10 @@
 use std::f64::consts::TAU;
 
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{DriveState, HazardKind, Severity};
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_motion::{DriveState, HazardKind, Severity};
 
 /// Time between two looks (s), as the alarms take.
 const LOOK: f64 = 0.1;

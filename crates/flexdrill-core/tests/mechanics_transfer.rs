@@ -10,9 +10,9 @@
 mod support;
 
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE, Transfer};
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{Simulation, SimulationSettings};
+use flexdrill_motion::{BIT, KICK_OFF, SURFACE, Transfer};
 use support::coarse;
 
 const DRILLING: Inputs = Inputs {

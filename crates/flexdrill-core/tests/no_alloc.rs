@@ -14,9 +14,9 @@ use std::cell::Cell;
 
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::{Body, ToolDescription};
 use flexdrill_core::twin::Simulation;
+use flexdrill_motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlReport, WhirlSettings};
 use support::{clock, coarse, hard_settings, simulation};
 
 struct Counting;

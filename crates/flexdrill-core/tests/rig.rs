@@ -395,7 +395,7 @@ fn a_failed_step_leaves_string_and_rock_as_they_were() {
 /// and of the bit's; the hoist's rate in steady drilling; a depth of cut of the rate per turn.
 #[test]
 fn transfer_has_every_place_from_the_surface_to_the_bit() {
-    use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
+    use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
     let mut twin = simulation(&rig(Feed::Rate));
     run(&mut twin, 40.0, |_| drilling());
     let mut snapshot = twin.new_snapshot();

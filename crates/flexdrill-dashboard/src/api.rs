@@ -156,7 +156,7 @@ async fn pulse(State(shared): Server) -> Response {
 
 async fn history(State(shared): Server) -> Response {
     // The history has one frame per second, so a copy stays current for a second.
-    let second = flexdrill_realtime::monotonic::now() / 1_000_000_000;
+    let second = flexdrill_clock::monotonic::now() / 1_000_000_000;
     match shared.answers.history.body(second, || shared.board.history()) {
         Some(body) => large(body, "application/octet-stream"),
         None => answer(StatusCode::NOT_FOUND, "no message of the twin has arrived yet"),

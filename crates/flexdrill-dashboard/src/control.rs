@@ -18,6 +18,7 @@ use flexdrill_live::Token;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{RigInputs, TwinStatus, to_cdr_body};
+use flexdrill_outputs::InputValues as _;
 use flexdrill_ros2::dds::port::Monitor;
 use flexdrill_text::{beyond, log_ending, six_digits};
 

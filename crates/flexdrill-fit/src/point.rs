@@ -6,9 +6,9 @@ use flexdrill_calibration::windows::{Channel, Motion};
 use flexdrill_config::{Config, ConfigError, Law};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{BIT, KICK_OFF, SURFACE};
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::{m_per_h_to_m_per_s, n_to_kn};
+use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 /// Shortest time of a mean (s): two turns at 40 r/min.
 const SHORTEST_MEAN: f64 = 3.0;

@@ -9,12 +9,12 @@ use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, fi
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{BIT, SURFACE};
 use flexdrill_core::twin::Simulation;
 use flexdrill_fit::points::{design, run};
 use flexdrill_fit::study::cover;
 use flexdrill_fit::unknowns::Unknowns;
 use flexdrill_fit::{StudySettings, study};
+use flexdrill_motion::{BIT, SURFACE};
 
 /// Speed (r/min), weight (kN) and seconds of the parts: two connections with rotation off bottom.
 const SCHEDULE: [(f64, f64, u32); 7] = [

@@ -4,7 +4,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use flexdrill_realtime::monotonic;
+use flexdrill_clock::monotonic;
 use tokio::sync::Semaphore;
 
 use flexdrill_text::Throttle;

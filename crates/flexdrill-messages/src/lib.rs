@@ -1,17 +1,13 @@
-//! The ROS 2 messages of flexdrill: types generated from `msg/*.msg` and `external/`, their CDR bytes, the topics, how a
-//! snapshot of the twin fills them, and the words for their codes. The crate knows no network and no file.
+//! The ROS 2 messages of flexdrill: types generated from `msg/*.msg` and `external/`, their CDR bytes, and the topics. The
+//! crate knows no network and no file, and nothing of the twin: `flexdrill-outputs` fills the messages.
 
 mod cdr;
-pub mod fill;
 mod grown;
 mod journal;
 pub mod large_array;
-mod measured;
 mod message;
-pub mod outputs;
 mod time;
 pub mod topics;
-pub mod words;
 
 #[expect(
     missing_docs,

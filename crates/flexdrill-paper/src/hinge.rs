@@ -2,7 +2,7 @@
 
 use super::PaperError;
 use flexdrill_core::tool::{Body, Direction};
-use flexdrill_verify::{Bench, HingedBeam};
+use flexdrill_verify::{CaseTwin, HingedBeam};
 
 /// The case `hinged_beam_in_tube` of `flexdrill verify`, over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,21 +31,21 @@ impl Hinge {
     /// # Errors
     /// When it cannot be built or a step fails.
     pub fn run() -> Result<Self, PaperError> {
-        let mut bench = Bench::new("hinged_beam_in_tube")?;
-        let joint = bench.simulation.joint_stations()[0];
+        let mut twin = CaseTwin::new("hinged_beam_in_tube")?;
+        let joint = twin.simulation.joint_stations()[0];
         let end = 0.8;
         let mut out = Self {
-            beam: HingedBeam::of(&bench),
+            beam: HingedBeam::of(&twin),
             time: Vec::new(),
             load: Vec::new(),
             numerical: Vec::new(),
         };
-        while bench.time() < end {
-            bench.step()?;
-            if bench.simulation.step().is_multiple_of(EVERY) {
-                out.time.push(bench.time());
-                out.load.push(RATE * bench.time());
-                out.numerical.push(bench.displacement(joint, Body::Pipe, Direction::W));
+        while twin.time() < end {
+            twin.step()?;
+            if twin.simulation.step().is_multiple_of(EVERY) {
+                out.time.push(twin.time());
+                out.load.push(RATE * twin.time());
+                out.numerical.push(twin.displacement(joint, Body::Pipe, Direction::W));
             }
         }
         Ok(out)

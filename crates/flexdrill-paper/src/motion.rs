@@ -1,7 +1,7 @@
 //! Lateral motion of one pipe: its amplitude along the tool, its direction of whirl, and the kinks of its shape.
 
-use flexdrill_core::motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 use flexdrill_core::tool::Body;
+use flexdrill_motion::{StationSample, WatchedStation, WhirlAnalysis, WhirlKind, WhirlReport, WhirlSettings};
 
 use super::record::{Axis, Record};
 use super::series::{spread, two_peaks};

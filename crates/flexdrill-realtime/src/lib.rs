@@ -1,5 +1,6 @@
 //! Pacing by absolute deadlines. The decisions are pure functions of the time that the caller passes ([`Pacer`],
-//! [`RealTimeFactor`]); only [`monotonic`] and [`clock`] read a clock. Nothing allocates after construction.
+//! [`RealTimeFactor`]); only [`monotonic`], of the crate `flexdrill-clock`, and
+//! [`clock`] read a clock. Nothing allocates after construction.
 //!
 //! ```no_run
 //! use flexdrill_realtime::{Pacer, monotonic};
@@ -16,7 +17,6 @@
 
 pub mod clock;
 pub mod link;
-pub mod monotonic;
 mod pace_watch;
 mod pacer;
 pub mod priority;
@@ -27,6 +27,7 @@ mod step_pace;
 /// Length of a period of the solver (s): the delay of an input at most, live and in replays of foreign inputs.
 pub const INPUT_PERIOD: f64 = 5e-3;
 
+pub use flexdrill_clock::monotonic;
 pub use pace_watch::{FAR_BEHIND, KEEPS_UP, Pace, PaceReading, PaceWatch};
 pub use pacer::{Paced, Pacer, whole_periods};
 pub use real_time_factor::RealTimeFactor;

@@ -8,9 +8,9 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::dynamics::phases::{self, PhaseTimes};
 use flexdrill_core::inputs::{InputKind, Inputs};
-use flexdrill_core::motion::WhirlSettings;
 use flexdrill_core::tool::LiveParameters;
 use flexdrill_core::twin::{CheckpointError, Frame, RunInputs, Schedule};
+use flexdrill_motion::WhirlSettings;
 
 /// Frames in circulation: at 100 frames per second, two thirds of a second of a stalled publisher.
 pub const FRAMES: usize = 64;

@@ -7,6 +7,7 @@ use crate::shares::Shares;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use flexdrill_messages::{AppliedInputs, BitState, JointDeflections, RigInputs};
+use flexdrill_outputs::InputValues as _;
 
 /// Below this speed the drive counts as stopped, and its torque says nothing about transfer (rad/s): 1 r/min.
 const STOPPED: f64 = 0.105;

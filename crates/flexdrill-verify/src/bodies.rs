@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::bench::{Bench, crossing_frequency};
+use super::case::{CaseTwin, crossing_frequency};
 use super::{Row, VerifyError};
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::tool::SectionProperties;
@@ -13,8 +13,8 @@ const FREQUENCY: f64 = 1e-3;
 /// Newmark follows omega with an error of (omega h)^2 / 12 = 1e-4, which the distance to the critical speed doubles.
 const AMPLITUDE: f64 = 1e-3;
 
-fn section(bench: &Bench) -> SectionProperties {
-    let tool = bench.config.tool();
+fn section(twin: &CaseTwin) -> SectionProperties {
+    let tool = twin.config.tool();
     SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0)
 }
 
@@ -41,29 +41,33 @@ pub(super) fn torsion_pendulum() -> Result<Vec<Row>, VerifyError> {
             .with_value("tool.bit.inertia", inertia)
     };
     Ok(vec![
-        swing(case, Bench::new(case)?, "with a body, first frequency (Hz)")?,
-        swing(case, Bench::with(case, as_bit)?, "the same as the bit's inertia (Hz)")?,
+        swing(case, CaseTwin::new(case)?, "with a body, first frequency (Hz)")?,
+        swing(
+            case,
+            CaseTwin::with(case, as_bit)?,
+            "the same as the bit's inertia (Hz)",
+        )?,
     ])
 }
 
-fn swing(case: &'static str, mut bench: Bench, quantity: &str) -> Result<Row, VerifyError> {
-    let (s, tool) = (section(&bench), bench.config.tool());
-    let (last, length) = (bench.last(), bench.config.well.length());
+fn swing(case: &'static str, mut twin: CaseTwin, quantity: &str) -> Result<Row, VerifyError> {
+    let (s, tool) = (section(&twin), twin.config.tool());
+    let (last, length) = (twin.last(), twin.config.well.length());
     let inertia = tool.bit.inertia + tool.masses[0].axial_inertia;
     let rod = s.spin_inertia * length;
     let b = root(rod / inertia);
     let expected = b / length * (s.torsion / s.spin_inertia).sqrt() / TAU;
-    bench.run_to(0.001)?;
+    twin.run_to(0.001)?;
     // The first mode, sin(b x / L), out of those that a sudden release excites: weighted with the inertia it moves.
     let mode = |station: usize| (b * station as f64 / last as f64).sin();
     let end = 0.5 + inertia * last as f64 / rod;
     let mut samples = Vec::new();
-    while bench.time() < 0.05 {
-        bench.step()?;
-        let turned = |station: usize| mode(station) * bench.displacement(station, Body::Pipe, Direction::Psi);
+    while twin.time() < 0.05 {
+        twin.step()?;
+        let turned = |station: usize| mode(station) * twin.displacement(station, Body::Pipe, Direction::Psi);
         samples.push((0..last).map(turned).sum::<f64>() + end * turned(last));
     }
-    let got = crossing_frequency(&samples, bench.simulation.settings().time_step)
+    let got = crossing_frequency(&samples, twin.simulation.settings().time_step)
         .ok_or(VerifyError::Missing { case, what: "a swing" })?;
     Ok(Row::relative(case, quantity, expected, got, FREQUENCY))
 }
@@ -73,20 +77,20 @@ pub(super) fn unbalanced_rotor() -> Result<Vec<Row>, VerifyError> {
     [0.6, 1.6]
         .into_iter()
         .map(|ratio| {
-            let bench = Bench::new(case)?;
-            let (tool, length) = (bench.config.tool(), bench.config.well.length());
+            let twin = CaseTwin::new(case)?;
+            let (tool, length) = (twin.config.tool(), twin.config.well.length());
             let disc = tool.masses[0];
-            let critical = (48.0 * section(&bench).bending / (disc.mass * length.powi(3))).sqrt();
+            let critical = (48.0 * section(&twin).bending / (disc.mass * length.powi(3))).sqrt();
             let (speed, alpha) = (ratio * critical, tool.rayleigh.alpha);
             let rpm = 60.0 * speed / TAU;
-            let mut bench = Bench::with(case, |config| {
+            let mut twin = CaseTwin::with(case, |config| {
                 config
                     .with_value("inputs.rotary_speed.max_rpm", 2.0 * rpm)?
                     .with_value("inputs.rotary_speed.initial_rpm", rpm)?
                     .with_value("initial.spin_rpm", rpm)
             })?;
-            bench.run_to(1.5)?;
-            let at = |direction| bench.displacement(1, Body::Pipe, direction);
+            twin.run_to(1.5)?;
+            let at = |direction| twin.displacement(1, Body::Pipe, direction);
             let got = at(Direction::V).hypot(at(Direction::W));
             let damped = (alpha * speed).powi(2);
             let detuned = (critical * critical - speed * speed).powi(2);

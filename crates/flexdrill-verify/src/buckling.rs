@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction};
 
@@ -35,8 +35,8 @@ struct Chain {
 }
 
 impl Chain {
-    fn bench(&self, torque: f64) -> Result<Bench, VerifyError> {
-        Bench::with(self.case, |config| {
+    fn twin(&self, torque: f64) -> Result<CaseTwin, VerifyError> {
+        CaseTwin::with(self.case, |config| {
             config
                 .with_value("tool.links", self.links)?
                 .with_value("tool.joint.kind", self.joints)?
@@ -47,14 +47,14 @@ impl Chain {
 
     /// Deflection (m) of the first joint at rest under `torque` (N m).
     fn deflection(&self, torque: f64) -> Result<f64, VerifyError> {
-        let bench = self.bench(torque)?;
-        let joint = bench.simulation.joint_stations()[0];
-        Ok(bench.displacement(joint, Body::Pipe, Direction::W))
+        let twin = self.twin(torque)?;
+        let joint = twin.simulation.joint_stations()[0];
+        Ok(twin.displacement(joint, Body::Pipe, Direction::W))
     }
 
     /// Pull times length of a link (N m).
     fn unit(&self) -> Result<f64, VerifyError> {
-        let config = self.bench(0.0)?.config.clone();
+        let config = self.twin(0.0)?.config.clone();
         Ok(PULL * config.well.length() / f64::from(self.links))
     }
 

@@ -1,7 +1,7 @@
 //! Figures of programs of others, as their pinned versions give them. `tests/foreign.rs` runs the programs again where they
 //! are installed, and holds these figures to what they print.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::sliding::{Heavy, weight_at_kickoff};
 use super::{Row, VerifyError};
 
@@ -71,19 +71,19 @@ impl SoftString {
     /// # Errors
     /// When the configuration of the case is refused.
     pub fn inputs(&self) -> Result<SoftStringInputs, VerifyError> {
-        let bench = self.bench()?;
-        let of = Heavy::of(&bench);
+        let twin = self.twin()?;
+        let of = Heavy::of(&twin);
         Ok(SoftStringInputs {
             friction: of.friction,
             radius: of.radius,
             weight_on_bit: of.weight_on_bit,
             weight: of.guide,
-            outer_diameter: bench.config.tool().guide_section.outer_diameter,
+            outer_diameter: twin.config.tool().guide_section.outer_diameter,
         })
     }
 
-    fn bench(&self) -> Result<Bench, VerifyError> {
-        Bench::with(self.case, |config| {
+    fn twin(&self) -> Result<CaseTwin, VerifyError> {
+        CaseTwin::with(self.case, |config| {
             config
                 .with_value("contact.outer.friction_axial", self.friction)?
                 .with_value("contact.outer.friction_tangential", self.friction)
@@ -95,7 +95,7 @@ pub(super) fn soft_strings() -> Result<Vec<Row>, VerifyError> {
     SOFT_STRINGS
         .iter()
         .map(|string| {
-            let got = weight_at_kickoff(string.case, &mut string.bench()?)?;
+            let got = weight_at_kickoff(string.case, &mut string.twin()?)?;
             let weight = if string.case == "capstan" { "without" } else { "with" };
             let quantity = format!(
                 "{weight} weight, mu {} (N); {:.0} N as released",

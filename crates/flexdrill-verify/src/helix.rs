@@ -1,6 +1,6 @@
 //! Helical buckling of a thin pipe on the wall of a level hole, by runs of the model.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
 
@@ -24,14 +24,14 @@ const REST: f64 = 8.0;
 struct Pipe {
     turns: usize,
     load: f64,
-    bench: Bench,
+    twin: CaseTwin,
 }
 
 impl Pipe {
     /// Laid on the wall as a helix, or left on the low side.
     fn at_rest(turns: usize, load: f64, is_helix: bool) -> Result<Self, VerifyError> {
         let all = TURNS[1];
-        let mut bench = Bench::within(CASE, 1e-2, |config| {
+        let mut twin = CaseTwin::within(CASE, 1e-2, |config| {
             let length = config.well.length() * turns as f64 / all as f64;
             let mut config = config.with_value("loads.0.history.constant", -load)?;
             for push in 0..PUSHES * all {
@@ -52,14 +52,14 @@ impl Pipe {
                 .with_value("tool.elements_per_link", ELEMENTS * turns)?
                 .with_value("well.sections.0.straight.length", length)
         })?;
-        bench.run_to(REST)?;
-        Ok(Self { turns, load, bench })
+        twin.run_to(REST)?;
+        Ok(Self { turns, load, twin })
     }
 
     /// Potential energy less that at the start (J): elastic and of the contacts, of the weight, and of the axial load.
     fn energy(&self) -> f64 {
-        let audit = self.bench.simulation.energy();
-        let shortened = -self.bench.displacement(self.bench.last(), Body::Pipe, Direction::U);
+        let audit = self.twin.simulation.energy();
+        let shortened = -self.twin.displacement(self.twin.last(), Body::Pipe, Direction::U);
         audit.stored - audit.gravity - self.load * shortened
     }
 
@@ -72,16 +72,16 @@ impl Pipe {
     /// Whether the turn in the middle lies on the wall all round, but for a hundredth of the clearance: at the top its
     /// weight nearly lifts it off.
     fn is_round(&self) -> bool {
-        let clearance = self.bench.config.inner_clearance();
+        let clearance = self.twin.config.inner_clearance();
         self.middle().all(|station| {
-            let at = |direction| self.bench.displacement(station, Body::Pipe, direction);
+            let at = |direction| self.twin.displacement(station, Body::Pipe, direction);
             at(Direction::V).hypot(at(Direction::W)) > 0.99 * clearance
         })
     }
 
     /// Force on the wall of the turn in the middle (N).
     fn on_the_wall(&self) -> f64 {
-        self.middle().map(|station| self.bench.inner_normal(station)).sum()
+        self.middle().map(|station| self.twin.inner_normal(station)).sum()
     }
 }
 
@@ -108,7 +108,7 @@ fn turn(load: f64) -> Result<[f64; 2], VerifyError> {
 
 /// The load at which both energies are equal, and the force on the wall there.
 pub(super) fn buckling() -> Result<Vec<Row>, VerifyError> {
-    let config = Bench::new(CASE)?.config.clone();
+    let config = CaseTwin::new(CASE)?.config.clone();
     let (tool, clearance) = (config.tool(), config.inner_clearance());
     let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
     let weight = section.mass * tool.gravity;

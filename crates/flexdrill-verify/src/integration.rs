@@ -1,21 +1,21 @@
 //! The time integration: order and drift.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
 
 const CASE: &str = "free_vibration";
 
-fn with_step(step: f64) -> Result<Bench, VerifyError> {
-    Bench::with(CASE, |config| config.with_value("solver.time_step", step))
+fn with_step(step: f64) -> Result<CaseTwin, VerifyError> {
+    CaseTwin::with(CASE, |config| config.with_value("solver.time_step", step))
 }
 
 /// Tip deflection after 50 ms.
 fn tip(step: f64) -> Result<f64, VerifyError> {
-    let mut bench = with_step(step)?;
-    bench.run_to(0.05)?;
-    Ok(bench.displacement(bench.last(), Body::Pipe, Direction::W))
+    let mut twin = with_step(step)?;
+    twin.run_to(0.05)?;
+    Ok(twin.displacement(twin.last(), Body::Pipe, Direction::W))
 }
 
 pub(super) fn free_vibration() -> Result<Vec<Row>, VerifyError> {
@@ -33,17 +33,17 @@ pub(super) fn free_vibration() -> Result<Vec<Row>, VerifyError> {
 
     // 1e5 periods at five steps each: nothing of the energy may go or come. A correction in single precision leaves
     // 1e-7 of the forces, of one sign step after step; the next one takes it.
-    let mut bench = Bench::within(CASE, 1e-6, |config| config.with_value("solver.time_step", 0.01))?;
-    let tool = bench.config.tool();
+    let mut twin = CaseTwin::within(CASE, 1e-6, |config| config.with_value("solver.time_step", 0.01))?;
+    let tool = twin.config.tool();
     let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
-    let length = bench.config.well.length() / (tool.links * tool.elements_per_link) as f64;
-    let speed = bench.velocity(bench.last(), Body::Pipe, Direction::W);
+    let length = twin.config.well.length() / (tool.links * tool.elements_per_link) as f64;
+    let speed = twin.velocity(twin.last(), Body::Pipe, Direction::W);
     // First frequency of the cantilever, 3.516 sqrt(EI / rho A L^4) / 2 pi.
     let frequency = 3.516 / std::f64::consts::TAU * (section.bending / section.mass).sqrt();
     let start = 0.5 * section.mass * length * speed * speed;
-    let before = bench.simulation.energy().stored;
-    bench.run_to(1e5 / frequency)?;
-    let drift = bench.simulation.energy().stored - before;
+    let before = twin.simulation.energy().stored;
+    twin.run_to(1e5 / frequency)?;
+    let drift = twin.simulation.energy().stored - before;
     rows.push(Row::scaled(
         CASE,
         "energy after 1e5 periods less that before (J)",

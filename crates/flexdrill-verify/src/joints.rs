@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction};
 
@@ -10,15 +10,15 @@ use flexdrill_core::tool::{Body, Direction};
 const RIPPLE: f64 = 1e-3;
 
 /// (angle of the drive, speed of the last node) over the last turn of two, when the start has died away.
-fn last_turn(bench: &mut Bench) -> Result<Vec<(f64, f64)>, VerifyError> {
-    let last = bench.last();
+fn last_turn(twin: &mut CaseTwin) -> Result<Vec<(f64, f64)>, VerifyError> {
+    let last = twin.last();
     let mut samples = Vec::new();
-    bench.run_to(1.0)?;
-    while bench.time() < 2.0 {
-        bench.step()?;
+    twin.run_to(1.0)?;
+    while twin.time() < 2.0 {
+        twin.step()?;
         samples.push((
-            bench.displacement(0, Body::Pipe, Direction::Psi),
-            bench.velocity(last, Body::Pipe, Direction::Psi),
+            twin.displacement(0, Body::Pipe, Direction::Psi),
+            twin.velocity(last, Body::Pipe, Direction::Psi),
         ));
     }
     Ok(samples)
@@ -29,15 +29,15 @@ fn ratio(b: f64, psi: f64) -> f64 {
     b.cos() / (1.0 - (b.sin() * psi.cos()).powi(2))
 }
 
-fn bend(bench: &Bench) -> f64 {
-    bench.simulation.bend_as_built(0).unwrap_or(f64::NAN)
+fn bend(twin: &CaseTwin) -> f64 {
+    twin.simulation.bend_as_built(0).unwrap_or(f64::NAN)
 }
 
 pub(super) fn single() -> Result<Vec<Row>, VerifyError> {
     let case = "hooke_single";
-    let mut bench = Bench::new(case)?;
-    let b = bend(&bench);
-    let turn = last_turn(&mut bench)?;
+    let mut twin = CaseTwin::new(case)?;
+    let b = bend(&twin);
+    let turn = last_turn(&mut twin)?;
     let amplitude = 0.5 * TAU * (1.0 / b.cos() - b.cos());
     let worst = turn
         .iter()
@@ -49,9 +49,9 @@ pub(super) fn single() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn pair() -> Result<Vec<Row>, VerifyError> {
     let case = "hooke_pair";
-    let mut bench = Bench::new(case)?;
-    let b = bend(&bench);
-    let turn = last_turn(&mut bench)?;
+    let mut twin = CaseTwin::new(case)?;
+    let b = bend(&twin);
+    let turn = last_turn(&mut twin)?;
     let amplitude = 0.5 * TAU * (1.0 / b.cos() - b.cos());
     let worst = turn.iter().map(|&(_, speed)| speed - TAU).fold(0.0, farther);
     let quantity = format!("ripple left of {amplitude:.4} (rad/s)");
@@ -60,10 +60,10 @@ pub(super) fn pair() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn chain() -> Result<Vec<Row>, VerifyError> {
     let case = "hooke_chain";
-    let mut bench = Bench::new(case)?;
-    let b = bend(&bench);
-    let joints = bench.simulation.joint_stations().len();
-    let turn = last_turn(&mut bench)?;
+    let mut twin = CaseTwin::new(case)?;
+    let b = bend(&twin);
+    let joints = twin.simulation.joint_stations().len();
+    let turn = last_turn(&mut twin)?;
     let n = i32::try_from(joints).unwrap_or(i32::MAX);
     let (high, low) = (b.cos().powi(-n), b.cos().powi(n));
     let fastest = turn.iter().fold(f64::MIN, |m, &(_, speed)| m.max(speed)) / TAU;

@@ -1,9 +1,9 @@
 //! The closed-form verification cases of `flexdrill verify` and the tests: configurations in `config/verify/`, run by
 //! the same code as the node and compared with the closed forms. Also the [error of the time step](step_error).
 
-mod bench;
 mod bodies;
 mod buckling;
+mod case;
 mod contacts;
 mod foreign;
 mod helix;
@@ -25,8 +25,8 @@ mod validation;
 
 use std::fmt;
 
-pub use bench::{Bench, head};
 pub use buckling::folding_torques;
+pub use case::{CaseTwin, head};
 pub use foreign::{SOFT_STRINGS, SoftString, SoftStringInputs, WELLENG};
 pub use hinged_beam::HingedBeam;
 pub use runs::{CaseRun, with_runs};

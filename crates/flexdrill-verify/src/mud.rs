@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::bench::{Bench, crossing_frequency};
+use super::case::{CaseTwin, crossing_frequency};
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
 
@@ -32,8 +32,8 @@ struct Case {
 }
 
 impl Case {
-    fn of(bench: &Bench) -> Result<Self, VerifyError> {
-        let tool = bench.config.tool();
+    fn of(twin: &CaseTwin) -> Result<Self, VerifyError> {
+        let tool = twin.config.tool();
         let missing = VerifyError::Missing {
             case: "mud",
             what: "its mud",
@@ -48,7 +48,7 @@ impl Case {
             outer: [0.5 * guide.outer_diameter, 0.5 * tool.hole_diameter],
             density: mud.density,
             kinematic: mud.viscosity / mud.density,
-            length: bench.config.well.length(),
+            length: twin.config.well.length(),
         })
     }
 
@@ -78,36 +78,34 @@ impl Case {
     }
 
     /// First mode of the deflection of a body (m).
-    fn first_mode(bench: &Bench, body: Body) -> f64 {
-        let last = bench.last();
+    fn first_mode(twin: &CaseTwin, body: Body) -> f64 {
+        let last = twin.last();
         let shape = |s: usize| (s as f64 * PI / last as f64).sin();
         let sum: f64 = (0..=last)
-            .map(|s| shape(s) * bench.displacement(s, body, Direction::W))
+            .map(|s| shape(s) * twin.displacement(s, body, Direction::W))
             .sum();
         2.0 * sum / last as f64
     }
 }
 
 /// The first mode's samples after the impact.
-fn swing(bench: &mut Bench, until: f64, mut take: impl FnMut(&Bench)) -> Result<f64, VerifyError> {
-    while bench.time() < until {
-        bench.step()?;
-        if bench.time() > 0.002 {
-            take(bench);
+fn swing(twin: &mut CaseTwin, until: f64, mut take: impl FnMut(&CaseTwin)) -> Result<f64, VerifyError> {
+    while twin.time() < until {
+        twin.step()?;
+        if twin.time() > 0.002 {
+            take(twin);
         }
     }
-    Ok(bench.simulation.settings().time_step)
+    Ok(twin.simulation.settings().time_step)
 }
 
 pub(super) fn pipe() -> Result<Vec<Row>, VerifyError> {
     let case = "mud_pipe";
-    let mut bench = Bench::new(case)?;
-    let of = Case::of(&bench)?;
+    let mut twin = CaseTwin::new(case)?;
+    let of = Case::of(&twin)?;
     let none = VerifyError::Missing { case, what: "a swing" };
     let mut samples = Vec::new();
-    let dt = swing(&mut bench, 1.0, |bench| {
-        samples.push(Case::first_mode(bench, Body::Pipe))
-    })?;
+    let dt = swing(&mut twin, 1.0, |twin| samples.push(Case::first_mode(twin, Body::Pipe)))?;
     let [wet, ..] = of.mass();
     let frequency = |mass: f64| (of.stiffness(&of.pipe) / mass).sqrt() / (2.0 * PI);
     let got = crossing_frequency(&samples, dt).ok_or(none)?;
@@ -122,11 +120,11 @@ pub(super) fn pipe() -> Result<Vec<Row>, VerifyError> {
             2.0 * FREQUENCY,
         ),
     ];
-    let mut damped = Bench::with(case, |config| config.with_value("environment.mud.damping", "viscous"))?;
+    let mut damped = CaseTwin::with(case, |config| config.with_value("environment.mud.damping", "viscous"))?;
     let omega = 2.0 * PI * damped.config.tool().mud.map_or(0.0, |mud| mud.frequency);
     let mut samples = Vec::new();
-    let dt = swing(&mut damped, 1.0, |bench| {
-        samples.push(Case::first_mode(bench, Body::Pipe))
+    let dt = swing(&mut damped, 1.0, |twin| {
+        samples.push(Case::first_mode(twin, Body::Pipe))
     })?;
     let [real, imaginary] = of.oscillating(omega);
     let between = of.between(of.inner);
@@ -186,8 +184,8 @@ fn log_decrement(samples: &[f64]) -> Option<f64> {
 
 pub(super) fn coupled() -> Result<Vec<Row>, VerifyError> {
     let case = "mud_coupled";
-    let mut bench = Bench::new(case)?;
-    let of = Case::of(&bench)?;
+    let mut twin = CaseTwin::new(case)?;
+    let of = Case::of(&twin)?;
     let [pipe, coupling, guide] = of.mass();
     let (k_pipe, k_guide) = (of.stiffness(&of.pipe), of.stiffness(&of.guide));
     // det(K - omega^2 M) = 0.
@@ -198,8 +196,8 @@ pub(super) fn coupled() -> Result<Vec<Row>, VerifyError> {
     // Each mode's coordinate, which the other does not reach: its shape times M.
     let shapes = squares.map(|square| [square * coupling, k_pipe - square * pipe]);
     let mut modes = [vec![], vec![]];
-    let dt = swing(&mut bench, 2.0, |bench| {
-        let x = [Body::Pipe, Body::Guide].map(|body| Case::first_mode(bench, body));
+    let dt = swing(&mut twin, 2.0, |twin| {
+        let x = [Body::Pipe, Body::Guide].map(|body| Case::first_mode(twin, body));
         for (samples, shape) in modes.iter_mut().zip(shapes) {
             let momentum = [pipe * x[0] + coupling * x[1], coupling * x[0] + guide * x[1]];
             samples.push(shape[0] * momentum[0] + shape[1] * momentum[1]);
@@ -225,7 +223,7 @@ pub(super) fn coupled() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn together() -> Result<Vec<Row>, VerifyError> {
     let case = "mud_together";
-    let of = Case::of(&Bench::new(case)?)?;
+    let of = Case::of(&CaseTwin::new(case)?)?;
     let dry = of.pipe.mass + of.guide.mass + of.disc(of.bore);
     let around = of.between(of.outer) - of.disc(of.outer[0]);
     let carried = [
@@ -234,7 +232,7 @@ pub(super) fn together() -> Result<Vec<Row>, VerifyError> {
     ];
     // 10 m/s2, half of the force on each end.
     let [on_pipe, on_guide] = carried.map(|mass| 5.0 * mass * of.length);
-    let mut bench = Bench::with(case, |config| {
+    let mut twin = CaseTwin::with(case, |config| {
         config
             .with_value("loads.0.history.constant", on_pipe)?
             .with_value("loads.1.history.constant", on_pipe)?
@@ -242,8 +240,8 @@ pub(super) fn together() -> Result<Vec<Row>, VerifyError> {
             .with_value("loads.3.history.constant", on_guide)
     })?;
     let time = 0.1;
-    bench.run_to(time)?;
-    let mean = |body| 0.5 * (bench.displacement(0, body, Direction::W) + bench.displacement(1, body, Direction::W));
+    twin.run_to(time)?;
+    let mean = |body| 0.5 * (twin.displacement(0, body, Direction::W) + twin.displacement(1, body, Direction::W));
     let [pipe, guide] = [Body::Pipe, Body::Guide].map(mean);
     let total = 2.0 * (on_pipe + on_guide) * time * time / (2.0 * pipe * of.length);
     let between = of.disc(of.inner[1]) - of.disc(of.inner[0]);
@@ -262,8 +260,8 @@ pub(super) fn together() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn squeeze() -> Result<Vec<Row>, VerifyError> {
     let case = "mud_squeeze";
-    let mut bench = Bench::new(case)?;
-    let of = Case::of(&bench)?;
+    let mut twin = CaseTwin::new(case)?;
+    let of = Case::of(&twin)?;
     let (width, viscosity) = (of.inner[1] - of.inner[0], of.kinematic * of.density);
     let film = 12.0 * PI * viscosity * (of.inner[0] / width).powi(3);
     let reached = |eccentricity: f64| eccentricity / (1.0 - eccentricity * eccentricity).sqrt() - eccentricity;
@@ -271,13 +269,13 @@ pub(super) fn squeeze() -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     let ends = [0.8, 0.9, 0.95];
     let mut times = Vec::new();
-    let (mut before, last) = (0.0, bench.last());
-    while times.len() < ends.len() && bench.time() < 5.0 {
-        bench.step()?;
-        let now = bench.displacement(last, Body::Pipe, Direction::W) / width;
+    let (mut before, last) = (0.0, twin.last());
+    while times.len() < ends.len() && twin.time() < 5.0 {
+        twin.step()?;
+        let now = twin.displacement(last, Body::Pipe, Direction::W) / width;
         if now >= ends[times.len()] {
-            let step = bench.simulation.settings().time_step;
-            times.push(bench.time() - step * (now - ends[times.len()]) / (now - before));
+            let step = twin.simulation.settings().time_step;
+            times.push(twin.time() - step * (now - ends[times.len()]) / (now - before));
         }
         before = now;
     }
@@ -290,7 +288,7 @@ pub(super) fn squeeze() -> Result<Vec<Row>, VerifyError> {
         let quantity = format!("time from eps {} to {} (s)", ends[k - 1], ends[k]);
         rows.push(Row::relative(case, quantity, expected, got, SQUEEZE));
     }
-    let audit = bench.simulation.energy();
+    let audit = twin.simulation.energy();
     let worked = audit.loads.abs();
     rows.push(Row::scaled(
         case,

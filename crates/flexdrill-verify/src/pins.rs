@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::bench::{Bench, crossing_frequency};
+use super::case::{CaseTwin, crossing_frequency};
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
 
@@ -21,20 +21,20 @@ const LOST_MOTION: f64 = 1e-3;
 const PERIOD: f64 = 2e-3;
 
 /// Moment (N m) with which slipping pins resist under a torque (N m).
-fn pin_moment(bench: &Bench, torque: f64) -> f64 {
-    let pins = bench.config.tool().joint.friction;
+fn pin_moment(twin: &CaseTwin, torque: f64) -> f64 {
+    let pins = twin.config.tool().joint.friction;
     2.0 * pins.coefficient * pins.pin_radius * torque / pins.circle_diameter
 }
 
 /// Rows of one turn at the bend of the case's `change`.
-fn lost_torque(case: &'static str, mut bench: Bench, rows: &mut Vec<Row>) -> Result<(), VerifyError> {
-    let b = bench.simulation.bend_as_built(0).unwrap_or(f64::NAN);
-    let moment = pin_moment(&bench, 92.43);
+fn lost_torque(case: &'static str, mut twin: CaseTwin, rows: &mut Vec<Row>) -> Result<(), VerifyError> {
+    let b = twin.simulation.bend_as_built(0).unwrap_or(f64::NAN);
+    let moment = pin_moment(&twin, 92.43);
     let expected = 8.0 * moment * b * (1.0 + 0.25 * b * b) / TAU;
-    bench.run_to(1.0)?;
-    let before = *bench.simulation.energy();
-    bench.run_to(2.0)?;
-    let after = bench.simulation.energy();
+    twin.run_to(1.0)?;
+    let before = *twin.simulation.energy();
+    twin.run_to(2.0)?;
+    let after = twin.simulation.energy();
     let degrees = b.to_degrees();
     let supplied = (after.drive - before.drive + after.loads - before.loads) / TAU;
     rows.push(Row::relative(
@@ -67,8 +67,8 @@ fn lost_torque(case: &'static str, mut bench: Bench, rows: &mut Vec<Row>) -> Res
 pub(super) fn friction() -> Result<Vec<Row>, VerifyError> {
     let case = "pin_friction";
     let mut rows = Vec::new();
-    lost_torque(case, Bench::new(case)?, &mut rows)?;
-    let steep = Bench::with(case, |config| {
+    lost_torque(case, CaseTwin::new(case)?, &mut rows)?;
+    let steep = CaseTwin::with(case, |config| {
         config
             .with_value("well.sections.0.arc.build_angle_deg", 12.0)?
             .with_value("well.sections.0.arc.radius", 1.4323)
@@ -81,20 +81,20 @@ pub(super) fn holding() -> Result<Vec<Row>, VerifyError> {
     let case = "pin_holding";
     let length = 0.15;
     // Rate at which the upper link turns out of the plane of the bend after 0.1 s (rad/s).
-    let turned = |degrees: f64| -> Result<(Bench, f64), VerifyError> {
+    let turned = |degrees: f64| -> Result<(CaseTwin, f64), VerifyError> {
         let angle = 2.0 * degrees;
-        let mut bench = Bench::within(case, 1e-3, |config| {
+        let mut twin = CaseTwin::within(case, 1e-3, |config| {
             config
                 .with_value("well.sections.0.arc.build_angle_deg", angle)?
                 .with_value("well.sections.0.arc.radius", 2.0 * length / angle.to_radians())
         })?;
-        bench.run_to(0.1)?;
-        let rate = bench.velocity(0, Body::Pipe, Direction::V).abs() / length;
-        Ok((bench, rate))
+        twin.run_to(0.1)?;
+        let rate = twin.velocity(0, Body::Pipe, Direction::V).abs() / length;
+        Ok((twin, rate))
     };
-    let (bench, folding) = turned(2.0)?;
-    let resists = pin_moment(&bench, 1.0);
-    let tool = bench.config.tool();
+    let (twin, folding) = turned(2.0)?;
+    let resists = pin_moment(&twin, 1.0);
+    let tool = twin.config.tool();
     let mass = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0).mass * length;
     let inertia = mass * length * length / 3.0;
     let expected = 20.0 * 0.01 * (2.0_f64.to_radians().sin() - resists) / (2.0 * inertia);
@@ -115,17 +115,17 @@ pub(super) fn holding() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn play() -> Result<Vec<Row>, VerifyError> {
     let case = "joint_play";
-    let twist = |torque: f64| -> Result<(Bench, f64), VerifyError> {
-        let bench = Bench::with(case, |config| config.with_value("loads.0.history.constant", torque))?;
-        let at = bench.displacement(bench.last(), Body::Pipe, Direction::Psi);
-        Ok((bench, at))
+    let twist = |torque: f64| -> Result<(CaseTwin, f64), VerifyError> {
+        let twin = CaseTwin::with(case, |config| config.with_value("loads.0.history.constant", torque))?;
+        let at = twin.displacement(twin.last(), Body::Pipe, Direction::Psi);
+        Ok((twin, at))
     };
     let torque = 10.0;
-    let ((bench, forward), (_, back)) = (twist(torque)?, twist(-torque)?);
-    let tool = bench.config.tool();
+    let ((twin, forward), (_, back)) = (twist(torque)?, twist(-torque)?);
+    let tool = twin.config.tool();
     let pipe = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
-    let joints = bench.simulation.joint_stations().len() as f64;
-    let by_torque = joints / tool.joint.play.stiffness + bench.config.well.length() / pipe.torsion;
+    let joints = twin.simulation.joint_stations().len() as f64;
+    let by_torque = joints / tool.joint.play.stiffness + twin.config.well.length() / pipe.torsion;
     let expected = joints * 2.0 * tool.joint.play.half_angle + 2.0 * torque * by_torque;
     Ok(vec![Row::relative(
         case,
@@ -138,19 +138,19 @@ pub(super) fn play() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn rotor() -> Result<Vec<Row>, VerifyError> {
     let case = "play_rotor";
-    let mut bench = Bench::new(case)?;
-    let (last, tool) = (bench.last(), bench.config.tool());
+    let mut twin = CaseTwin::new(case)?;
+    let (last, tool) = (twin.last(), twin.config.tool());
     let (delta, k) = (tool.joint.play.half_angle, tool.joint.play.stiffness);
     let speed = tool.initial_spin_rate;
     let inertia = tool.masses[0].axial_inertia;
     let expected = 4.0 * delta / speed + TAU * (inertia / k).sqrt();
     let mut samples = Vec::new();
     let mut fastest = 0.0_f64;
-    while bench.time() < 1.0 {
-        bench.step()?;
-        samples.push(bench.displacement(last, Body::Pipe, Direction::Psi));
-        if bench.time() > 0.9 {
-            fastest = fastest.max(bench.velocity(last, Body::Pipe, Direction::Psi).abs());
+    while twin.time() < 1.0 {
+        twin.step()?;
+        samples.push(twin.displacement(last, Body::Pipe, Direction::Psi));
+        if twin.time() > 0.9 {
+            fastest = fastest.max(twin.velocity(last, Body::Pipe, Direction::Psi).abs());
         }
     }
     let frequency = crossing_frequency(&samples, 1e-4).ok_or(VerifyError::Missing { case, what: "a swing" })?;
@@ -168,7 +168,7 @@ pub(super) fn rotor() -> Result<Vec<Row>, VerifyError> {
             case,
             "error of the audit, of the rotor's energy (J)",
             0.0,
-            bench.simulation.energy().error,
+            twin.simulation.energy().error,
             stored,
             PERIOD,
         ),

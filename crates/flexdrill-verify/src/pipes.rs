@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::bench::{Bench, crossing_frequency};
+use super::case::{CaseTwin, crossing_frequency};
 use super::{HingedBeam, Row, VerifyError};
 use flexdrill_core::tool::SectionProperties;
 use flexdrill_core::tool::{Body, Direction};
@@ -14,16 +14,16 @@ const SHARED: f64 = 1e-6;
 /// Frequencies.
 const FREQUENCY: f64 = 1e-3;
 
-fn section(bench: &Bench) -> SectionProperties {
-    let tool = bench.config.tool();
+fn section(twin: &CaseTwin) -> SectionProperties {
+    let tool = twin.config.tool();
     SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0)
 }
 
 pub(super) fn cantilever() -> Result<Vec<Row>, VerifyError> {
     let case = "cantilever";
-    let bench = Bench::new(case)?;
-    let (ei, force, l) = (section(&bench).bending, 100.0_f64, bench.config.well.length());
-    let tip = |direction| bench.displacement(bench.last(), Body::Pipe, direction);
+    let twin = CaseTwin::new(case)?;
+    let (ei, force, l) = (section(&twin).bending, 100.0_f64, twin.config.well.length());
+    let tip = |direction| twin.displacement(twin.last(), Body::Pipe, direction);
     let (deflection, tilt) = (force * l.powi(3) / (3.0 * ei), -force * l * l / (2.0 * ei));
     Ok(vec![
         Row::relative(
@@ -39,12 +39,12 @@ pub(super) fn cantilever() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn axial_rod() -> Result<Vec<Row>, VerifyError> {
     let case = "axial_rod";
-    let bench = Bench::new(case)?;
-    let s = section(&bench);
-    let l = bench.config.well.length();
+    let twin = CaseTwin::new(case)?;
+    let s = section(&twin);
+    let l = twin.config.well.length();
     rod(
         case,
-        bench,
+        twin,
         Direction::U,
         100e3 * l / s.axial,
         (s.axial / s.mass).sqrt() / (4.0 * l),
@@ -54,16 +54,16 @@ pub(super) fn axial_rod() -> Result<Vec<Row>, VerifyError> {
 /// Two rods in parallel share a force by their stiffness; the guide slides, the pipe has joints.
 pub(super) fn tied_rods() -> Result<Vec<Row>, VerifyError> {
     let case = "tied_rods";
-    let mut bench = Bench::new(case)?;
-    let tool = bench.config.tool();
-    let pipe = section(&bench).axial;
+    let mut twin = CaseTwin::new(case)?;
+    let tool = twin.config.tool();
+    let pipe = section(&twin).axial;
     let guide = SectionProperties::of(tool.guide_section, tool.material, 1.0).axial;
-    let (force, l) = (100e3, bench.config.well.length());
+    let (force, l) = (100e3, twin.config.well.length());
     // A hundred steps at rest: the answer is the steps' as much as the start's.
-    bench.run_to(0.05)?;
-    let joints = bench.simulation.joints();
+    twin.run_to(0.05)?;
+    let joints = twin.simulation.joints();
     let carried = joints.axial_force.iter().fold(0.0, |sum, force| sum + force) / joints.axial_force.len() as f64;
-    let end = bench.displacement(bench.last(), Body::Guide, Direction::U);
+    let end = twin.displacement(twin.last(), Body::Guide, Direction::U);
     Ok(vec![
         Row::relative(
             case,
@@ -83,8 +83,8 @@ pub(super) fn tied_rods() -> Result<Vec<Row>, VerifyError> {
 }
 
 /// Weight per length (N/m) and bending stiffness (N m2) of pipe and guide, without fluid.
-fn beams(bench: &Bench) -> [(f64, f64); 2] {
-    let tool = bench.config.tool();
+fn beams(twin: &CaseTwin) -> [(f64, f64); 2] {
+    let tool = twin.config.tool();
     [tool.pipe_sections[0], tool.guide_section].map(|tube| {
         let section = SectionProperties::of(tube, tool.material, 1.0);
         (section.mass * tool.gravity, section.bending)
@@ -94,16 +94,16 @@ fn beams(bench: &Bench) -> [(f64, f64); 2] {
 /// A pipe that nothing but the guide carries: both bend as one beam.
 pub(super) fn pipe_in_guide() -> Result<Vec<Row>, VerifyError> {
     let case = "pipe_in_guide";
-    let mut bench = Bench::new(case)?;
-    let [(w_pipe, ei_pipe), (w_guide, ei_guide)] = beams(&bench);
-    let (last, l) = (bench.last(), bench.config.well.length());
+    let mut twin = CaseTwin::new(case)?;
+    let [(w_pipe, ei_pipe), (w_guide, ei_guide)] = beams(&twin);
+    let (last, l) = (twin.last(), twin.config.well.length());
     // A hundred steps at rest: the answer is the steps' as much as the start's.
-    bench.run_to(0.05)?;
-    let down = |station, body| bench.displacement(station, body, Direction::W);
+    twin.run_to(0.05)?;
+    let down = |station, body| twin.displacement(station, body, Direction::W);
     let of_guide = down(last / 2, Body::Guide);
     let of_pipe = down(last / 2, Body::Pipe) - 0.5 * (down(0, Body::Pipe) + down(last, Body::Pipe));
     let expected = 5.0 * (w_pipe + w_guide) * l.powi(4) / (384.0 * (ei_pipe + ei_guide));
-    let carried: f64 = (0..=last).map(|station| bench.inner_normal(station)).sum();
+    let carried: f64 = (0..=last).map(|station| twin.inner_normal(station)).sum();
     Ok(vec![
         // 1.1 kN presses 1.1 um into a contact of 1e9 N/m at each end, against a deflection of 7 mm.
         Row::relative(case, "mid-span of the guide (m)", expected, of_guide, 1e-4),
@@ -121,14 +121,14 @@ pub(super) fn pipe_in_guide() -> Result<Vec<Row>, VerifyError> {
 /// A chain whose links rest on the guide at every joint.
 pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
     let case = "chain_in_guide";
-    let mut bench = Bench::new(case)?;
-    let [(w_pipe, _), (w_guide, ei)] = beams(&bench);
-    let tool = bench.config.tool();
-    let l = bench.config.well.length();
+    let mut twin = CaseTwin::new(case)?;
+    let [(w_pipe, _), (w_guide, ei)] = beams(&twin);
+    let tool = twin.config.tool();
+    let l = twin.config.well.length();
     let link = l / tool.links as f64;
     let load = w_pipe * link;
-    bench.run_to(0.05)?;
-    let joints: Vec<usize> = bench.simulation.joint_stations().to_vec();
+    twin.run_to(0.05)?;
+    let joints: Vec<usize> = twin.simulation.joint_stations().to_vec();
     // Beam on two supports, by superposition.
     let deflection = |x: f64| {
         let by_weight = w_guide * x * (l.powi(3) - 2.0 * l * x * x + x.powi(3)) / (24.0 * ei);
@@ -142,10 +142,10 @@ pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for number in [1, 4] {
         let station = joints[number - 1];
-        let gap = bench.simulation.clearance(station, Body::Pipe).unwrap_or(f64::NAN);
+        let gap = twin.simulation.clearance(station, Body::Pipe).unwrap_or(f64::NAN);
         let guide = deflection(link * number as f64);
         let pipe = guide + gap + load / tool.inner.stiffness;
-        let down = |body| bench.displacement(station, body, Direction::W);
+        let down = |body| twin.displacement(station, body, Direction::W);
         rows.push(Row::relative(
             case,
             format!("guide at joint {number} (m)"),
@@ -164,7 +164,7 @@ pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
             case,
             format!("weight of a link on joint {number} (N)"),
             load,
-            bench.inner_normal(station),
+            twin.inner_normal(station),
             SHARED,
         ));
     }
@@ -173,12 +173,12 @@ pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn torsion_rod() -> Result<Vec<Row>, VerifyError> {
     let case = "torsion_rod";
-    let bench = Bench::new(case)?;
-    let s = section(&bench);
-    let l = bench.config.well.length();
+    let twin = CaseTwin::new(case)?;
+    let s = section(&twin);
+    let l = twin.config.well.length();
     rod(
         case,
-        bench,
+        twin,
         Direction::Psi,
         50.0 * l / s.torsion,
         (s.torsion / s.spin_inertia).sqrt() / (4.0 * l),
@@ -188,31 +188,31 @@ pub(super) fn torsion_rod() -> Result<Vec<Row>, VerifyError> {
 /// A rod held at one end, at rest under its load, then let go.
 fn rod(
     case: &'static str,
-    mut bench: Bench,
+    mut twin: CaseTwin,
     direction: Direction,
     at_rest: f64,
     frequency: f64,
 ) -> Result<Vec<Row>, VerifyError> {
-    let last = bench.last();
+    let last = twin.last();
     let mut rows = vec![Row::relative(
         case,
         "end at rest under its load (m or rad)",
         at_rest,
-        bench.displacement(last, Body::Pipe, direction),
+        twin.displacement(last, Body::Pipe, direction),
         STATICS,
     )];
-    bench.run_to(0.001)?;
+    twin.run_to(0.001)?;
     // The first mode of the fixed-free rod, sin(pi x / 2L), out of the many that a sudden release excites.
     let mut samples = Vec::new();
-    while bench.time() < 0.05 {
-        bench.step()?;
+    while twin.time() < 0.05 {
+        twin.step()?;
         let mode = |s: usize| (0.5 * PI * s as f64 / last as f64).sin();
         let sum = (0..last)
-            .map(|s| mode(s) * bench.displacement(s, Body::Pipe, direction))
+            .map(|s| mode(s) * twin.displacement(s, Body::Pipe, direction))
             .sum::<f64>();
-        samples.push(sum + 0.5 * bench.displacement(last, Body::Pipe, direction));
+        samples.push(sum + 0.5 * twin.displacement(last, Body::Pipe, direction));
     }
-    let got = crossing_frequency(&samples, bench.simulation.settings().time_step)
+    let got = crossing_frequency(&samples, twin.simulation.settings().time_step)
         .ok_or(VerifyError::Missing { case, what: "a swing" })?;
     rows.push(Row::relative(
         case,
@@ -226,13 +226,13 @@ fn rod(
 
 pub(super) fn beam_frequencies() -> Result<Vec<Row>, VerifyError> {
     let case = "beam_frequencies";
-    let mut bench = Bench::new(case)?;
-    let s = section(&bench);
-    let (last, l) = (bench.last(), bench.config.well.length());
+    let mut twin = CaseTwin::new(case)?;
+    let s = section(&twin);
+    let (last, l) = (twin.last(), twin.config.well.length());
     let mut modes = [vec![], vec![], vec![]];
-    while bench.time() < 2.0 {
-        bench.step()?;
-        if bench.time() <= 0.002 {
+    while twin.time() < 2.0 {
+        twin.step()?;
+        if twin.time() <= 0.002 {
             continue;
         }
         for (n, samples) in modes.iter_mut().enumerate() {
@@ -240,7 +240,7 @@ pub(super) fn beam_frequencies() -> Result<Vec<Row>, VerifyError> {
             let shape = |s: usize| ((n + 1) as f64 * PI * s as f64 / last as f64).sin();
             samples.push(
                 (0..=last)
-                    .map(|s| shape(s) * bench.displacement(s, Body::Pipe, Direction::W))
+                    .map(|s| shape(s) * twin.displacement(s, Body::Pipe, Direction::W))
                     .sum(),
             );
         }
@@ -251,7 +251,7 @@ pub(super) fn beam_frequencies() -> Result<Vec<Row>, VerifyError> {
         .map(|(index, samples)| {
             let n = (index + 1) as f64;
             let expected = (n * PI / l).powi(2) * (s.bending / s.mass).sqrt() / (2.0 * PI);
-            let got = crossing_frequency(samples, bench.simulation.settings().time_step)
+            let got = crossing_frequency(samples, twin.simulation.settings().time_step)
                 .ok_or(VerifyError::Missing { case, what: "a swing" })?;
             Ok(Row::relative(
                 case,
@@ -266,10 +266,10 @@ pub(super) fn beam_frequencies() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn hinged_beam() -> Result<Vec<Row>, VerifyError> {
     let case = "hinged_beam_in_tube";
-    let mut bench = Bench::new(case)?;
-    let tool = bench.config.tool();
-    let joint = bench.simulation.joint_stations()[0];
-    let beam = HingedBeam::of(&bench);
+    let mut twin = CaseTwin::new(case)?;
+    let tool = twin.config.tool();
+    let joint = twin.simulation.joint_stations()[0];
+    let beam = HingedBeam::of(&twin);
     let (limit, touch) = (beam.limit_load(), beam.touch_load());
     let mut rows = Vec::new();
     // Two loads in each branch, away from its ends, where the load of 1000 N/s has let the beam's own swing die.
@@ -283,11 +283,11 @@ pub(super) fn hinged_beam() -> Result<Vec<Row>, VerifyError> {
     ];
     for (branch, load) in loads {
         let time = load / 1000.0;
-        bench.run_to(time)?;
-        let load = 1000.0 * bench.time();
+        twin.run_to(time)?;
+        let load = 1000.0 * twin.time();
         let expected = beam.corrected(load);
-        let penetration = bench.inner_normal(joint) / tool.inner.stiffness;
-        let got = bench.displacement(joint, Body::Pipe, Direction::W);
+        let penetration = twin.inner_normal(joint) / tool.inner.stiffness;
+        let got = twin.displacement(joint, Body::Pipe, Direction::W);
         let mut quantity = format!("deflection of C at {load:.1} N, {branch} (m)");
         if penetration > 0.0 {
             quantity = format!("C at {load:.0} N, {branch}, {:.2} um into it (m)", 1e6 * penetration);
@@ -299,24 +299,24 @@ pub(super) fn hinged_beam() -> Result<Vec<Row>, VerifyError> {
 
 impl HingedBeam {
     /// Of the case `hinged_beam_in_tube`.
-    pub fn of(bench: &Bench) -> Self {
-        let joint = bench.simulation.joint_stations()[0];
+    pub fn of(twin: &CaseTwin) -> Self {
+        let joint = twin.simulation.joint_stations()[0];
         Self {
-            bending: section(bench).bending,
-            length: 0.5 * bench.config.well.length(),
-            limit: bench.config.tool().joint.limit,
-            gap: bench.simulation.clearance(joint, Body::Pipe).unwrap_or(f64::NAN),
+            bending: section(twin).bending,
+            length: 0.5 * twin.config.well.length(),
+            limit: twin.config.tool().joint.limit,
+            gap: twin.simulation.clearance(joint, Body::Pipe).unwrap_or(f64::NAN),
         }
     }
 }
 
 pub(super) fn curved_guide() -> Result<Vec<Row>, VerifyError> {
     let case = "curved_guide";
-    let bench = Bench::new(case)?;
-    let stations: Vec<_> = bench.simulation.stations().collect();
-    let wall = |s: usize| bench.simulation.normal_force(s, Body::Guide).unwrap_or(0.0);
+    let twin = CaseTwin::new(case)?;
+    let stations: Vec<_> = twin.simulation.stations().collect();
+    let wall = |s: usize| twin.simulation.normal_force(s, Body::Guide).unwrap_or(0.0);
     let touching: Vec<usize> = (0..stations.len())
-        .filter(|&s| bench.simulation.in_contact(s, Body::Guide) == Some(true))
+        .filter(|&s| twin.simulation.in_contact(s, Body::Guide) == Some(true))
         .collect();
     let (Some(&first), Some(&last)) = (touching.first(), touching.last()) else {
         return Err(VerifyError::Missing {
@@ -330,7 +330,7 @@ pub(super) fn curved_guide() -> Result<Vec<Row>, VerifyError> {
     let carried: f64 = (from..=to).map(wall).sum();
     let spacing = stations[1].measured_depth - stations[0].measured_depth;
     let got = carried / (spacing * (to - from + 1) as f64);
-    let force = bench.config.simulation().initial_inputs.weight_on_bit;
+    let force = twin.config.simulation().initial_inputs.weight_on_bit;
     let turned = stations[to].inclination - stations[from].inclination;
     let expected = force * turned / (stations[to].measured_depth - stations[from].measured_depth);
     // N / R holds where the guide follows the wall; its own bending shifts some of it between neighbours.

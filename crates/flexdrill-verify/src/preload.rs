@@ -1,6 +1,6 @@
 //! A guide whose curvature as made is not that of the hole: its shape, its force on the wall, its freedom to turn.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
 
@@ -19,8 +19,8 @@ pub(super) const RADIUS: f64 = 3.2;
 /// Torque on the lower end of the guide that turns (N m).
 const TORQUE: f64 = 100.0;
 
-fn guide(bench: &Bench) -> SectionProperties {
-    let tool = bench.config.tool();
+fn guide(twin: &CaseTwin) -> SectionProperties {
+    let tool = twin.config.tool();
     SectionProperties::of(tool.guide_section, tool.material, tool.guide_bending_factor)
 }
 
@@ -33,15 +33,15 @@ pub(super) fn at_its_ends() -> Result<Vec<Row>, VerifyError> {
     let case = "preload_chord";
     let mut rows = Vec::new();
     for factor in [1.0, 0.05] {
-        let bench = Bench::with(case, |config| config.with_value("tool.guide.bending_factor", factor))?;
-        let last = bench.last();
-        let w = |station| bench.displacement(station, Body::Guide, Direction::W);
+        let twin = CaseTwin::with(case, |config| config.with_value("tool.guide.bending_factor", factor))?;
+        let last = twin.last();
+        let w = |station| twin.displacement(station, Body::Guide, Direction::W);
         let quantity = format!("middle of a chord, bending factor {factor} (m)");
-        let expected = -chord(bench.config.well.length());
+        let expected = -chord(twin.config.well.length());
         rows.push(Row::relative(case, quantity, expected, w(last / 2), SHAPE));
         // What is straight has turned at its ends by half the angle of the arc, in the plane.
-        let tilt = bench.displacement(0, Body::Guide, Direction::PhiY);
-        let angle = (0.5 * bench.config.well.length() / RADIUS).tan();
+        let tilt = twin.displacement(0, Body::Guide, Direction::PhiY);
+        let angle = (0.5 * twin.config.well.length() / RADIUS).tan();
         rows.push(Row::relative(
             case,
             "tilt at its end, tan(L / 2R) (-)",
@@ -55,13 +55,13 @@ pub(super) fn at_its_ends() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn on_the_wall() -> Result<Vec<Row>, VerifyError> {
     let case = "preload_wall";
-    let bench = Bench::new(case)?;
-    let (length, bending) = (bench.config.well.length(), guide(&bench).bending);
+    let twin = CaseTwin::new(case)?;
+    let (length, bending) = (twin.config.well.length(), guide(&twin).bending);
     let half = 0.5 * length / RADIUS;
     let compliance = RADIUS.powi(3) * (0.5 * half - 0.25 * (2.0 * half).sin()) / (2.0 * bending * half.cos().powi(2));
-    let missing = chord(length) - bench.config.outer_clearance();
-    let expected = missing / (compliance + 1.0 / bench.config.tool().outer.stiffness);
-    let got = bench.simulation.normal_force(1, Body::Guide).unwrap_or(f64::NAN);
+    let missing = chord(length) - twin.config.outer_clearance();
+    let expected = missing / (compliance + 1.0 / twin.config.tool().outer.stiffness);
+    let got = twin.simulation.normal_force(1, Body::Guide).unwrap_or(f64::NAN);
     Ok(vec![Row::relative(
         case,
         "force on the wall in the middle (N)",
@@ -73,11 +73,11 @@ pub(super) fn on_the_wall() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn in_the_tool() -> Result<Vec<Row>, VerifyError> {
     let case = "preload_tool";
-    let bench = Bench::new(case)?;
-    let last = bench.last();
-    let spacing = bench.config.well.length() / last as f64;
-    let force = |station| bench.simulation.normal_force(station, Body::Guide).unwrap_or(f64::NAN);
-    let side = |station| bench.displacement(station, Body::Guide, Direction::W);
+    let twin = CaseTwin::new(case)?;
+    let last = twin.last();
+    let spacing = twin.config.well.length() / last as f64;
+    let force = |station| twin.simulation.normal_force(station, Body::Guide).unwrap_or(f64::NAN);
+    let side = |station| twin.displacement(station, Body::Guide, Direction::W);
     // Force (N) and its centre (m from the end) on the high side within 1 m of an end.
     let near = |end: usize| {
         let (mut sum, mut moment) = (0.0, 0.0);
@@ -111,27 +111,27 @@ pub(super) fn turning() -> Result<Vec<Row>, VerifyError> {
         (None, built, "as built, end under 100 N m (rad)"),
         (Some(0.5 * built), 0.5 * built, "bent by half, end under 100 N m (rad)"),
     ] {
-        let bench = Bench::with(case, |config| match value {
+        let twin = CaseTwin::with(case, |config| match value {
             Some(value) => config.with_value("tool.guide.free_curvature", value),
             None => Ok(config),
         })?;
-        let (s, length) = (guide(&bench), bench.config.well.length());
+        let (s, length) = (guide(&twin), twin.config.well.length());
         let a = (s.bending * curvature / RADIUS / s.torsion).sqrt();
         let expected = TORQUE / (s.torsion * a * (a * length).tanh());
-        let got = bench.displacement(bench.last(), Body::Guide, Direction::Psi);
+        let got = twin.displacement(twin.last(), Body::Guide, Direction::Psi);
         rows.push(Row::relative(case, quantity, expected, got, TURN));
     }
-    let mut bench = Bench::with(case, |config| {
+    let mut twin = CaseTwin::with(case, |config| {
         config
             .with_value("tool.guide.free_curvature", 0.0)?
             .with_value("start", "as_given")
     })?;
     let time = 0.05;
-    bench.run_to(time)?;
-    let last = bench.last();
-    let psi = |station| bench.displacement(station, Body::Guide, Direction::Psi);
+    twin.run_to(time)?;
+    let last = twin.last();
+    let psi = |station| twin.displacement(station, Body::Guide, Direction::Psi);
     let mean = ((1..last).map(psi).sum::<f64>() + 0.5 * (psi(0) + psi(last))) / last as f64;
-    let inertia = guide(&bench).spin_inertia * bench.config.well.length();
+    let inertia = guide(&twin).spin_inertia * twin.config.well.length();
     let expected = 0.5 * TORQUE * time * time / inertia;
     rows.push(Row::relative(
         case,

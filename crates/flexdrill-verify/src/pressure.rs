@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
 
@@ -22,12 +22,12 @@ fn disc(diameter: f64) -> f64 {
 pub(super) fn buckling() -> Result<Vec<Row>, VerifyError> {
     let case = "pressure_buckling";
     let stiffness = |pressure: f64| -> Result<f64, VerifyError> {
-        let bench = Bench::with(case, |config| {
+        let twin = CaseTwin::with(case, |config| {
             config.with_value("environment.pressure.at_top", pressure)
         })?;
-        Ok(1.0 / bench.displacement(bench.last() / 2, Body::Pipe, Direction::W))
+        Ok(1.0 / twin.displacement(twin.last() / 2, Body::Pipe, Direction::W))
     };
-    let config = Bench::new(case)?.config.clone();
+    let config = CaseTwin::new(case)?.config.clone();
     let tool = config.tool();
     let pipe = tool.pipe_sections[0];
     let bending = SectionProperties::of(pipe, tool.material, 1.0).bending;
@@ -47,8 +47,8 @@ pub(super) fn buckling() -> Result<Vec<Row>, VerifyError> {
 }
 
 /// Deflection of three joints (m).
-fn across(bench: &Bench) -> [f64; 3] {
-    [0, 1, 3].map(|joint| bench.displacement(bench.simulation.joint_stations()[joint], Body::Pipe, Direction::W))
+fn across(twin: &CaseTwin) -> [f64; 3] {
+    [0, 1, 3].map(|joint| twin.displacement(twin.simulation.joint_stations()[joint], Body::Pipe, Direction::W))
 }
 
 fn compared(case: &'static str, expected: [f64; 3], got: [f64; 3]) -> Vec<Row> {
@@ -64,8 +64,8 @@ pub(super) fn closed() -> Result<Vec<Row>, VerifyError> {
     let pressure = 5e6;
     let (key, drop) = ("environment.pressure.at_top", 0.02);
     let (without, under) = (
-        Bench::new(case)?,
-        Bench::with(case, |config| config.with_value(key, pressure))?,
+        CaseTwin::new(case)?,
+        CaseTwin::with(case, |config| config.with_value(key, pressure))?,
     );
     let mut rows = compared(case, across(&without), across(&under));
     let (length, links) = (without.config.well.length(), without.config.tool.links as f64);
@@ -76,7 +76,7 @@ pub(super) fn closed() -> Result<Vec<Row>, VerifyError> {
         let quantity = format!("pins of joint {}, N_eff + p A_j (N)", joint + 1);
         rows.push(Row::relative(case, quantity, expected, after, FORCE));
     }
-    let held = Bench::with(case, |config| {
+    let held = CaseTwin::with(case, |config| {
         config
             .with_value("tool.links", 1)?
             .with_value("environment.gravity", 0.0)?
@@ -102,11 +102,11 @@ pub(super) fn closed() -> Result<Vec<Row>, VerifyError> {
 pub(super) fn seal() -> Result<Vec<Row>, VerifyError> {
     let case = "pressure_seal";
     let pressure = 5e5;
-    let under = Bench::with(case, |config| {
+    let under = CaseTwin::with(case, |config| {
         config.with_value("environment.pressure.at_top", pressure)
     })?;
     let at_end = pressure * (1.0 - 0.02 * under.config.well.length());
     let pull = 2000.0 - at_end * disc(0.040);
-    let pulled = Bench::with(case, |config| config.with_value("loads.1.history.constant", pull))?;
+    let pulled = CaseTwin::with(case, |config| config.with_value("loads.1.history.constant", pull))?;
     Ok(compared(case, across(&pulled), across(&under)))
 }

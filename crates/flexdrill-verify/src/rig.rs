@@ -1,6 +1,6 @@
 //! String above the tool and rock under it.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, RockLaw, SectionProperties};
 
@@ -13,15 +13,15 @@ const VIBRATING: f64 = 1e-2;
 
 /// Means over `seconds` of what `read` gives.
 fn means<const N: usize>(
-    bench: &mut Bench,
+    twin: &mut CaseTwin,
     seconds: f64,
-    read: impl Fn(&Bench) -> [f64; N],
+    read: impl Fn(&CaseTwin) -> [f64; N],
 ) -> Result<[f64; N], VerifyError> {
     let (mut sums, mut count) = ([0.0; N], 0.0);
-    let end = bench.time() + seconds;
-    while bench.time() < end {
-        bench.step()?;
-        for (sum, x) in sums.iter_mut().zip(read(bench)) {
+    let end = twin.time() + seconds;
+    while twin.time() < end {
+        twin.step()?;
+        for (sum, x) in sums.iter_mut().zip(read(twin)) {
             *sum += x;
         }
         count += 1.0;
@@ -31,28 +31,28 @@ fn means<const N: usize>(
 
 pub(super) fn windup() -> Result<Vec<Row>, VerifyError> {
     let case = "string_windup";
-    let mut bench = Bench::new(case)?;
-    let (tool, last) = (bench.config.tool(), bench.last());
+    let mut twin = CaseTwin::new(case)?;
+    let (tool, last) = (twin.config.tool(), twin.last());
     let pipe = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
     let string = tool
         .string
         .as_ref()
         .map_or(f64::NAN, |string| string.torsional_stiffness());
-    bench.run_to(30.0)?;
-    let [ahead, at_the_drive, at_the_bit] = means(&mut bench, 3.0, |bench| {
-        let snapshot = bench.simulation.new_snapshot();
-        let bit = bench.displacement(last, Body::Pipe, Direction::Psi);
+    twin.run_to(30.0)?;
+    let [ahead, at_the_drive, at_the_bit] = means(&mut twin, 3.0, |twin| {
+        let snapshot = twin.simulation.new_snapshot();
+        let bit = twin.displacement(last, Body::Pipe, Direction::Psi);
         [
             snapshot.applied.drive_angle - bit,
             snapshot.applied.drive_torque,
             snapshot.bit.torque,
         ]
     })?;
-    let speed = bench.config.inputs.rotary_speed.initial_rpm * std::f64::consts::TAU / 60.0;
+    let speed = twin.config.inputs.rotary_speed.initial_rpm * std::f64::consts::TAU / 60.0;
     // Eq. 1 with the smooth sign of the speed.
     let sign = speed / speed.hypot(tool.bit.slip_rate);
-    let torque = bench.config.tool.bit.torque_arm() * 1e3 * bench.config.inputs.weight_on_bit.initial_kn * sign;
-    let expected = torque * (1.0 / string + bench.config.well.length() / pipe.torsion);
+    let torque = twin.config.tool.bit.torque_arm() * 1e3 * twin.config.inputs.weight_on_bit.initial_kn * sign;
+    let expected = torque * (1.0 / string + twin.config.well.length() / pipe.torsion);
     Ok(vec![
         Row::relative(case, "torque at the bit (N m)", torque, at_the_bit, STEADY),
         Row::relative(case, "torque at the drive (N m)", torque, at_the_drive, STEADY),
@@ -62,20 +62,20 @@ pub(super) fn windup() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn depth_of_cut() -> Result<Vec<Row>, VerifyError> {
     let case = "depth_of_cut";
-    let mut bench = Bench::new(case)?;
-    let tool = bench.config.tool();
+    let mut twin = CaseTwin::new(case)?;
+    let tool = twin.config.tool();
     let RockLaw::DepthOfCut(cut) = tool.rock else {
         return Err(VerifyError::Missing {
             case,
             what: "a depth of cut",
         });
     };
-    bench.run_to(40.0)?;
-    let [weight, torque] = means(&mut bench, 3.0, |bench| {
-        let bit = bench.simulation.bit();
+    twin.run_to(40.0)?;
+    let [weight, torque] = means(&mut twin, 3.0, |twin| {
+        let bit = twin.simulation.bit();
         [bit.weight_on_bit, bit.torque]
     })?;
-    let asked = 1e3 * bench.config.inputs.weight_on_bit.initial_kn;
+    let asked = 1e3 * twin.config.inputs.weight_on_bit.initial_kn;
     let radius = 0.5 * tool.bit.diameter;
     let cutting = cut.cutter_inclination * cut.specific_energy * radius;
     let depth = (asked - cut.wear_flat_force) / cutting;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::bench::{Bench, crossing_frequency};
+use super::case::{CaseTwin, crossing_frequency};
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
 
@@ -18,13 +18,13 @@ const AUDIT: f64 = 1e-3;
 
 pub(super) fn toggle() -> Result<Vec<Row>, VerifyError> {
     let case = "toggle";
-    let bench = Bench::new(case)?;
-    let tool = bench.config.tool();
-    let length = 0.5 * bench.config.well.length();
+    let twin = CaseTwin::new(case)?;
+    let tool = twin.config.tool();
+    let length = 0.5 * twin.config.well.length();
     let axial = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0).axial;
     let expected = length * (1198.5 / axial).cbrt();
-    let joint = bench.simulation.joint_stations()[0];
-    let got = bench.displacement(joint, Body::Pipe, Direction::W);
+    let joint = twin.simulation.joint_stations()[0];
+    let got = twin.displacement(joint, Body::Pipe, Direction::W);
     Ok(vec![Row::relative(
         case,
         "deflection of the joint, L (P / EA)^(1/3) (m)",
@@ -36,10 +36,10 @@ pub(super) fn toggle() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn tilted() -> Result<Vec<Row>, VerifyError> {
     let case = "tilted_link";
-    let bench = Bench::new(case)?;
-    let (last, tool, length) = (bench.last(), bench.config.tool(), bench.config.well.length());
+    let twin = CaseTwin::new(case)?;
+    let (last, tool, length) = (twin.last(), twin.config.tool(), twin.config.well.length());
     let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
-    let [along, across] = [Direction::U, Direction::W].map(|direction| bench.displacement(last, Body::Pipe, direction));
+    let [along, across] = [Direction::U, Direction::W].map(|direction| twin.displacement(last, Body::Pipe, direction));
     let stretch = 1000.0 * length / section.axial;
     Ok(vec![
         Row::relative(case, "across, F L / N (m)", 55.81 / 1000.0 * length, across, LIFT),
@@ -57,16 +57,16 @@ pub(super) fn hanging() -> Result<Vec<Row>, VerifyError> {
     let case = "hanging_link";
     let mut rows = Vec::new();
     for shortening in ["none", "second_order"] {
-        let mut bench = Bench::within(case, 1e-3, |config| config.with_value("tool.shortening", shortening))?;
-        let (last, tool, length) = (bench.last(), bench.config.tool(), bench.config.well.length());
+        let mut twin = CaseTwin::within(case, 1e-3, |config| config.with_value("tool.shortening", shortening))?;
+        let (last, tool, length) = (twin.last(), twin.config.tool(), twin.config.well.length());
         let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
         let expected = (1.5 * 9.81 / length).sqrt() / TAU;
         let mut samples = Vec::new();
-        bench.run_to(0.01)?;
-        let before = *bench.simulation.energy();
-        while bench.time() < 4.0 {
-            bench.step()?;
-            samples.push(bench.displacement(last, Body::Pipe, Direction::W));
+        twin.run_to(0.01)?;
+        let before = *twin.simulation.energy();
+        while twin.time() < 4.0 {
+            twin.step()?;
+            samples.push(twin.displacement(last, Body::Pipe, Direction::W));
         }
         let frequency = crossing_frequency(&samples, 0.00025).ok_or(VerifyError::Missing { case, what: "a swing" })?;
         let quantity = format!("swing, shortening {shortening} (Hz)");
@@ -74,7 +74,7 @@ pub(super) fn hanging() -> Result<Vec<Row>, VerifyError> {
         let largest = samples.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         // Energy of a rigid swing by so much at its end.
         let energy = 0.25 * section.mass * 9.81 * largest * largest;
-        let after = bench.simulation.energy();
+        let after = twin.simulation.energy();
         rows.push(Row::scaled(
             case,
             format!("error of the audit, shortening {shortening} (J)"),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties, WellSection};
 
@@ -13,15 +13,15 @@ pub const ADVANCE: f64 = 0.010;
 ///
 /// # Errors
 /// When a step fails, or the guide is not held at the kick-off.
-pub fn weight_at_kickoff(case: &'static str, bench: &mut Bench) -> Result<f64, VerifyError> {
+pub fn weight_at_kickoff(case: &'static str, twin: &mut CaseTwin) -> Result<f64, VerifyError> {
     let missing = |what| VerifyError::Missing { case, what };
-    let duration = bench.config.run.duration.ok_or(missing("the end of the run"))?;
-    bench.set_rate_of_penetration(ADVANCE);
-    bench.run_to(0.9 * duration)?;
+    let duration = twin.config.run.duration.ok_or(missing("the end of the run"))?;
+    twin.set_rate_of_penetration(ADVANCE);
+    twin.run_to(0.9 * duration)?;
     let (mut sum, mut steps) = (0.0, 0_u32);
-    while bench.time() < duration {
-        bench.step()?;
-        let weight = bench.simulation.weight_at_kickoff();
+    while twin.time() < duration {
+        twin.step()?;
+        let weight = twin.simulation.weight_at_kickoff();
         sum += weight.ok_or(missing("the support of the guide at the kick-off"))?;
         steps += 1;
     }
@@ -30,10 +30,10 @@ pub fn weight_at_kickoff(case: &'static str, bench: &mut Bench) -> Result<f64, V
 
 pub(super) fn capstan() -> Result<Vec<Row>, VerifyError> {
     let case = "capstan";
-    let mut bench = Bench::new(case)?;
-    let got = weight_at_kickoff(case, &mut bench)?;
-    let weight = bench.config.simulation().initial_inputs.weight_on_bit;
-    let expected = (bench.config.tool().outer.friction_axial * FRAC_PI_2).exp();
+    let mut twin = CaseTwin::new(case)?;
+    let got = weight_at_kickoff(case, &mut twin)?;
+    let weight = twin.config.simulation().initial_inputs.weight_on_bit;
+    let expected = (twin.config.tool().outer.friction_axial * FRAC_PI_2).exp();
     // The regularisation takes 2.4e-5, chords instead of the arc (mu l / R)^2 / 12.
     Ok(vec![Row::relative(
         case,
@@ -46,15 +46,15 @@ pub(super) fn capstan() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn slid_in() -> Result<Vec<Row>, VerifyError> {
     let case = "capstan_slid_in";
-    let mut bench = Bench::new(case)?;
+    let mut twin = CaseTwin::new(case)?;
     let missing = |what| VerifyError::Missing { case, what };
-    let duration = bench.config.run.duration.ok_or(missing("the end of the run"))?;
-    let weight = bench.config.simulation().initial_inputs.weight_on_bit;
-    let expected = (bench.config.tool().outer.friction_axial * FRAC_PI_2).exp();
+    let duration = twin.config.run.duration.ok_or(missing("the end of the run"))?;
+    let weight = twin.config.simulation().initial_inputs.weight_on_bit;
+    let expected = (twin.config.tool().outer.friction_axial * FRAC_PI_2).exp();
     let mut rows = Vec::new();
     for (time, quantity) in [(0.0, "at the start"), (duration, "after some steps at rest")] {
-        bench.run_to(time)?;
-        let at_top = bench.simulation.weight_at_kickoff();
+        twin.run_to(time)?;
+        let at_top = twin.simulation.weight_at_kickoff();
         let got = at_top.ok_or(missing("the support of the guide at the kick-off"))? / weight;
         let quantity = format!("force at the kick-off over weight {quantity}");
         rows.push(Row::relative(case, quantity, expected, got, 1e-3));
@@ -72,15 +72,15 @@ pub(super) struct Heavy {
 }
 
 impl Heavy {
-    pub(super) fn of(bench: &Bench) -> Self {
-        let tool = bench.config.tool();
+    pub(super) fn of(twin: &CaseTwin) -> Self {
+        let tool = twin.config.tool();
         let weight = |tube| tool.gravity * SectionProperties::of(tube, tool.material, 1.0).mass;
         Self {
             pipe: weight(tool.pipe_sections[0]),
             guide: weight(tool.guide_section),
             friction: tool.outer.friction_axial,
-            radius: bench.config.well.length() / FRAC_PI_2,
-            weight_on_bit: bench.config.simulation().initial_inputs.weight_on_bit,
+            radius: twin.config.well.length() / FRAC_PI_2,
+            weight_on_bit: twin.config.simulation().initial_inputs.weight_on_bit,
         }
     }
 
@@ -108,9 +108,9 @@ pub(super) fn capstan_chain() -> Result<Vec<Row>, VerifyError> {
 }
 
 fn heavy(case: &'static str, chain: bool) -> Result<Vec<Row>, VerifyError> {
-    let mut bench = Bench::new(case)?;
-    let got = weight_at_kickoff(case, &mut bench)?;
-    let expected = Heavy::of(&bench).at_kickoff(chain);
+    let mut twin = CaseTwin::new(case)?;
+    let got = weight_at_kickoff(case, &mut twin)?;
+    let expected = Heavy::of(&twin).at_kickoff(chain);
     // As the case `capstan`. The weight of half a chord or a link at the ends of the tool is 0.1 % of the force.
     Ok(vec![Row::relative(
         case,
@@ -134,8 +134,8 @@ struct Intervals {
 }
 
 impl Intervals {
-    fn of(bench: &Bench) -> Option<Self> {
-        let (well, heavy) = (&bench.config.tool().well, Heavy::of(bench));
+    fn of(twin: &CaseTwin) -> Option<Self> {
+        let (well, heavy) = (&twin.config.tool().well, Heavy::of(twin));
         let &[
             WellSection::Straight { length: before },
             WellSection::Arc { radius, .. },
@@ -175,16 +175,16 @@ pub(super) fn capstan_intervals() -> Result<Vec<Row>, VerifyError> {
         [1.0, 1.0, 3.0],
         [1.5, 0.5, 2.0],
     ] {
-        let mut bench = Bench::with(case, |config| {
+        let mut twin = CaseTwin::with(case, |config| {
             let keys = ["before_arc", "arc", "after_arc"].map(|key| format!("contact.wall_friction_factors.{key}"));
             config.with_values(case, keys.into_iter().zip(factors))
         })?;
-        let of = Intervals::of(&bench).ok_or(VerifyError::Missing {
+        let of = Intervals::of(&twin).ok_or(VerifyError::Missing {
             case,
             what: "a hole of straight section, arc and straight section",
         })?;
-        let friction = Heavy::of(&bench).friction;
-        let got = weight_at_kickoff(case, &mut bench)?;
+        let friction = Heavy::of(&twin).friction;
+        let got = weight_at_kickoff(case, &mut twin)?;
         let [before, arc, after] = factors;
         // As the case `capstan_weight`, with the load of the arc that chords carry over its boundaries.
         rows.push(Row::relative(
@@ -201,41 +201,41 @@ pub(super) fn capstan_intervals() -> Result<Vec<Row>, VerifyError> {
 pub(super) fn stuck_guide() -> Result<Vec<Row>, VerifyError> {
     let case = "stuck_guide";
     // A station holds 0.7 N: Newton's limits, which are for forces of kilonewtons, are too wide.
-    let mut bench = Bench::within(case, 1e-3, Ok)?;
-    let tool = bench.config.tool();
+    let mut twin = CaseTwin::within(case, 1e-3, Ok)?;
+    let tool = twin.config.tool();
     let section = SectionProperties::of(tool.guide_section, tool.material, 1.0);
     let friction = tool.outer.friction_axial * tool.gravity * section.mass;
     let push = 70.0;
-    let end = |bench: &Bench| -bench.displacement(bench.last(), Body::Guide, Direction::U);
-    bench.run_to(3.2)?;
-    let pushed = end(&bench);
+    let end = |twin: &CaseTwin| -twin.displacement(twin.last(), Body::Guide, Direction::U);
+    twin.run_to(3.2)?;
+    let pushed = end(&twin);
     // The push reaches up to where the guide has moved by the part 1e-4 of its end; it falls with the square of the
     // distance from there, so that this is 1e-2 of the length short.
-    let length = bench.config.well.length();
-    let stations: Vec<_> = bench.simulation.stations().map(|at| at.measured_depth).collect();
-    let moved = (0..stations.len()).find(|&s| -bench.displacement(s, Body::Guide, Direction::U) > 1e-4 * pushed);
+    let length = twin.config.well.length();
+    let stations: Vec<_> = twin.simulation.stations().map(|at| at.measured_depth).collect();
+    let moved = (0..stations.len()).find(|&s| -twin.displacement(s, Body::Guide, Direction::U) > 1e-4 * pushed);
     let reach = moved.map_or(f64::NAN, |s| length - stations[s]);
-    bench.run_to(6.4)?;
+    twin.run_to(6.4)?;
     let expected = push * push / (2.0 * section.axial * friction);
     Ok(vec![
         Row::relative(case, "movement F^2 / (2 EA mu w) (m)", expected, pushed, 1e-3),
-        Row::relative(case, "half of it stays (m)", 0.5 * expected, end(&bench), 1e-3),
+        Row::relative(case, "half of it stays (m)", 0.5 * expected, end(&twin), 1e-3),
         Row::relative(case, "reach F / (mu w) (m)", push / friction, reach, 0.02),
     ])
 }
 
 pub(super) fn block_on_slope() -> Result<Vec<Row>, VerifyError> {
     let case = "block_on_slope";
-    let mut bench = Bench::new(case)?;
-    let travelled = |bench: &Bench| bench.displacement(0, Body::Pipe, Direction::U);
-    bench.run_to(10.0)?;
-    let rested = travelled(&bench);
-    bench.run_to(1e3)?;
-    let crept = travelled(&bench) - rested;
-    let axial = bench.simulation.axial_friction(0, Body::Pipe).unwrap_or(f64::NAN);
-    let tool = bench.config.tool();
-    let mass = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0).mass * bench.config.well.length();
-    let down = 0.5 * mass * tool.gravity * bench.config.well.start_inclination_deg.to_radians().cos();
+    let mut twin = CaseTwin::new(case)?;
+    let travelled = |twin: &CaseTwin| twin.displacement(0, Body::Pipe, Direction::U);
+    twin.run_to(10.0)?;
+    let rested = travelled(&twin);
+    twin.run_to(1e3)?;
+    let crept = travelled(&twin) - rested;
+    let axial = twin.simulation.axial_friction(0, Body::Pipe).unwrap_or(f64::NAN);
+    let tool = twin.config.tool();
+    let mass = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0).mass * twin.config.well.length();
+    let down = 0.5 * mass * tool.gravity * twin.config.well.start_inclination_deg.to_radians().cos();
     Ok(vec![
         Row::scaled(case, "creep in 10^3 s (m)", 0.0, crept, 1e-10, 1.0),
         Row::relative(case, "friction m g sin 30 deg / 2 per station (N)", -down, axial, 1e-6),

@@ -1,6 +1,6 @@
 //! A slotted guide whose slots close as it bends.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::preload::{RADIUS, chord};
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
@@ -23,8 +23,8 @@ struct Slotted {
 }
 
 impl Slotted {
-    fn of(case: &'static str, bench: &Bench) -> Result<Self, VerifyError> {
-        let tool = bench.config.tool();
+    fn of(case: &'static str, twin: &CaseTwin) -> Result<Self, VerifyError> {
+        let tool = twin.config.tool();
         let bending = |factor: f64| SectionProperties::of(tool.guide_section, tool.material, factor).bending;
         let close_at = tool.guide_slots_close_at.ok_or(VerifyError::Missing {
             case,
@@ -46,11 +46,11 @@ impl Slotted {
 
 pub(super) fn under_couples() -> Result<Vec<Row>, VerifyError> {
     let case = "slots_couples";
-    let slotted = Slotted::of(case, &Bench::new(case)?)?;
+    let slotted = Slotted::of(case, &CaseTwin::new(case)?)?;
     let (sin, cos) = 30_f64.to_radians().sin_cos();
     let mut rows = Vec::new();
     for (moment, state) in [(400.0, "open"), (5000.0, "closed")] {
-        let bench = Bench::within(case, 1e-3, |config| {
+        let twin = CaseTwin::within(case, 1e-3, |config| {
             let couples = [-cos, -sin, cos, sin].map(|part| part * moment);
             couples
                 .into_iter()
@@ -59,14 +59,14 @@ pub(super) fn under_couples() -> Result<Vec<Row>, VerifyError> {
                     config.with_value(&format!("loads.{load}.history.constant"), couple)
                 })
         })?;
-        let bend = slotted.curvature(moment) * bench.config.well.length();
+        let bend = slotted.curvature(moment) * twin.config.well.length();
         for (direction, plane, part) in [
             (Direction::PhiY, "in the plane", cos),
             (Direction::PhiZ, "out of it", sin),
         ] {
-            let tilt = |station| bench.displacement(station, Body::Guide, direction);
+            let tilt = |station| twin.displacement(station, Body::Guide, direction);
             let quantity = format!("{state}, from end to end {plane} (rad)");
-            let got = tilt(bench.last()) - tilt(0);
+            let got = tilt(twin.last()) - tilt(0);
             rows.push(Row::relative(case, quantity, part * bend, got, COUPLES));
         }
     }
@@ -75,11 +75,11 @@ pub(super) fn under_couples() -> Result<Vec<Row>, VerifyError> {
 
 pub(super) fn on_the_wall() -> Result<Vec<Row>, VerifyError> {
     let case = "slots_wall";
-    let bench = Bench::new(case)?;
-    let slotted = Slotted::of(case, &bench)?;
-    let (length, last) = (bench.config.well.length(), bench.last());
+    let twin = CaseTwin::new(case)?;
+    let slotted = Slotted::of(case, &twin)?;
+    let (length, last) = (twin.config.well.length(), twin.last());
     let half = 0.5 * length / RADIUS;
-    let missing = chord(length) - bench.config.outer_clearance();
+    let missing = chord(length) - twin.config.outer_clearance();
     let way = |force: f64| {
         // Moments by a unit force; the other half of the arc does as much.
         let step = half / f64::from(INTERVALS);
@@ -89,7 +89,7 @@ pub(super) fn on_the_wall() -> Result<Vec<Row>, VerifyError> {
                 slotted.curvature(force * arm) * arm
             })
             .sum();
-        2.0 * sum * step * RADIUS + force / bench.config.tool().outer.stiffness
+        2.0 * sum * step * RADIUS + force / twin.config.tool().outer.stiffness
     };
     let (mut below, mut above) = (0.0, 1e7);
     for _ in 0..60 {
@@ -101,7 +101,7 @@ pub(super) fn on_the_wall() -> Result<Vec<Row>, VerifyError> {
         }
     }
     let force: f64 = (0..=last)
-        .filter_map(|station| bench.simulation.normal_force(station, Body::Guide))
+        .filter_map(|station| twin.simulation.normal_force(station, Body::Guide))
         .sum();
     Ok(vec![Row::relative(
         case,

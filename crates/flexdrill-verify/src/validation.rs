@@ -1,7 +1,7 @@
 //! Figures that others have published, which the twin is held against: one table, from which the tests `val_*` assert and
 //! `cargo xtask reference validation` prints `docs/validation.md`.
 
-use super::bench::Bench;
+use super::case::CaseTwin;
 use super::sliding::weight_at_kickoff;
 use super::{Row, VerifyError};
 use flexdrill_core::tool::{Body, Direction, SectionProperties};
@@ -75,14 +75,14 @@ fn capstan() -> Result<Vec<Row>, VerifyError> {
     let mut rows = Vec::new();
     for law in ["vector", "bristle"] {
         for (friction, published) in [(0.1, 1.170), (0.2, 1.369), (0.235, 1.447), (0.3, 1.602), (0.4, 1.875)] {
-            let mut bench = Bench::with(case, |config| {
+            let mut twin = CaseTwin::with(case, |config| {
                 config
                     .with_value("contact.outer.friction_axial", friction)?
                     .with_value("contact.outer.friction_tangential", friction)?
                     .with_value("contact.outer.friction", law)
             })?;
-            let weight = bench.config.simulation().initial_inputs.weight_on_bit;
-            let got = weight_at_kickoff(case, &mut bench)? / weight;
+            let weight = twin.config.simulation().initial_inputs.weight_on_bit;
+            let got = weight_at_kickoff(case, &mut twin)? / weight;
             let quantity = format!("mu {friction}, friction: {law} (-)");
             rows.push(Row::relative(case, quantity, published, got, 1e-3));
         }
@@ -108,7 +108,7 @@ fn sinusoidal() -> Result<Vec<Row>, VerifyError> {
 
 /// Dawson and Paslay's load of the case (N).
 fn sideways_load(case: &'static str) -> Result<f64, VerifyError> {
-    let config = Bench::new(case)?.config.clone();
+    let config = CaseTwin::new(case)?.config.clone();
     let tool = config.tool();
     let section = SectionProperties::of(tool.pipe_sections[0], tool.material, 1.0);
     let weight = section.mass * tool.gravity;
@@ -118,11 +118,11 @@ fn sideways_load(case: &'static str) -> Result<f64, VerifyError> {
 /// Stiffness of the pipe's middle against a force sideways (N/m), by axial load (N).
 fn side_stiffness(case: &'static str) -> impl Fn(f64) -> Result<f64, VerifyError> {
     move |load| {
-        let mut bench = Bench::within(case, 1e-3, |config| {
+        let mut twin = CaseTwin::within(case, 1e-3, |config| {
             config.with_value("loads.0.history.constant", -load)
         })?;
-        bench.run_to(4.0)?;
-        let middle = bench.last() / 2;
-        Ok(0.02 / bench.displacement(middle, Body::Pipe, Direction::V))
+        twin.run_to(4.0)?;
+        let middle = twin.last() / 2;
+        Ok(0.02 / twin.displacement(middle, Body::Pipe, Direction::V))
     }
 }

@@ -6,7 +6,7 @@
     reason = "helpers of tests fail by panicking"
 )]
 
-use flexdrill_verify::{Bench, CASES, Row};
+use flexdrill_verify::{CASES, CaseTwin, Row};
 
 #[test]
 fn all_cases_are_within_their_limits() {
@@ -32,8 +32,8 @@ fn a_wrong_number_is_noticed() {
 #[test]
 fn every_case_runs_over_the_chain() {
     for case in CASES {
-        let bench = Bench::new(case.name).unwrap();
-        let nodes = bench.simulation.chain_nodes();
+        let twin = CaseTwin::new(case.name).unwrap();
+        let nodes = twin.simulation.chain_nodes();
         assert!(nodes.is_some_and(|nodes| nodes >= 2), "{}: {nodes:?} nodes", case.name);
     }
 }

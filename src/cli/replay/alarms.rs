@@ -4,9 +4,10 @@ use std::fmt;
 
 use super::log::LogPlace;
 use crate::alarms::AlarmId;
-use crate::messages::{Alarm, AlarmEvent, words};
+use crate::messages::{Alarm, AlarmEvent};
 use crate::report::AlarmMoment;
 use flexdrill_alarms::{Figures, Incidents, Time, span};
+use flexdrill_outputs::words;
 
 /// The alarms of a replay, in model time.
 #[derive(Debug)]

@@ -9,9 +9,9 @@ use serde::Serialize;
 
 use super::log::LogPlace;
 use crate::cli::output::say;
-use crate::messages::words;
-use flexdrill_core::motion::{Episode, EpisodeKind, Severity, WhirlKind};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_motion::{Episode, EpisodeKind, Severity, WhirlKind};
+use flexdrill_outputs::words;
 
 /// Most rows that are printed; the JSON has all.
 const ROWS: usize = 40;
@@ -172,8 +172,8 @@ pub(super) fn write_json(path: &Path, episodes: &[Episode], joints: &Joints) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_core::motion::ToolLocation;
     use flexdrill_core::tool::Body;
+    use flexdrill_motion::ToolLocation;
 
     fn rolling() -> Episode {
         Episode {

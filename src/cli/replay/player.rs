@@ -13,7 +13,6 @@ use crate::bag::{BagError, Recorder, Recording, Topic};
 use crate::cli::output::tell;
 use crate::cli::source::{FromRig, MeasuredSample};
 use crate::compare::{self, RigComparison, Samples};
-use crate::messages::outputs::{Encoded, Outputs, ParameterChange, schedule};
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::messages::{CdrError, RigInputs, to_cdr};
 use crate::report::LogRows;
@@ -21,6 +20,7 @@ use crate::rig_inputs::Measured;
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
+use flexdrill_outputs::{Encoded, Outputs, ParameterChange, schedule};
 use flexdrill_realtime::monotonic;
 
 /// The topics of a replay: all that do not depend on wall-clock time.

@@ -15,13 +15,13 @@ use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::cli::source::{FromRig, MeasuredSample};
 use crate::compare::Samples;
-use crate::messages::outputs::{ParameterChange, run_inputs};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{
     AppliedInputs, JointDeflections, Message, Residuals, RigInputs, RigMeasured, SessionInfo, TwinStatus,
 };
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
+use flexdrill_outputs::{ParameterChange, run_inputs};
 use flexdrill_text::printable;
 
 /// Possible differences between a replay and the recorded run.

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use super::alarms::AlarmTally;
 use super::log::LogPlace;
 use crate::cli::output::say;
-use crate::messages::{Residuals, words};
+use crate::messages::Residuals;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::motion::{Ageing, Episode, EpisodeLog, Observation, ToolLocation};
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{ModelQuality, QualityLevel, Snapshot};
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_motion::{Ageing, Episode, EpisodeLog, Observation, ToolLocation};
+use flexdrill_outputs::words;
 
 /// The largest value of a quantity, with its depth and time.
 #[derive(Debug, Clone, Copy, Default)]

@@ -13,6 +13,7 @@ use flexdrill_bridge::Quantity;
 use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::{Mapping, RigFrames};
 use flexdrill_core::inputs::InputKind;
+use flexdrill_outputs::MeasuredValues as _;
 use flexdrill_text::printable;
 
 /// Frames that wait for a slow reader.

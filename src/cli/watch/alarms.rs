@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::messages::{Alarm, AlarmList, words};
+use crate::messages::{Alarm, AlarmList};
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_outputs::words;
 
 /// The alarms that require a response, the worst first as in the list; those of the computer follow the driller's.
 pub(super) fn standing(list: &AlarmList) -> impl Iterator<Item = &Alarm> {

@@ -3,9 +3,10 @@
 use std::time::{Duration, Instant};
 
 use super::board::{Board, Heartbeat};
-use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning, words};
+use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_outputs::words;
 use flexdrill_text::percent;
 
 pub(super) fn state(code: u8) -> &'static str {

@@ -12,7 +12,7 @@ use super::parameters::{reconfigured, refresh_ranges};
 use super::states::{SavedRun, States};
 use flexdrill_config::{Config, HardBounds, Rates};
 use flexdrill_core::twin::CheckpointError;
-use flexdrill_messages::outputs::{self, ParameterChange};
+use flexdrill_outputs::ParameterChange;
 use flexdrill_realtime::link::{Command, Gauges, RequestEnd, RunState, Settings};
 use flexdrill_ros2::parameters::{Parameter, ParameterStore, ParameterValue, Refusal};
 use flexdrill_ros2::service::asked_by;
@@ -130,7 +130,7 @@ fn settings(config: &Config, initial_rates: &Rates) -> Settings {
         live: config.live(),
         slew: simulation.slew(),
         whirl: config.whirl_settings(),
-        schedule: outputs::schedule(config, initial_rates),
+        schedule: flexdrill_outputs::schedule(config, initial_rates),
     }
 }
 
@@ -198,8 +198,10 @@ impl Control {
     /// # Errors
     /// When the configuration is not valid with the values, a value exceeds a hard limit, or the solver's queue is full.
     pub fn apply(&self, candidate: &mut ParameterStore, changed: &[Parameter], requester: &str) -> Result<(), Refusal> {
-        let config = reconfigured(&self.config(), changed)?;
-        self.hard_bounds.check(&config)?;
+        let config = reconfigured(&self.config(), changed).map_err(|why| Refusal::Invalid(why.into()))?;
+        self.hard_bounds
+            .check(&config)
+            .map_err(|why| Refusal::Invalid(why.into()))?;
         let config = Arc::new(config);
         let values = changed
             .iter()

@@ -7,9 +7,9 @@ use flexdrill_bench::table::Table;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::BIT;
 use flexdrill_core::twin::Simulation;
 use flexdrill_core::units::{kn_to_n, m_per_s_to_m_per_h, rpm_to_rad_per_s};
+use flexdrill_motion::BIT;
 use flexdrill_plot::{Figure, Line, Panel};
 use serde_json::{Value, json};
 

@@ -9,8 +9,8 @@ use flexdrill_bench::cases::{Case, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::{BIT, KICK_OFF};
 use flexdrill_core::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
+use flexdrill_motion::{BIT, KICK_OFF};
 use flexdrill_verify::step_error::{Motion, Record};
 
 use crate::parts::{Parts, Run};

@@ -2,7 +2,8 @@
 //! What is not known is `null`.
 
 use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals, SafeWindow, TwinStatus, words};
+use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals, SafeWindow, TwinStatus};
+use flexdrill_outputs::words;
 use jiff::Timestamp;
 use serde_json::{Map, Value, json};
 

@@ -16,8 +16,8 @@ use flexdrill_core::inputs::{MeasuredKind, Unit};
 use tokio::sync::mpsc;
 
 use super::date_time;
+use super::event::ServerEvent;
 use super::nodes::{Target, TwinNodes};
-use super::server::ServerEvent;
 use super::space::{self, ALARMS, Kind, ROOT, TARGETS};
 use super::units::engineering_units;
 use crate::Quantity;

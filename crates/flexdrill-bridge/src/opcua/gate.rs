@@ -11,7 +11,7 @@ use tokio::sync::mpsc;
 use tokio::task::JoinSet;
 use tokio::time::timeout;
 
-use super::server::ServerEvent;
+use super::event::ServerEvent;
 
 /// Most connections at a time.
 pub const MOST_CONNECTIONS: usize = 32;

@@ -3,7 +3,7 @@
 //! # Layout
 //! - [`server`]: the twin as a server: [`state`] of the twin with its status codes, the [`space`] of its nodes and
 //!   [`alarms`], [`twin`] which keeps them up to date, [`conditions`] after Part 9, [`users`], and a [`gate`] in front
-//!   that bounds connections.
+//!   that bounds connections. All of them report to the bridge by [`event`]s.
 //! - [`client`]: a client of a rig's server, which comes back after a loss: [`mapping`] of nodes to quantities,
 //!   [`values`] as messages for the twin.
 //! - [`units`]: units by their UNECE codes. [`keys`]: the folder with our certificate and those of others.
@@ -12,6 +12,7 @@ pub mod alarms;
 mod build;
 pub mod client;
 pub mod conditions;
+pub mod event;
 pub mod gate;
 pub mod keys;
 pub mod mapping;

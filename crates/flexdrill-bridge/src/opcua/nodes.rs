@@ -20,7 +20,7 @@ use ::opcua::types::{
 use async_trait::async_trait;
 use tokio::sync::mpsc;
 
-use super::server::ServerEvent;
+use super::event::ServerEvent;
 use crate::Quantity;
 use flexdrill_core::inputs::Unit;
 

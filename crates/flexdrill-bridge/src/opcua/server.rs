@@ -1,6 +1,6 @@
 //! The twin as a server of OPC UA.
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -16,56 +16,18 @@ use tokio::net::TcpListener;
 use tokio::sync::mpsc;
 
 use super::build::build;
+use super::event::ServerEvent;
 use super::gate;
 use super::keys::Keys;
 use super::nodes::{CoreNodes, TwinNodes};
 use super::space;
 use super::twin::TwinServer;
 use super::users::{AccessControl, Users};
-use crate::Quantity;
 
 /// Subscriptions after which the server restarts: the crate keeps those of clients that left for as long as these asked.
 const MOST_SUBSCRIPTIONS: u32 = 300;
 /// Time between two looks at that number.
 const LOOK: Duration = Duration::from_secs(5);
-
-/// What happens at the server.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ServerEvent {
-    /// A client connected.
-    Opened {
-        /// Its address.
-        peer: IpAddr,
-    },
-    /// A connection ended.
-    Closed,
-    /// A connection was refused, because there are too many.
-    Refused {
-        /// Its address.
-        peer: IpAddr,
-    },
-    /// A connection did not begin as OPC UA.
-    NotOpcUa {
-        /// Its address.
-        peer: IpAddr,
-    },
-    /// The system refused a connection.
-    NotAccepted,
-    /// A user or password was wrong.
-    LoginRefused {
-        /// The name that was given.
-        user: String,
-    },
-    /// A user wrote a target.
-    Written {
-        /// Which.
-        quantity: Quantity,
-        /// The value (SI).
-        value: f64,
-        /// Who.
-        user: String,
-    },
-}
 
 /// How the server is set up.
 #[derive(Clone)]

@@ -13,7 +13,7 @@ use ::opcua::types::{Error, MessageSecurityMode, NodeId, StatusCode, UAString, U
 use async_trait::async_trait;
 use tokio::sync::{Semaphore, mpsc};
 
-use super::server::ServerEvent;
+use super::event::ServerEvent;
 
 /// Time that a wrong password costs.
 const PENALTY: Duration = Duration::from_secs(1);

@@ -321,6 +321,7 @@ const fn quality(doubtful: bool) -> u8 {
 mod tests {
     use super::*;
     use flexdrill_core::inputs::MeasuredKind;
+    use flexdrill_outputs::MeasuredValues as _;
 
     const ARRIVED: i64 = 1_700_000_000_500_000_000;
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::RigInputs;
+use flexdrill_outputs::MeasuredValues as _;
 
 use super::Reading;
 use crate::Quantity;

@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use flexdrill_bridge::opcua::client::RigEvent;
+use flexdrill_bridge::opcua::event::ServerEvent;
 use flexdrill_bridge::opcua::gate::MOST_OF_ADDRESS;
-use flexdrill_bridge::opcua::server::ServerEvent;
 use flexdrill_bridge::opcua::values::Collector;
 use flexdrill_messages::BitState;
 use flexdrill_messages::topics;

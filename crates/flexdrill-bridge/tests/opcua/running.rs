@@ -5,8 +5,9 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use flexdrill_bridge::lines::now;
+use flexdrill_bridge::opcua::event::ServerEvent;
 use flexdrill_bridge::opcua::keys::{Application, Keys};
-use flexdrill_bridge::opcua::server::{self, ServerEvent, Setup};
+use flexdrill_bridge::opcua::server::{self, Setup};
 use flexdrill_bridge::opcua::state::TwinState;
 use flexdrill_bridge::opcua::users::Users;
 use flexdrill_messages::builtin_interfaces::Time;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use flexdrill_bridge::opcua::server::ServerEvent;
+use flexdrill_bridge::opcua::event::ServerEvent;
 use flexdrill_messages::TwinStatus;
 use flexdrill_messages::topics;
 use serde_json::Value;

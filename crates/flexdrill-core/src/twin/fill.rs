@@ -6,8 +6,8 @@ use crate::dynamics::state::{State, joint_rotations, translation};
 use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::LayerContacts;
 use crate::model::Model;
-use crate::motion::ContactStatistics;
 use crate::tool::{Direction, JointKind};
+use flexdrill_motion::ContactStatistics;
 
 /// Contacts of one layer at all stations: gaps, present forces, peak and RMS.
 pub(super) fn fill_layer(

@@ -8,8 +8,8 @@ use super::{Schedule, Simulation, Snapshot};
 use crate::dynamics::outcome::StepOutcome;
 use crate::inputs::InputState;
 use crate::inputs::Inputs;
-use crate::motion::WhirlSettings;
 use crate::tool::LiveParameters;
+use flexdrill_motion::WhirlSettings;
 
 /// Everything that acts on the model from a step on.
 #[derive(Debug, Clone, Copy, PartialEq)]

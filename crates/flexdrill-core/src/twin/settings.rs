@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 use super::step_choice::StepRule;
 use crate::dynamics::Scheme;
 use crate::inputs::Inputs;
-use crate::motion::{
+use crate::tool::Body;
+use crate::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
+use flexdrill_motion::{
     AgeingSettings, ChaoticWhirlSettings, JointLoadSettings, LoadSettings, ShockSettings, StickSlipSettings,
     TransferSettings, WhirlSettings,
 };
-use crate::tool::Body;
-use crate::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 
 /// How a simulation runs: the step, the scheme, the first inputs, and how the motion is judged.
 ///

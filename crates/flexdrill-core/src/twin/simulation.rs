@@ -17,10 +17,10 @@ use crate::dynamics::statics::StartError;
 use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::inputs::{InputKind, Inputs};
-use crate::motion::WhirlSettings;
 use crate::simd::Instructions;
 use crate::tool::{LiveParameters, ToolDescription, WeightPlace};
 use crate::validation::ValidationError;
+use flexdrill_motion::WhirlSettings;
 
 /// Why a simulation could not be built or restored.
 #[derive(Debug, thiserror::Error)]

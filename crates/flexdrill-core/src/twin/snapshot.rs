@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::quality::ModelQuality;
 use crate::dynamics::outcome::{EnergyAudit, StepFailure};
 use crate::inputs::Inputs;
-use crate::motion::{Ageing, Hazards, Severity, ShockLevel, Transfer, WhirlReport, WhirlWarningLevel};
 use crate::tool::Body;
+use flexdrill_motion::{Ageing, Hazards, Severity, ShockLevel, Transfer, WhirlReport, WhirlWarningLevel};
 
 /// State of the tool at the end of a step, with statistics over the publishing interval.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,4 +1,4 @@
-//! The message types: generated code, CDR bytes, how snapshots fill them, and the reference of the rig page's decoders.
+//! The message types: generated code, CDR bytes, and the reference of the rig page's decoders.
 
 #![allow(
     clippy::unwrap_used,
@@ -7,7 +7,5 @@
 )]
 
 mod cdr;
-mod fill;
 mod generated;
 mod page;
-mod states;

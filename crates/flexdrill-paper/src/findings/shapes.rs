@@ -3,7 +3,7 @@
 use super::finding::{Finding, Paper, Verdict, closeness, finding, ratio};
 use crate::motion::{Motion, Whirl};
 use crate::record::Record;
-use flexdrill_core::motion::WhirlKind;
+use flexdrill_motion::WhirlKind;
 
 pub(super) fn findings(record: &Record, pipe: &Motion, guide: &Motion) -> Vec<Finding> {
     let stations = &record.stations;

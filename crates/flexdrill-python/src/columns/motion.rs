@@ -91,7 +91,7 @@ pub(super) const HAZARDS: Group = Group {
         Column::new(
             "measured_depth_m",
             Few(|s, out| {
-                let depth = |place: Option<flexdrill_core::motion::ToolLocation>| {
+                let depth = |place: Option<flexdrill_motion::ToolLocation>| {
                     place.map_or(f64::NAN, |place| place.measured_depth)
                 };
                 out.extend(s.hazards.list.iter().map(|hazard| depth(hazard.place)));

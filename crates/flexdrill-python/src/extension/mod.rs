@@ -12,7 +12,7 @@ mod twin;
 use pyo3::prelude::*;
 
 use crate::columns::{GROUPS, INSTANT};
-use flexdrill_core::motion::{HazardKind, Severity, WhirlKind};
+use flexdrill_motion::{HazardKind, Severity, WhirlKind};
 
 /// The columns of every group, in order: group, column, and whether it is constant. The group of the instant is empty.
 #[pyfunction]

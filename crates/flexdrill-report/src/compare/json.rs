@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::{AlarmPair, Along, Comparison, Figures, Pair, Quantity, Stood};
 use crate::reading::Summary;
-use flexdrill_messages::words;
+use flexdrill_outputs::words;
 
 /// Version of the document.
 const VERSION: u32 = 1;

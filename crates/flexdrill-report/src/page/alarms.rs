@@ -6,7 +6,7 @@ use super::priority_class;
 use super::text::{capital, duration, location, number, percent};
 use crate::incidents::{Incident, seconds};
 use crate::reading::Summary;
-use flexdrill_messages::words;
+use flexdrill_outputs::words;
 use flexdrill_text::printable;
 
 /// Largest number of incidents listed; the worst ones, if there are more.

@@ -9,7 +9,7 @@ use crate::compare::{AlarmPair, Along, Comparison, Figures, Quantity, Stood, fig
 use crate::incidents::{Incident, seconds};
 use crate::plots;
 use crate::reading::Summary;
-use flexdrill_messages::words;
+use flexdrill_outputs::words;
 
 /// Width of a time line in its own units.
 const WIDTH: f64 = 1000.0;

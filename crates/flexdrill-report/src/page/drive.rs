@@ -11,7 +11,7 @@ use crate::history::History;
 use crate::plots;
 use crate::reading::Summary;
 use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, pa_to_mpa, rad_per_s_to_rpm};
-use flexdrill_messages::words;
+use flexdrill_outputs::words;
 
 /// A row of the table; the mean is taken over `window` (s), or over the whole recording without one.
 fn row(what: &str, unit: &str, history: &History, factor: f64, window: Option<[f64; 2]>) -> Markup {

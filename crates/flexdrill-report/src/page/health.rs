@@ -8,7 +8,8 @@ use crate::ReportError;
 use crate::plots;
 use crate::reading::Summary;
 use crate::shares::Shares;
-use flexdrill_messages::{TwinStatus, words};
+use flexdrill_messages::TwinStatus;
+use flexdrill_outputs::words;
 
 /// The section about the trust in the numbers.
 pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {

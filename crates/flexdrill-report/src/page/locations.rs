@@ -9,7 +9,8 @@ use crate::locations::{NAMED, WhirlStation};
 use crate::plots;
 use crate::reading::Summary;
 use flexdrill_core::units::rad_to_deg;
-use flexdrill_messages::{WhirlState, words};
+use flexdrill_messages::WhirlState;
+use flexdrill_outputs::words;
 
 fn joint_name(summary: &Summary, depth: f64) -> String {
     match summary.locations.nearest_joint(depth) {

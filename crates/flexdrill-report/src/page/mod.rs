@@ -16,7 +16,8 @@ use self::text::{capital, duration, number, percent, times};
 use super::ReportError;
 use super::incidents::seconds;
 use super::reading::Summary;
-use flexdrill_messages::{Alarm, TwinStatus, words};
+use flexdrill_messages::{Alarm, TwinStatus};
+use flexdrill_outputs::words;
 use flexdrill_plot::{Figure, svg};
 use flexdrill_text::{date_time, printable};
 

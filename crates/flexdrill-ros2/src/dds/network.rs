@@ -133,23 +133,25 @@ impl Network {
         Ok((network, notes))
     }
 
-    /// The network with the settings of the configuration.
+    /// The network with the settings of a configuration: a reach in place of that of ROS 2's variables, if one is given,
+    /// the interfaces, and the peers in place of those of the variables, if there are any.
     ///
     /// # Errors
-    /// When the configuration has peers, and ROS 2's variables restrict DDS to this machine.
-    pub fn configured(mut self, network: &flexdrill_config::Network) -> Result<Self, NetworkError> {
-        match network.reach {
-            flexdrill_config::Reach::Environment => {}
-            flexdrill_config::Reach::Subnet => self.reach = Reach::Subnet,
-            flexdrill_config::Reach::Localhost => self.reach = Reach::Localhost,
-        }
-        self.interfaces.clone_from(&network.interfaces);
-        if !network.peers.is_empty() {
-            self.peers.clone_from(&network.peers);
+    /// When there are peers, and the reach is this machine only.
+    pub fn configured(
+        mut self,
+        reach: Option<Reach>,
+        interfaces: &[IpAddr],
+        peers: &[String],
+    ) -> Result<Self, NetworkError> {
+        self.reach = reach.unwrap_or(self.reach);
+        self.interfaces = interfaces.to_vec();
+        if !peers.is_empty() {
+            self.peers = peers.to_vec();
         }
         if self.reach == Reach::Localhost {
             // Ignored peers of the environment have a note from `read`.
-            if !network.peers.is_empty() {
+            if !peers.is_empty() {
                 return Err(NetworkError::PeersKeptOut(self.peers.join(", ")));
             }
             self.peers.clear();
@@ -219,7 +221,7 @@ fn peers(list: Option<&str>) -> Result<Vec<String>, NetworkError> {
     names
         .filter(|name| !name.is_empty())
         .map(|name| {
-            if flexdrill_config::is_peer(name) {
+            if flexdrill_text::is_host(name) {
                 Ok(name.to_owned())
             } else {
                 Err(NetworkError::Peer(name.to_owned()))
@@ -326,15 +328,15 @@ mod tests {
         let refused = read(None, &[("ROS_STATIC_PEERS", "10.0.0.7:7400")]).unwrap_err();
         assert!(refused.to_string().contains("'10.0.0.7:7400'"), "{refused}");
 
-        let mut configured = flexdrill_config::Network::default();
-        assert_eq!(network.clone().configured(&configured).unwrap().peers, network.peers);
-        configured.peers = vec!["10.0.0.8".to_owned()];
-        assert_eq!(network.clone().configured(&configured).unwrap().peers, ["10.0.0.8"]);
+        let configured = |network: &Network, peers: &[String]| network.clone().configured(None, &[], peers);
+        assert_eq!(configured(&network, &[]).unwrap().peers, network.peers);
+        let peers = ["10.0.0.8".to_owned()];
+        assert_eq!(configured(&network, &peers).unwrap().peers, peers);
 
         let here = ("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST");
         let (network, notes) = read(None, &[list, here]).unwrap();
         assert_eq!((network.peers.len(), notes.len()), (0, 1), "told, and none is called");
-        let refused = network.configured(&configured).unwrap_err().to_string();
+        let refused = configured(&network, &peers).unwrap_err().to_string();
         assert!(
             refused.contains("10.0.0.8") && refused.contains("network.reach: subnet"),
             "{refused}"

@@ -1,6 +1,5 @@
 //! Reasons for the refusal of a parameter change.
 
-use flexdrill_config::ConfigError;
 use ros2_client::parameters::ParameterType;
 
 /// Why a change is refused, with parameter, value, limit and remedy.
@@ -42,9 +41,9 @@ pub enum Refusal {
         /// Value, as it was given.
         value: String,
     },
-    /// The configuration is not valid with the value.
+    /// What the parameters configure is not valid with the value.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Invalid(Box<dyn std::error::Error + Send + Sync>),
     /// The solver's queue of commands is full.
     #[error("the values are fine but cannot be passed on: {why}; nothing was changed, set them again")]
     NotPassedOn {

@@ -262,7 +262,6 @@ fn allowed(entry: &Declaration, value: &ParameterValue) -> Result<ParameterValue
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_config::ConfigError;
 
     fn range(low: f64, high: f64) -> NumberRange {
         NumberRange {
@@ -326,11 +325,7 @@ mod tests {
             assert_eq!(new.number("friction.inner"), Some(0.4));
             assert_eq!((changed.len(), changed[0].name.as_str()), (1, "friction.inner"));
             new.set_range("friction.inner", range(0.0, 0.5));
-            Err(ConfigError::UnknownKey {
-                key: "friction".into(),
-                meant: None,
-            }
-            .into())
+            Err(Refusal::Invalid("friction: no such key".into()))
         });
         assert!(refused.is_err());
         assert_eq!(store.describe("friction.inner").floating_point_range[0].to_value, 1.0);

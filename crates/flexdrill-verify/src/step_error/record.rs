@@ -4,10 +4,10 @@ use super::{NUDGES, StepErrorFailure};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_core::motion::Transfer;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{ModelQuality, Simulation};
 use flexdrill_core::units::n_to_kn;
+use flexdrill_motion::Transfer;
 
 /// Contact forces are averaged over about this (s).
 const INTERVAL: f64 = 0.02;

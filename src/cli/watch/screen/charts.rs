@@ -11,8 +11,9 @@ use super::{BAD, DOUBTFUL, GOOD};
 use crate::cli::watch::board::{Board, HISTORY};
 use crate::cli::watch::profile::binned;
 use crate::cli::watch::texts;
-use crate::messages::{WhirlState, words};
+use crate::messages::WhirlState;
 use flexdrill_core::units::{rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_outputs::words;
 
 pub(super) fn draw_bit(frame: &mut Frame, board: &Board, area: Rect) {
     let title = board.bit().map_or_else(

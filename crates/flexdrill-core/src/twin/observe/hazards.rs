@@ -2,8 +2,8 @@
 
 use super::Observer;
 use crate::model::Model;
-use crate::motion::{Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel};
 use crate::tool::Body;
+use flexdrill_motion::{Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLocation, TransferLevel};
 
 impl Observer {
     /// Every hazard at model time `time` (s), with its worst location.

@@ -11,14 +11,14 @@ use crate::dynamics::state::{State, inner_lateral};
 use crate::dynamics::stepper::Stepper;
 use crate::elements::string::StringLine;
 use crate::model::Model;
-use crate::motion::{
-    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, JointLoadWatch, LoadWatch, Means, RootMeanSquare, ShockWatch,
-    StationSample, StickSlip, StickSlipSettings, TransferWatch, WatchedStation, WhirlAnalysis, WhirlSettings,
-};
 use crate::tool::Body;
 use crate::twin::quality::{ModelQuality, QualityWatch};
 use crate::twin::schedule::EndsInterval;
 use crate::twin::settings::SimulationSettings;
+use flexdrill_motion::{
+    AgeingWatch, ChaoticWhirlWatch, ContactStatistics, JointLoadWatch, LoadWatch, Means, RootMeanSquare, ShockWatch,
+    StationSample, StickSlip, StickSlipSettings, TransferWatch, WatchedStation, WhirlAnalysis, WhirlSettings,
+};
 
 /// Statistics between outputs, and the analysis.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -194,7 +194,7 @@ fn hoist_response(stepper: &Stepper) -> f64 {
 
 /// The settings with a window that holds two periods of the torsional swing of the string above, 4 L / c each: the window of
 /// the configuration does up to 4000 m.
-fn for_string(settings: StickSlipSettings, stepper: &Stepper) -> StickSlipSettings {
+fn for_string(mut settings: StickSlipSettings, stepper: &Stepper) -> StickSlipSettings {
     let delays = |string: &StringLine| {
         string
             .description()
@@ -204,10 +204,8 @@ fn for_string(settings: StickSlipSettings, stepper: &Stepper) -> StickSlipSettin
             .sum::<f64>()
     };
     let period = stepper.string().map_or(0.0, |string| 4.0 * delays(string));
-    StickSlipSettings {
-        window: settings.window.max(2.0 * period),
-        ..settings
-    }
+    settings.window = settings.window.max(2.0 * period);
+    settings
 }
 
 fn watched_station(model: &Model, station: usize, body: Body) -> WatchedStation {

@@ -1,12 +1,13 @@
 //! What is taken from every step: contacts, loads, accelerations, samples of the whirl analysis and of the transfer.
 
 use super::{Observer, gap_lateral};
+use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
 use crate::dynamics::stepper::Stepper;
 use crate::model::Model;
-use crate::motion::{DriveState, StationSample, TransferSample};
 use crate::tool::{Body, Direction};
 use crate::twin::snapshot::Applied;
+use flexdrill_motion::{DriveState, EnergyTerms, StationSample, TransferSample};
 
 impl Observer {
     pub(in crate::twin) fn after_step(
@@ -51,7 +52,8 @@ impl Observer {
 
         let mut sample = transfer_sample(stepper, applied, &rubbing);
         sample.rate_of_penetration = self.hole_deepens(stepper.bit_depth(), applied, dt);
-        self.transfer.push(time, dt, &sample, stepper.audit(), judged);
+        self.transfer
+            .push(time, dt, &sample, &energy_terms(stepper.audit()), judged);
 
         let bottom = stepper.bottom_motion();
         let bit = &stepper.interactions().bit;
@@ -124,6 +126,29 @@ impl Observer {
 struct Rubbing {
     drag: f64,
     power: f64,
+}
+
+/// The audit's terms (J) that transfer averages to powers.
+fn energy_terms(audit: &EnergyAudit) -> EnergyTerms {
+    EnergyTerms {
+        drive: audit.drive,
+        hoist: audit.hoist,
+        weight_on_bit: audit.weight_on_bit,
+        gravity: audit.gravity,
+        loads: audit.loads,
+        feed: audit.feed,
+        pressure: audit.pressure,
+        bit: audit.bit,
+        friction: audit.friction,
+        contact_damping: audit.contact_damping,
+        rayleigh_damping: audit.rayleigh_damping,
+        numerical_damping: audit.numerical_damping,
+        string: audit.string,
+        axial_update: audit.axial_update,
+        stored: audit.stored,
+        error: audit.error,
+        mud: audit.mud,
+    }
 }
 
 /// What the step that was taken last says about transfer.

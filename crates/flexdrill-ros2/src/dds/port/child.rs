@@ -18,7 +18,7 @@ use super::{Shared, TopicCounters};
 use crate::dds::frames::{self, Beat, FromSide, LogLevel, Stall, ToSide};
 use crate::dds::plan::{GuidPrefix, Plan};
 use crate::dds::side::{LAST_REPLIES, SUBCOMMAND};
-use flexdrill_realtime::monotonic;
+use flexdrill_clock::monotonic;
 use flexdrill_text::log_ending;
 
 /// Longest write before the state of the process is checked.

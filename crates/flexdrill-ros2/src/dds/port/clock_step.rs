@@ -2,7 +2,7 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use flexdrill_realtime::monotonic;
+use flexdrill_clock::monotonic;
 
 /// Smallest step that counts (ns). NTP slews a clock by half a millisecond per second at most.
 const SMALLEST_STEP: i128 = 200_000_000;

@@ -1,7 +1,7 @@
 //! The state of DDS, for status, diagnostics and alarms.
 
 use crate::dds::plan::GuidPrefix;
-use flexdrill_realtime::monotonic;
+use flexdrill_clock::monotonic;
 
 /// Time for which a stalled reader and a restart count as recent (ns).
 const RECENT: u64 = 60_000_000_000;

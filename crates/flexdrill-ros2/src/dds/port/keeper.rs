@@ -11,7 +11,7 @@ use super::child::{Child, StartReport};
 use super::clock_step::ClockWatch;
 use super::health::{Health, Restart};
 use crate::dds::plan::Plan;
-use flexdrill_realtime::monotonic;
+use flexdrill_clock::monotonic;
 
 /// Longest silence of a process that is up. It reports its health five times a second. The time for which it waits for a
 /// processor does not count: a restart would make a busy machine busier.

@@ -27,7 +27,7 @@ use self::seen_requests::{Arrival, SeenRequests, Verdict};
 use super::frames::{Peer, Peers};
 use super::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan, service_topics};
 use crate::dds::network::Network;
-use flexdrill_realtime::monotonic;
+use flexdrill_clock::monotonic;
 use flexdrill_text::Throttle;
 
 /// Most samples that wait in an inbox.

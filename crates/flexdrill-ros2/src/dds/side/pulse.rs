@@ -142,7 +142,7 @@ impl Pulse {
 }
 
 fn nonce() -> u64 {
-    flexdrill_realtime::monotonic::now()
+    flexdrill_clock::monotonic::now()
 }
 
 /// Threads of the DDS library in this process: id and processor time so far (ticks).

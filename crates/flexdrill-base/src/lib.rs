@@ -1,0 +1,12 @@
+//! What the mechanics, the analysis of its motion and their users share: unit conversions, the two pipes and locations on
+//! them, and the checks of numbers. The crate depends on no other of the workspace.
+
+mod location;
+pub mod units;
+pub mod validation;
+
+pub use location::{Body, Location};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

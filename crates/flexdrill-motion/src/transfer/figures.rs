@@ -1,0 +1,300 @@
+//! What transfer is made from, and its figures.
+
+use crate::{Hold, Severity};
+
+/// The readings of one step. NaN where the tool has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransferSample {
+    /// Torque at surface, kick-off and bit (N m), positive where it turns what is below it in the sense of a positive
+    /// rotary speed: negative in reverse.
+    pub torque: [f64; 3],
+    /// Weight at surface, kick-off and bit (N), compressing.
+    pub weight: [f64; 3],
+    /// Speed of the tool's top (rad/s).
+    pub speed: f64,
+    /// Power of the advance against the axial friction of the wall on the guide (W): part of what friction takes there.
+    pub feed_power: f64,
+    /// Torque that the friction of the wall takes from the string above (N m), with the sign of the rotation.
+    pub string_torque: f64,
+    /// Axial friction on the pipe by the guide, on the guide by the wall, and on the string above (N), positive where it
+    /// pushes up the hole.
+    pub axial_drag: [f64; 3],
+    /// Load on the hook (N): string and tool less what stands on the bottom and on the wall.
+    pub hook_load: f64,
+    /// Depth of cut (m per turn).
+    pub depth_of_cut: f64,
+    /// Rate at which the hole deepens (m/s, at least 0): 0 off bottom.
+    pub rate_of_penetration: f64,
+    /// Power that friction takes between pipe and guide, between guide and wall, and in the joints (W).
+    pub friction_power: [f64; 3],
+    /// Speed that the drive is asked for (rad/s).
+    pub asked_speed: f64,
+    /// Speed of the bit (rad/s).
+    pub bit_speed: f64,
+    /// 1 while the torque of the top drive is at its limit, 0 while it is below.
+    pub drive_at_limit: f64,
+    /// Weight that the hoist is asked for (N).
+    pub asked_weight: f64,
+    /// Share of a weight at the kick-off that sliding friction of a clean hole lets arrive at the bit, 0 to 1.
+    pub arrives: f64,
+}
+
+pub(super) const VALUES: usize = 23;
+
+impl TransferSample {
+    pub(super) fn values(&self) -> [f64; VALUES] {
+        let [a, b, c] = self.torque;
+        let [d, e, f] = self.weight;
+        let (g, h, i) = (self.speed, self.feed_power, self.string_torque);
+        let [k, l, m] = self.axial_drag;
+        let [n, o, p] = self.friction_power;
+        let (hook, cut, rate) = (self.hook_load, self.depth_of_cut, self.rate_of_penetration);
+        let (asked, turns, limit) = (self.asked_speed, self.bit_speed, self.drive_at_limit);
+        let (weight, arrives) = (self.asked_weight, self.arrives);
+        [
+            a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate, asked, turns, limit, weight, arrives,
+        ]
+    }
+
+    pub(super) fn of(
+        [
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            h,
+            i,
+            k,
+            l,
+            m,
+            n,
+            o,
+            p,
+            hook,
+            cut,
+            rate,
+            asked,
+            turns,
+            limit,
+            weight,
+            arrives,
+        ]: [f64; VALUES],
+    ) -> Self {
+        Self {
+            torque: [a, b, c],
+            weight: [d, e, f],
+            speed: g,
+            feed_power: h,
+            string_torque: i,
+            axial_drag: [k, l, m],
+            hook_load: hook,
+            depth_of_cut: cut,
+            rate_of_penetration: rate,
+            friction_power: [n, o, p],
+            asked_speed: asked,
+            bit_speed: turns,
+            drive_at_limit: limit,
+            asked_weight: weight,
+            arrives,
+        }
+    }
+}
+
+impl Default for TransferSample {
+    /// Nothing is known.
+    fn default() -> Self {
+        Self::of([f64::NAN; VALUES])
+    }
+}
+
+/// Mean and root mean square over the window at surface, kick-off and bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// Means.
+    pub mean: [f64; 3],
+    /// Root mean squares: their squares less those of the means are the squares of the fluctuations.
+    pub rms: [f64; 3],
+}
+
+impl Default for Along {
+    fn default() -> Self {
+        Self {
+            mean: [f64::NAN; 3],
+            rms: [f64::NAN; 3],
+        }
+    }
+}
+
+/// The terms of an energy audit: energies since the start (J) or mean powers over the window (W). `drive`, `hoist`,
+/// `weight_on_bit`, `gravity`, `loads`, `feed` and `pressure` are put into the tool and the string above it; `bit`,
+/// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping`, `string` and `mud` are taken from them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyTerms {
+    /// Of the top drive.
+    pub drive: f64,
+    /// Of the hoist.
+    pub hoist: f64,
+    /// Of the weight on bit where it is given.
+    pub weight_on_bit: f64,
+    /// Of gravity.
+    pub gravity: f64,
+    /// Of the point loads.
+    pub loads: f64,
+    /// Of the advance against the friction of the wall.
+    pub feed: f64,
+    /// Of the pressure.
+    pub pressure: f64,
+    /// Taken by the rock.
+    pub bit: f64,
+    /// Taken by friction in both layers and in the joints.
+    pub friction: f64,
+    /// Taken by the damping of contacts, stops and play.
+    pub contact_damping: f64,
+    /// Taken by Rayleigh damping.
+    pub rayleigh_damping: f64,
+    /// Taken by the time integration.
+    pub numerical_damping: f64,
+    /// Taken by the string above.
+    pub string: f64,
+    /// Of updating the axial force in the geometric stiffness.
+    pub axial_update: f64,
+    /// Stored.
+    pub stored: f64,
+    /// Error of the audit.
+    pub error: f64,
+    /// Taken by the mud that moves with pipe and guide.
+    pub mud: f64,
+}
+
+pub(super) const TERMS: usize = 17;
+
+impl EnergyTerms {
+    pub(super) fn of(
+        [
+            drive,
+            hoist,
+            weight_on_bit,
+            gravity,
+            loads,
+            feed,
+            pressure,
+            bit,
+            friction,
+            contact_damping,
+            rayleigh_damping,
+            numerical_damping,
+            string,
+            axial_update,
+            stored,
+            error,
+            mud,
+        ]: [f64; TERMS],
+    ) -> Self {
+        Self {
+            drive,
+            hoist,
+            weight_on_bit,
+            gravity,
+            loads,
+            feed,
+            pressure,
+            bit,
+            friction,
+            contact_damping,
+            rayleigh_damping,
+            numerical_damping,
+            string,
+            axial_update,
+            stored,
+            error,
+            mud,
+        }
+    }
+
+    /// In the order of [`EnergyTerms::of`].
+    pub(super) fn values(&self) -> [f64; TERMS] {
+        [
+            self.drive,
+            self.hoist,
+            self.weight_on_bit,
+            self.gravity,
+            self.loads,
+            self.feed,
+            self.pressure,
+            self.bit,
+            self.friction,
+            self.contact_damping,
+            self.rayleigh_damping,
+            self.numerical_damping,
+            self.string,
+            self.axial_update,
+            self.stored,
+            self.error,
+            self.mud,
+        ]
+    }
+}
+
+impl Default for EnergyTerms {
+    /// Nothing is known.
+    fn default() -> Self {
+        Self::of([f64::NAN; TERMS])
+    }
+}
+
+/// Transfer over the window. NaN where the tool has no such figure, and before the first tenth of a second.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Transfer {
+    /// Time that the window holds (s): up to the window of the settings.
+    pub duration: f64,
+    /// Torque (N m), negative in reverse, as in [`TransferSample::torque`].
+    pub torque: Along,
+    /// Weight (N), compressing.
+    pub weight: Along,
+    /// Means of all readings.
+    pub mean: TransferSample,
+    /// Torque of the rotation (N m) that friction takes between pipe and guide, between guide and wall, in the joints and
+    /// along the string above. A loss opposes the rotation: it is positive while the tool turns forward and negative in
+    /// reverse, so that surface torque less losses is the bit's in both senses. For the tool the mean power over the mean
+    /// speed of the tool's top, which counts the whole motion of a whirling pipe. NaN while the tool does not turn: a
+    /// power over a speed near zero says nothing of a torque.
+    pub friction_torque: [f64; 4],
+    /// Mean torque at the bit over that at the surface, without a string over that at the kick-off; NaN where that is
+    /// near zero, and while the tool does not turn: a bit that holds a wound string takes more than the drive gives.
+    pub torque_efficiency: f64,
+    /// Mean powers by the terms of the audit (W).
+    pub power: EnergyTerms,
+}
+
+/// State of a condition on transfer.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct TransferLevel {
+    /// Level.
+    pub severity: Severity,
+    /// Lost share (0 to 1) or time of the stall (s): the largest since the level was reached, the newest while the level
+    /// is OK.
+    pub value: f64,
+    /// Threshold of the level, of WATCH while the level is OK, in the same unit.
+    pub threshold: f64,
+    /// Model time of it (s).
+    pub seen: f64,
+    /// Model time at which the level was reached (s).
+    pub since: f64,
+    /// Whether the condition of the level is met.
+    pub hold: Hold,
+}
+
+impl Transfer {
+    /// Before anything is known.
+    pub(super) fn unknown() -> Self {
+        Self {
+            torque_efficiency: f64::NAN,
+            friction_torque: [f64::NAN; 4],
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! The messages of the outputs: how snapshots fill them, and the signs of their figures in each state of a rig.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+mod fill;
+mod states;
