@@ -541,7 +541,7 @@ def instant_balances(tool, sampled, moving, out):
     limit = LEFT_IN_MOTION * math.sqrt(nodes) if moving else LEFT_AT_REST * nodes
     reason = f"Newton's residual of {nodes} nodes, worst of {len(sampled)} samples"
     if tool.hoist:
-        # The acceleration of the tool's frame is left out: below a thousandth of gravity (docs/rig_tool.md).
+        # The acceleration of the tool's frame is left out: below a thousandth of gravity (docs/effects/string.md).
         limit += 1e-3 * float(np.linalg.norm(array(sampled.reactions[0].weight)))
         reason += ", 0.001 g"
     worst = float(np.linalg.norm(sampled.left, axis=1).max())

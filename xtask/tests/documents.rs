@@ -580,16 +580,6 @@ fn every_crate_has_a_row_in_the_architecture() {
     assert!(missing.is_empty(), "no row in docs/architecture.md: {missing:?}");
 }
 
-/// The crates of the workspace that a manifest lists under its `[dependencies]`, without their common beginning.
-fn own_dependencies(manifest: &str) -> BTreeSet<String> {
-    let section = manifest.split("\n[dependencies]\n").nth(1).unwrap_or_default();
-    let lines = section.lines().take_while(|line| !line.starts_with('['));
-    lines
-        .filter_map(|line| line.strip_prefix("flexdrill-")?.split([' ', '.', '=']).next())
-        .map(str::to_owned)
-        .collect()
-}
-
 /// The string literals of a source of Rust or TypeScript, without what is filled in between braces.
 fn literals(source: &str) -> String {
     let source = source.replace("'\"'", "").replace("'`'", "");

@@ -79,7 +79,7 @@ impl Scheme {
     /// Between contacts the pipe answers a lateral force by inertia, and the part would be that of
     /// [`Scheme::inertia_foresees`]; held in a contact it answers by stiffness, to the force at the end of the step, and
     /// the part would be 0. Two thirds of the former, by the ripple of a compressed pipe that beats in its guide: less
-    /// is too calm in steps of 0.5 ms, more too lively in steps of 0.25 ms (`docs/measurements.md`).
+    /// is too calm in steps of 0.5 ms, more too lively in steps of 0.25 ms (`docs/history/tried.md`).
     pub(crate) fn foreseen_part(&self) -> f64 {
         self.inertia_foresees() * 2.0 / 3.0
     }

@@ -281,7 +281,7 @@ mod tests {
                 "{pipe}, {guide}: {got} {expected}"
             );
         }
-        // The numbers of docs/model_limits.md, printed to a hundredth.
+        // The numbers of docs/effects/mud.md, printed to a hundredth.
         for (of, got, printed) in [
             ("pipe", at.pipe, 33.67 - 18.16),
             ("pipe with guide", at.coupling, -18.06),

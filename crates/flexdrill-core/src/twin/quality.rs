@@ -3,7 +3,7 @@
 //! The error of a step in a collision, or where axial forces change within it, appears as work that no law accounts
 //! for. This work is compared with the energy that contacts, Rayleigh and numerical damping dissipate in the same time.
 //! The drive's work is no measure: most of it goes into the rock, whereas errors feed vibration and damping removes it.
-//! The bounds come from comparisons with an eighth of the step (`docs/measurements.md`).
+//! The bounds come from comparisons with an eighth of the step (`docs/history/tried.md`).
 
 use std::fmt;
 
