@@ -16,7 +16,7 @@ impl Fed {
     fn new() -> Self {
         Self {
             watch: TransferWatch::new(&TransferSettings::default(), 2.0),
-            energies: EnergyTerms::default(),
+            energies: EnergyTerms::of([0.0; TERMS]),
             time: 0.0,
         }
     }
