@@ -108,7 +108,7 @@ impl ChainEquations<'_> {
         }
         let stiffness = at.factors.stiffness;
         add_slots(&mut chain.additions, &chain.active, &chain.closed_slots, stiffness);
-        if chain.single_corrections == 0 {
+        if chain.has_geometric_stiffness() {
             let of_pipe = if chain.stretches.is_empty() { 1.0 } else { 0.0 };
             let (to, active) = (&mut chain.additions, &chain.active);
             add_geometric(to, &chain.model, active, state, [stiffness, of_pipe]);

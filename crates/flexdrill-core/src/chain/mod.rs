@@ -349,6 +349,11 @@ impl Chain {
         self.model.links.len()
     }
 
+    /// Whether the tangent has the geometric stiffness.
+    fn has_geometric_stiffness(&self) -> bool {
+        self.single_corrections == 0
+    }
+
     /// Makes what steps with these factors need, and forgets what others did.
     pub(crate) fn prepare_only(&mut self, model: &Model, conditions: &Conditions, factors: TangentFactors) {
         self.operators.clear();

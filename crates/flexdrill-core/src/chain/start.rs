@@ -13,21 +13,25 @@ use crate::dynamics::tolerances::Accuracy;
 const MOST_STATIC_CORRECTIONS: u32 = 20;
 /// Part of the limits at rest at which they end.
 const SETTLED: f64 = 0.1;
-/// Mass in the static tangent (1/s2): one over the square of 5 ms. The tangent has no geometric stiffness, and without it
+/// Mass in a static tangent without geometric stiffness (1/s2): one over the square of 5 ms. Without that stiffness
 /// neither a joint that touches nothing nor the guide's turn about its own axis has any stiffness: they move by no more
 /// than their inertia lets them in this time. Motions between two contacts are slower, so that the corrections converge.
 const STATIC_MASS: f64 = 4e4;
 
 impl ChainEquations<'_> {
-    /// Static corrections of a state at rest, as long as they bring the residual down; `scratch` is overwritten.
+    /// Static corrections of a state at rest, as long as they bring the residual down, or until a part of the limits is left
+    /// where the tangent has no geometric stiffness; `scratch` is overwritten. Where the static tangent has no inverse (a body
+    /// that could float), the state is not changed.
     pub(crate) fn polish_rest(&mut self, state: &mut State, scratch: &mut State, conditions: &Conditions) {
         let still = TangentFactors {
             stiffness: 1.0,
             damping: 0.0,
             mass: 0.0,
         };
+        // With the geometric stiffness these are Newton's corrections, and end at rounding.
+        let is_exact = self.chain.has_geometric_stiffness();
         let factors = TangentFactors {
-            mass: STATIC_MASS,
+            mass: if is_exact { 0.0 } else { STATIC_MASS },
             ..still
         };
         self.chain.prepare(self.model, conditions, factors);
@@ -36,7 +40,7 @@ impl ChainEquations<'_> {
         self.evaluate(state, conditions, false);
         let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
         for _ in 0..MOST_STATIC_CORRECTIONS {
-            if best <= SETTLED {
+            if best <= SETTLED && !is_exact {
                 return;
             }
             scratch.copy_from(state);
