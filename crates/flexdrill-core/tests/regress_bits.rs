@@ -44,13 +44,13 @@ fn motion(tool: &ToolDescription, steps: u64) -> u64 {
 fn regress_the_papers_tool_keeps_its_bits() {
     assert_eq!(
         format!("{:016x}", motion(&ToolDescription::paper(), 1000)),
-        "0d8e5ce73f747f18"
+        "9fa60e1e1c1555f3"
     );
 }
 
 #[test]
 fn regress_a_hinged_tool_keeps_its_bits() {
-    assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "7b9fd37bd8f493eb");
+    assert_eq!(format!("{:016x}", motion(&support::hinged(), 500)), "7908a07c7e5bfe9b");
 }
 
 #[test]
@@ -58,5 +58,5 @@ fn regress_a_tied_tool_keeps_its_bits() {
     let tied = ToolDescription::paper().with_mesh(33, 2).with(|tool| {
         tool.wob_path = WobPath::Shared;
     });
-    assert_eq!(format!("{:016x}", motion(&tied, 500)), "b1a910522e88ab96");
+    assert_eq!(format!("{:016x}", motion(&tied, 500)), "ed94249a3801e536");
 }
