@@ -247,7 +247,8 @@ fn a_tool_that_is_turned_back_raises_nothing_but_its_swing() {
             steady: STEADY,
         });
         let bit = &rig.snapshot.bit;
-        assert!(bit.rotary_speed < -2.0, "{bit:?}");
+        // The mean: a bit that swings may almost stand at one instant.
+        assert!(bit.mean_rotary_speed < -2.0, "{bit:?}");
         assert!((bit.weight_on_bit > 1e3) == (kn > 0.0), "{bit:?}");
     }
 }

@@ -798,6 +798,12 @@ def weights(tool, transfer, sampled, out):
     out.append(Balance("weight along the string", why=why))
 
 
+def nearby_change(values):
+    """Largest change from one value to the next, of the three before and after each."""
+    steps = np.abs(np.diff(values))
+    return np.array([steps[max(i - 3, 0) : i + 3].max(initial=0.0) for i in range(len(values))])
+
+
 def rock(tool, transfer, samples, found_factor, out):
     """Torque by weight, rock removed by advance, and the work it took."""
     t, law, radius = transfer, tool.keys("rock.law", "paper"), tool.bit_radius
@@ -820,16 +826,20 @@ def rock(tool, transfer, samples, found_factor, out):
             most = found_factor * 2 * radius * weight / 3 * ratio
             own = np.where(holds, np.clip(torque, -most, most), own)
             scale = max(scale, np.abs(most).max())
-        worst = float(np.abs(torque - own).max())
-        limit = 1e-3 * scale + 1e-6
+        off = np.abs(torque - own)
+        limits = np.full(len(samples), 1e-3 * scale + 1e-6)
         reason = "Eq. 1 at each sample; 0.1 % for a weight that its limit still changes within a step"
         if law == "weakening":
-            # Samples are means: the law bends over the speeds in one, and its factors swing together, within a sample up
-            # to twice as far as from one to the next.
+            # Samples are means: the law bends over the speeds in one, and its factors swing together. Within a sample
+            # both reach up to twice as far as from one to the next near it, so that their standard deviations there are at
+            # most what they change by from one to the next (Popoviciu).
             per_newton = found_factor * 2 * radius / 3
-            bends = 0.5 * abs(ratio - 1.0) / rate**2 * float(np.var(speed))
-            limit += 4 * per_newton * (float(weight.mean()) * bends + float(np.std(weight) * np.std(weakening)))
+            bends = 0.5 * abs(ratio - 1.0) / rate**2 * nearby_change(speed) ** 2
+            together = nearby_change(weight) * nearby_change(weakening)
+            limits += per_newton * (np.abs(weight) * bends + together)
             reason += ", and the law's bend over the speeds of a sample"
+        at = int(np.argmax(off / limits))
+        worst, limit = float(off[at]), float(limits[at])
         out.append(Balance("torque of the rock by its weight", "N m", worst, scale, limit, reason))
         out.append(Balance("rock removed by advance", why="the law has no depth of cut"))
         return

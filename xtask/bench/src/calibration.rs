@@ -481,8 +481,9 @@ mod tests {
         for (name, count) in names.iter().zip(&counts) {
             // Of eight independent bands that hold nine of ten truths, fewer than six do once in 26 times (binomial). The logs
             // share one surrogate. Of an unknown that they bound and do not identify, its error is a large part of the band and
-            // the same in all logs: half must hold.
-            let least = if count.identified == LOGS { 6 } else { LOGS / 2 };
+            // the same in all logs. A hundred logs held such an unknown in 69 (docs/measurements.md, calibration against full
+            // runs): of eight, fewer than three do once in 75 times.
+            let least = if count.identified == LOGS { 6 } else { 3 };
             assert!(count.holds >= least, "{name}: {count:?}");
         }
         let holds: usize = counts.iter().map(|count| count.holds).sum();
