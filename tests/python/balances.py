@@ -830,14 +830,11 @@ def rock(tool, transfer, samples, found_factor, out):
         limits = np.full(len(samples), 1e-3 * scale + 1e-6)
         reason = "Eq. 1 at each sample; 0.1 % for a weight that its limit still changes within a step"
         if law == "weakening":
-            # Samples are means: the law bends over the speeds in one, and its factors swing together. Within a sample
-            # both reach up to twice as far as from one to the next near it, so that their standard deviations there are at
-            # most what they change by from one to the next (Popoviciu).
-            per_newton = found_factor * 2 * radius / 3
-            bends = 0.5 * abs(ratio - 1.0) / rate**2 * nearby_change(speed) ** 2
-            together = nearby_change(weight) * nearby_change(weakening)
-            limits += per_newton * (np.abs(weight) * bends + together)
-            reason += ", and the law's bend over the speeds of a sample"
+            # Samples are means. The mean torque is that of the mean weight by a mean of the weakening, weighted by the
+            # weight, which swings with it: it lies between the least and the most weakening in the sample. A sample
+            # reaches up to twice as far as from one to the next near it.
+            limits += found_factor * 2 * radius / 3 * np.abs(weight) * 2 * nearby_change(weakening)
+            reason += ", and twice what the weakening changes by from sample to sample"
         at = int(np.argmax(off / limits))
         worst, limit = float(off[at]), float(limits[at])
         out.append(Balance("torque of the rock by its weight", "N m", worst, scale, limit, reason))
