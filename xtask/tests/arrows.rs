@@ -117,7 +117,7 @@ fn table(page: &str) -> Vec<(&str, Vec<&str>)> {
 fn crates_use_each_other_as_the_architecture_says() {
     let page = std::fs::read_to_string(root().join("docs/architecture.md")).unwrap();
     let table = table(&page);
-    // RustDDS is a fork with a page of its own.
+    // docs/upstream/rustdds.md describes the changed RustDDS.
     let manifests: Vec<(String, String)> = manifests().into_iter().filter(|(name, _)| name != "rustdds").collect();
     let names: BTreeSet<&str> = manifests.iter().map(|(name, _)| name.as_str()).collect();
     let rows: BTreeSet<&str> = table.iter().map(|(name, _)| *name).collect();

@@ -1,4 +1,4 @@
-//! What the assembly over all stations reads beside the model: its elements one by one, and constant forces.
+//! What the assembly over all stations reads in addition to the model: its elements one by one, and constant forces.
 
 use nalgebra::Vector3;
 

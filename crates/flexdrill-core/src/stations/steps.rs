@@ -51,7 +51,7 @@ fn over_stations(tool: &ToolDescription) -> Stepper {
     Stepper::new(tool, &settings).unwrap()
 }
 
-/// The step from `from` by the witness with a solver of its own.
+/// The step from `from` by the witness with this `solver`.
 fn witnessed(
     model: &Model,
     solver: Box<dyn LinearSolver>,
