@@ -159,8 +159,8 @@ def test_what_is_not_known_is_a_class_of_its_own(mapped: Path, tmp_path: Path) -
     cell = content["cells"][0]
     start = cell["starts"][0]
     content["runs"] -= start["state"] in ("known", "unknown")
-    nothing = {"alarms": [], "figures": [], "members": 0, "failed": 0, "chance": None, "alarm": "", "failure": ""}
-    start.update(nothing, state="not_known", expected=False, confidence=0.4, interval=[0.0, 1.0])
+    nothing: dict[str, object] = {"alarms": [], "figures": [], "members": 0, "failed": 0, "chance": None}
+    start.update(nothing, alarm="", failure="", state="not_known", expected=False, confidence=0.4, interval=[0.0, 1.0])
     cell["verdict"] = "not_known"
     (tmp_path / "map.json").write_text(json.dumps(content))
     read = flexdrill.read_map(tmp_path)
