@@ -208,6 +208,8 @@ impl SafeWindow {
             weight_on_bit_kn: self.weights().values.clone(),
             ..Message::default()
         };
+        // The order is that of `flexdrill_msgs/SafeWindow`: weights outside, speeds inside, whichever axis of the map
+        // is which. A viewer takes the arrays without the map's file.
         for weight in 0..message.weight_on_bit_kn.len() {
             for speed in 0..message.rotary_speed_rpm.len() {
                 let Some(cell) = self.cell(speed, weight) else { continue };
@@ -219,6 +221,7 @@ impl SafeWindow {
                     Verdict::Unknown => Message::UNKNOWN,
                     Verdict::NotKnown => Message::NOT_KNOWN,
                 });
+                // NaN stands for a share that no run gives: 0 would be read as "free of alarms".
                 message.chance.push(chance.unwrap_or(f64::NAN));
                 message.alarm.push(alarm.to_owned());
                 let was_run = cell.starts.iter().any(|start| start.state.was_run());

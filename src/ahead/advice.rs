@@ -55,6 +55,7 @@ struct Trial {
 fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
     let inputs = &config.inputs;
     let mut found = Vec::new();
+    // Lowering first, so that among equal ranks the stable sort below keeps less before more.
     let parts = LOWER
         .map(|part| (part, -part))
         .into_iter()
@@ -79,6 +80,9 @@ fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
             let known = found
                 .iter()
                 .any(|trial: &Trial| trial.change == Change { quantity, to });
+            // Rounding can give the present value or a change that is already in the list; a second run of either would
+            // cost a look-ahead and decide nothing. The bounds are those of the inputs: the node would refuse a value
+            // beyond.
             if to > 0.0 && to != value && (least..=most).contains(&to) && !known {
                 found.push(Trial {
                     change: Change { quantity, to },
@@ -88,6 +92,8 @@ fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
             }
         }
     }
+    // The rule names directions from the mechanics of the alarm. They
+    // order the trials only, because the look-ahead decides.
     let named = |quantity, raises| match (quantity, raises) {
         (Quantity::Speed, false) => rule.lower_rotary_speed_rpm.is_some(),
         (Quantity::Speed, true) => rule.raise_rotary_speed_rpm.is_some(),
@@ -97,6 +103,7 @@ fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
     let rank = |trial: &Trial| {
         let quantity = trial.change.quantity;
         let (own, opposite) = (named(quantity, trial.raises), named(quantity, !trial.raises));
+        // `false` sorts before `true`: against the rule last, then the size, then the rule's own direction first.
         (opposite && !own, trial.size, !own)
     };
     found.sort_by(|a, b| {

@@ -183,19 +183,25 @@ pub fn look_ahead(
     let tasks: Vec<(usize, u32)> = (0..goal.members)
         .flat_map(|member| (0..candidates).map(move |candidate| (candidate, member)))
         .collect();
+    // Whether a candidate can be reached is found once, before its members:
+    // without an end of the run-up there is nothing to disturb.
     let run_ups = run_ups(start, goal, threads, stop);
     let mut gathered: Vec<Gathered> = run_ups
         .iter()
         .map(|run_up| Gathered {
+            // A candidate whose run-up failed has no members to wait for.
             run_up: run_up.as_ref().map(|(_, time)| *time).map_err(Clone::clone),
             members: BTreeMap::new(),
             enough: run_up.is_err().then_some(0),
         })
         .collect();
+    // Workers read these flags without a lock. A late look costs a member too many, never the answer: `answer` counts
+    // only the first `enough` members.
     let decided: Vec<AtomicBool> = gathered
         .iter()
         .map(|candidate| AtomicBool::new(candidate.enough.is_some()))
         .collect();
+    // One counter hands out the tasks, so that a thread with quick members takes more of them.
     let next = AtomicUsize::new(0);
     std::thread::scope(|scope| {
         let (sender, reports) = channel();
@@ -203,9 +209,11 @@ pub fn look_ahead(
             let sender = sender.clone();
             scope.spawn(|| work(start, goal, &run_ups, &tasks, &next, &decided, stop, sender));
         }
+        // The loop below ends when the last sender is dropped; this one would keep it open for ever.
         drop(sender);
         for report in reports {
             if stop.load(Ordering::Relaxed) {
+                // What ends after the stop was cut short, and says nothing of its member.
                 continue;
             }
             let of = &mut gathered[report.candidate];
@@ -214,6 +222,8 @@ pub fn look_ahead(
                 of.enough = enough(&of.members, goal);
                 decided[report.candidate].store(of.enough.is_some(), Ordering::Relaxed);
             }
+            // Reports come in the order of the threads. `enough` counts in the order
+            // of the numbers, so the threads do not change the answer.
             progress(told(goal, &gathered));
         }
     });

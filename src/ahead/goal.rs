@@ -103,6 +103,8 @@ impl Goal {
     /// # Errors
     /// With the first value that is out of its bounds.
     pub fn check(&self, config: &Config) -> Result<(), GoalError> {
+        // Counts first: the sums below are meaningful only within them, and
+        // a client that sends 10^9 members must cost nothing.
         if !(1..=MOST_CANDIDATES).contains(&self.candidates.len()) {
             return Err(GoalError::Candidates(self.candidates.len()));
         }
@@ -112,11 +114,14 @@ impl Goal {
         if !(LEAST_HORIZON..=MOST_HORIZON).contains(&self.horizon) {
             return Err(GoalError::Horizon(self.horizon));
         }
+        // The bound on the product protects the machine: each factor
+        // within its own bound would allow days of computing.
         let all = self.horizon * f64::from(self.members) * self.candidates.len() as f64;
         if all > MOST_MODEL_TIME {
             return Err(GoalError::ModelTime(all));
         }
         let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+        // Candidates are counted from 1 in the error, as the client's form numbers them.
         for (candidate, asked) in (1..).zip(&self.candidates) {
             let inputs = [
                 (
@@ -133,6 +138,7 @@ impl Goal {
                 ),
             ];
             for (value, [least, most], unit, key) in inputs {
+                // `contains` is false for NaN, so that NaN is refused too.
                 if !(least..=most).contains(&value) {
                     return Err(GoalError::Input {
                         candidate,
@@ -145,6 +151,7 @@ impl Goal {
                 }
             }
             for (value, unit) in [(asked.speed_ramp, "r/min per s"), (asked.weight_ramp, "kN/s")] {
+                // A ramp of 0 means the configured slew limit.
                 if !(value >= 0.0 && value.is_finite()) {
                     return Err(GoalError::Ramp { candidate, value, unit });
                 }

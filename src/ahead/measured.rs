@@ -160,7 +160,11 @@ impl Measured {
 
     /// Looks at the motion after the steps since the last look.
     pub(super) fn look(&mut self, snapshot: &Snapshot) {
+        // One look at standstill makes the silence of the alarms
+        // meaningless: `is_judged` needs a drive that always turned.
         self.turns &= snapshot.hazards.drive == DriveState::Turning;
+        // The kinds with gates in the analysis are formed here from the motion itself; the hazards of the snapshot
+        // would be silent below the gate.
         let swing = self.swing(snapshot);
         self.reach(
             HazardKind::StickSlip,
@@ -176,6 +180,7 @@ impl Measured {
             HazardKind::ChaoticWhirl,
             of_thresholds(&self.settings.chaotic_whirl.thresholds, power),
         );
+        // The snapshot has the figures of these kinds also while they are not judged.
         let load = |settings: Option<&AlarmThresholds>, kind: HazardKind| {
             let hazard = snapshot.hazards.of(kind);
             // At a level the figure is that of its worst moment; before one it is that of now, judged or not.
@@ -184,6 +189,8 @@ impl Measured {
                 (severity, _) => severity,
             }
         };
+        // A load that the configuration does not rate has no thresholds
+        // and keeps the level of the snapshot, which is Ok.
         let SimulationSettings {
             joint_load,
             guide_preload,
@@ -206,6 +213,8 @@ impl Measured {
         for (kind, severity) in loads {
             self.reach(kind, severity);
         }
+        // Means over the half, because weight and torque at the bit swing with
+        // each turn; whether transfer is judged depends on them.
         let transfer = &snapshot.transfer;
         for (means, along) in [
             (&mut self.weight, &transfer.weight),

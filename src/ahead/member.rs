@@ -202,6 +202,7 @@ impl<'a> Watched<'a> {
         let begun = self.snapshot.time;
         let stamp = |snapshot: &Snapshot| span(snapshot.time);
         let mut book = AlarmBook::prompt(Arc::clone(self.config), stamp(&self.snapshot));
+        // Damage accumulates over the life of the tool, so only the difference belongs to this member.
         let damage_before = damage(&self.snapshot);
         let mut alarms = vec![Called::default(); AlarmId::ALL.len()];
         let mut stood = vec![true; AlarmId::ALL.len()];
@@ -212,7 +213,9 @@ impl<'a> Watched<'a> {
             self.advance()?;
             let snapshot = &self.snapshot;
             book.observe_tool(snapshot, stamp(snapshot));
+            // The journal of a fork has no reader, and would grow with the horizon.
             book.forget_events();
+            // Only the second half decides on what lasts: the first half belongs to the transition.
             let lasts = 2 * (look + 1) >= looks;
             for ((id, called), stood) in AlarmId::ALL.into_iter().zip(&mut alarms).zip(&mut stood) {
                 let active = book.active(id);
@@ -230,6 +233,8 @@ impl<'a> Watched<'a> {
                     *stood = false;
                 }
             }
+            // Only the half in which every alarm must have ended is measured: a
+            // motion of the transition would count as one that lasts.
             match &mut self.measured {
                 Some(measured) if lasts => measured.look(snapshot),
                 Some(measured) => measured.skip(),
@@ -237,6 +242,8 @@ impl<'a> Watched<'a> {
             }
             tally.add(snapshot);
             if let Some(trace) = &mut self.trace {
+                // The run counts its steps from its start, not from the fork, so
+                // that the trace continues that of the live run.
                 let time = self.run.ticks() as f64 * self.config.solver.time_step;
                 trace.look(time, snapshot);
                 trace.peaks(time, snapshot);
@@ -246,6 +253,8 @@ impl<'a> Watched<'a> {
                 break;
             }
         }
+        // The time that was run, not the horizon: a member that ended early
+        // would otherwise show too little damage per hour.
         let hours = (self.snapshot.time - begun) / 3600.0;
         let figures = tally.figures((damage(&self.snapshot) - damage_before) / hours);
         Ok(Member {

@@ -485,14 +485,18 @@ fn sentence(
     inputs: &InputsConfig,
     note: &str,
 ) -> String {
+    // The unknowns come first in a sentence that asks for an action: the driller must know them before acting on it.
     let unknown = now.unknown.words();
     let Some(priority) = demand.priority else {
         return "No further action: the alarm clears by itself unless the motion returns.".to_owned();
     };
+    // The leading alarm carries the action. All others refer to it, so that two rows never ask for two changes at once.
     match lead {
         Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
             (Lead::Stop, _) => format!("{unknown}{}.", capitalized(STOP)),
             (Lead::Own(action), _) => format!("{unknown}{action}"),
+            // A tested change was run ahead by the twin; its text holds the
+            // evidence, and the remark on rules would be wrong for it.
             (Lead::Tested(tested), Priority::High) => {
                 let what = if tested.stays.is_empty() {
                     "it"
@@ -502,11 +506,14 @@ fn sentence(
                 format!("{tested} If {what} persists, {STOP}.")
             }
             (Lead::Tested(tested), _) => tested.to_string(),
+            // High priority gets a second action, because a rule's step has not been run and may fail.
             (Lead::Step(step), Priority::High) => {
                 format!("{unknown}{} If it persists, {STOP}.{note}", step.sentence(now))
             }
             (Lead::Step(step), _) => format!("{unknown}{}{note}", step.sentence(now)),
         },
+        // Evidence before rules: where look-aheads say that the change ends
+        // this alarm or leaves it, the rule is not consulted.
         Some((leading, Lead::Tested(tested))) if tested.ends.contains(demand.id) => {
             format!("The change advised for {} covers this alarm too.", leading.id.name())
         }
@@ -515,6 +522,8 @@ fn sentence(
             leading.id.name()
         ),
         Some((leading, Lead::Step(step)))
+            // Two rules with the same direction need one change. A step that
+            // the inputs' bounds do not allow does not count.
             if Step::of(&demand.rule).any(|own| own.applies(now, inputs, true) && step.serves(&own)) =>
         {
             format!("The change advised for {} covers this alarm too.", leading.id.name())

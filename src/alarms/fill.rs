@@ -98,13 +98,17 @@ fn alarm(system: &AlarmSystem, id: AlarmId, moment: &WorstMoment) -> Alarm {
 /// One event at its stamp (ns since 1970), with the worst moment of its alarm.
 pub(super) fn event(event: &Event, stamp: i64, moment: &WorstMoment, frame_id: &str) -> AlarmEvent {
     let finding = &moment.finding;
+    // The place is that of the worst moment: the place of the instant moves along the tool while the alarm stands.
     let (body, measured_depth, inclination) = place(finding);
     let alarm = AlarmId::ALL.get(event.alarm);
     let (id, name) = alarm.map_or(("", ""), |alarm| (alarm.id(), alarm.name()));
+    // An end of shelving without an operator is the program's own, and its
+    // reason is a fixed text; an operator's reason is quoted.
     let reason = match event.change {
         Change::Unshelved(why) if event.operator.is_empty() => unshelved(why),
         _ => &event.reason,
     };
+    // Zero is the message's "not shelved"; a time that has passed would be read as one that is to come.
     let shelved_until = match event.change {
         Change::Shelved(shelf) => shelf.until,
         _ => 0,
@@ -126,6 +130,7 @@ pub(super) fn event(event: &Event, stamp: i64, moment: &WorstMoment, frame_id: &
         reason: reason.to_owned(),
         shelved_until: Time::from_nanoseconds(shelved_until),
         evidence: event.evidence.clone(),
+        // A returned alarm asks for nothing. Its old advice in the journal could be followed by mistake.
         what_to_do: match event.change {
             Change::Returned => String::new(),
             _ => finding.what_to_do.clone(),
@@ -137,6 +142,7 @@ pub(super) fn event(event: &Event, stamp: i64, moment: &WorstMoment, frame_id: &
         category: alarm.map_or(Alarm::DRILLING, |alarm| alarm.category()),
         what_the_engineer_can_do: finding.what_the_engineer_can_do.clone(),
         worst_at: Time::from_nanoseconds(moment.at),
+        // Zero is "not ended": the moment lasts.
         ended_at: Time::from_nanoseconds(moment.ended().unwrap_or_default()),
         less_severe_since: Time::from_nanoseconds(moment.less_severe().unwrap_or_default()),
         episodes: moment.episodes,

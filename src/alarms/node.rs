@@ -109,6 +109,8 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
     );
     let (priority, evidence, cause) = match conditioner.state(kind, state.now) {
         InputState::Ok | InputState::Slow | InputState::Assumed => return Finding::default(),
+        // During the start an absent input is normal. `suppressed` keeps the
+        // alarm out of the journal without saying that all is well.
         InputState::NotReceived if state.now - began < first_sample_within => {
             return Finding {
                 suppressed: true,
@@ -133,6 +135,7 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
             // On safe values the model no longer represents the tool, which is worse than a value that is held.
             let safe = conditioner.is_brought_to_safe(kind, state.now);
             let refused = conditioner.last_rejection(kind);
+            // An input that is refused is stale too, but its remedy is another: the line works and the values do not.
             let (refused, cause) = match refused.filter(|refused| state.now - refused.time < rule.max_age) {
                 Some(refused) => (
                     format!(" The newest sample: {refused}."),
@@ -152,6 +155,7 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
             )
         }
     };
+    // The consequence depends on the input, not on its state: what the model does without it.
     let (consequence, what_to_do) = match kind {
         _ if !acts => (
             "None: the present model does not use this value.",
@@ -172,6 +176,7 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
     };
     Finding {
         priority: Some(priority),
+        // Without any sample there is no age to compare with the threshold.
         value: silence.unwrap_or(f64::NAN),
         threshold: rule.max_age,
         unit: "s",
@@ -185,12 +190,14 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
 }
 
 fn two_drivers(drivers: &[DriverSummary; InputKind::COUNT]) -> Finding {
+    // Only inputs with several publishers at once; one that changes its publisher is the normal handover.
     let several = InputKind::ALL
         .into_iter()
         .zip(drivers)
         .filter(|(_, drivers)| drivers.several);
     let conflicts: Vec<String> = several
         .map(|(kind, drivers)| {
+            // An empty name means that the policy of `inputs.driver` accepts none of them.
             let driving = match drivers.driving.as_str() {
                 "" => "the model follows none of them".to_owned(),
                 driving => format!("the model follows {driving}"),
@@ -205,6 +212,7 @@ fn two_drivers(drivers: &[DriverSummary; InputKind::COUNT]) -> Finding {
     if conflicts.is_empty() {
         return Finding::default();
     }
+    // One alarm stands for all inputs, so its value is that of the worst.
     let most = drivers
         .iter()
         .map(|drivers| drivers.heard.len())
@@ -349,15 +357,18 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
     let Some(recording) = recording else {
         return Finding::default();
     };
+    // The recorder counts since its start; an alarm needs what is new, so that it can clear.
     let lost = recording.losses.since(&memory.lost);
     memory.lost = recording.losses;
     let row = memory.losses.filter(|(_, until)| now < *until);
+    // Losses in bursts are one condition until `LOSS_LASTS` after the last; each burst would otherwise be an alarm.
     memory.losses = if lost.total() > 0 {
         let before = row.map(|(lost, _)| lost).unwrap_or_default();
         Some((before.and(&lost), now + LOSS_LASTS))
     } else {
         row
     };
+    // A recording that stopped outranks lost messages: it loses all of them.
     let (priority, evidence, cause, remedy) = match (&recording.error, &recording.notice) {
         (Some(problem), _) => (
             Priority::Medium,
@@ -386,6 +397,7 @@ fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) 
         },
     };
     let healthy = recording.error.is_none() && recording.notice.is_none();
+    // If every lost message was a flood's, the disk is sound and advice on it would mislead.
     let flooded = healthy && memory.losses.is_some_and(|(lost, _)| lost.flooded == lost.total());
     Finding {
         priority: Some(priority),

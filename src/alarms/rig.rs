@@ -125,14 +125,17 @@ impl Followed {
 
 /// The finding on a comparison; `None` while nothing can be judged. `bit_depth` (m) is NaN where the rig does not give it.
 pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
+    // Nothing comparable is not the same as agreement: `None` leaves the alarm as it stands.
     let (quantity, worst) = compared.worst()?;
     let beyond = |level: f64| worst.difference().abs() >= worst.limit(level);
+    // The two levels are of the same residual, so the second implies the first.
     let priority = match LEVELS.map(beyond) {
         [_, true] => Priority::Medium,
         [true, false] => Priority::Low,
         [false, false] => return Some(Finding::default()),
     };
     let (name, unit, factor, digits) = display(quantity);
+    // Both texts and figures leave in the display's unit, so that the alarm shows what the trend shows.
     let write = |value: f64| number(factor * value, digits).unwrap_or_else(|| "a value out of range".to_owned());
     let state = if compared.drilling {
         "drilling"
@@ -140,6 +143,7 @@ pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
         "rotating off bottom"
     };
     let depth = number(bit_depth, 0).map_or(String::new(), |depth| format!(" at a bit depth of {depth} m"));
+    // The causes come in the order of likelihood, and the driller acts on the first.
     let causes: Vec<&str> = compared
         .causes
         .iter()
@@ -149,6 +153,7 @@ pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
     Some(Finding {
         priority: Some(priority),
         value: factor * worst.difference(),
+        // A negative difference is shown against a negative threshold.
         threshold: factor * worst.limit(LEVELS[0]).copysign(worst.difference()),
         unit,
         evidence: format!(

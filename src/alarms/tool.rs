@@ -180,6 +180,8 @@ struct Words {
 
 /// The texts on a hazard of a tool whose rock has this law. Numbers that were not measured are left out.
 fn words(hazard: &Hazard, law: Law) -> Words {
+    // Every text is complete without its numbers, because a hazard may come without place, ratio or value (NaN), and an
+    // alarm must never show one.
     let at = hazard.place.as_ref().and_then(place).unwrap_or_default();
     let of_guide = hazard.place.is_some_and(|place| place.body == Body::Guide);
     let body = if of_guide { "guide" } else { "pipe" };
@@ -188,6 +190,8 @@ fn words(hazard: &Hazard, law: Law) -> Words {
     });
     let value = |digits| number(hazard.value, digits);
     match hazard.kind {
+        // A share near 1 is rolling without slip. NaN, where the body is
+        // not the driven pipe, matches no arm but the last.
         HazardKind::BackwardWhirl => {
             let manner = match hazard.rolling_share {
                 share if (share - 1.0).abs() <= ROLLING_TOLERANCE => ", rolling",
@@ -211,6 +215,8 @@ fn words(hazard: &Hazard, law: Law) -> Words {
                            trip, inspect the joints near this depth for fatigue cracks.",
             }
         }
+        // Forward whirl is judged by rubbing power, because it wears one
+        // side and does not bend the links against the rotation.
         HazardKind::ForwardWhirl => Words {
             unit: "W/m",
             evidence: format!("Forward whirl of the {body}{at}{ratio}"),
@@ -251,6 +257,7 @@ fn words(hazard: &Hazard, law: Law) -> Words {
             },
             cause: "The bit torque winds up the tool until the bit breaks free and spins.",
             consequence: "Impacts damage the cutters, and every joint carries a cyclic torque".to_owned(),
+            // The remedy names a parameter that the rock's law reads: the other law ignores it.
             engineer: match law {
                 Law::Paper | Law::Weakening => {
                     "Compare the measured torque with that of tool.bit.friction_factor. Tune the soft-torque control of the \
@@ -273,6 +280,8 @@ fn words(hazard: &Hazard, law: Law) -> Words {
             engineer: "Check joint_load.rated_moment_nm against the manufacturer's rating. On the next trip, inspect the \
                        joint near this depth.",
         },
+        // The analysis sums the impacts over the tool, so there is no ratio
+        // or manner to name, only where they are strongest.
         HazardKind::ChaoticWhirl => Words {
             unit: "W/m",
             evidence: match value(1) {
@@ -289,6 +298,8 @@ fn words(hazard: &Hazard, law: Law) -> Words {
             engineer: "Add lubricant to the mud. Compare with a downhole vibration log. On the next trip, inspect joints \
                        and connections along the whole tool.",
         },
+        // Transfer hazards count what is lost as a share of what is put in
+        // at the surface, so that 0 is good and 1 is all lost.
         HazardKind::WeightTransfer => Words {
             unit: "of the weight",
             evidence: match number(100.0 * hazard.value, 0) {
@@ -342,6 +353,7 @@ fn words(hazard: &Hazard, law: Law) -> Words {
             engineer: "Check pressure_folding.rated_compression_kn against the manufacturer's rating. Use a larger nozzle, or \
                        a lower end that the pressure does not push up.",
         },
+        // The value is a time: a stall is a stall at once, and gets worse by the wind-up that lasts.
         HazardKind::BitStuck => Words {
             unit: "s",
             evidence: match value(0) {

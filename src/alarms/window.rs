@@ -13,8 +13,11 @@ use flexdrill_motion::DriveState;
 /// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged, nor are a speed and
 /// weight that are the twin's own.
 pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, unknown: Unknown) -> Finding {
+    // The axis of the map is the magnitude of the speed.
     let rpm = rad_per_s_to_rpm(snapshot.applied.rotary_speed).abs();
     let kn = n_to_kn(snapshot.applied.weight_on_bit);
+    // A speed that is assumed or held is no point of the rig, and a
+    // judgement on it would accuse the driller of the twin's values.
     let suppressed = snapshot.hazards.drive != DriveState::Turning || unknown.any();
     let location = window.locate(rpm, kn);
     if suppressed || matches!(location, Location::Inside | Location::OffBottom) {
@@ -28,6 +31,7 @@ pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, unknown: Unknown
         number(rpm, 0).unwrap_or_default(),
         number(kn, 1).unwrap_or_default()
     );
+    // Priorities follow what is known: an alarm that the map expects is medium, all uncertainty is low.
     let (priority, evidence, consequence) = match &location {
         Location::Expected(expected) => {
             let known = AlarmId::ALL.into_iter().find(|id| id.id() == expected.alarm);
@@ -58,6 +62,7 @@ pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, unknown: Unknown
             let consequence = "What the tool does here has not been computed.";
             (Priority::Low, evidence, consequence.to_owned())
         }
+        // The two last returned above; they complete the match.
         Location::NotKnown | Location::Unknown | Location::Inside | Location::OffBottom => {
             let evidence = if location == Location::NotKnown {
                 format!("The map has no run at {at}, and the runs around it do not say what happens there.")
@@ -73,6 +78,7 @@ pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, unknown: Unknown
         evidence,
         cause: "Speed and weight are outside the part of the map in which no alarm must be expected.".to_owned(),
         consequence,
+        // A cell of the map, never a point between cells: a boundary may lie between them.
         what_to_do: match window.nearest_inside(rpm, kn) {
             Some([rpm, kn]) => {
                 format!("Set {rpm} r/min and {kn} kN: the nearest point that is known to be free of alarms.")

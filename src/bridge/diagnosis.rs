@@ -60,7 +60,10 @@ impl LineHealth {
     /// The message of `/diagnostics` at an instant (ns since 1970).
     pub fn diagnostics(&self, node: &str, place: &str, now: i64) -> DiagnosticArray {
         let counts = &self.counts;
+        // The verdict is of the state now, the counts are since the start:
+        // an operator needs both, the level follows the first.
         let (level, message) = self.verdict(now);
+        // Keys are names of interfaces that monitors match on, in the order of the way through the bridge.
         let mut values = vec![
             ("connections_open", self.open),
             ("connections_made", self.made),
@@ -87,6 +90,7 @@ impl LineHealth {
             },
             status: vec![DiagnosticStatus {
                 level,
+                // The name has the node's path without its slash and the part, as `diagnostic_aggregator` matches it.
                 name: format!("{}: wits", node.trim_start_matches('/')),
                 message,
                 hardware_id: place.to_owned(),

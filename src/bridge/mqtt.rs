@@ -134,8 +134,10 @@ impl MqttBridge {
 
     /// Takes what DDS brought. Alarms, forecast, safe window and residuals are sent at once.
     fn receive(&mut self) {
+        // The closure below borrows the node mutably, so the figures leave `self` for its time.
         let mut twin = std::mem::take(&mut self.twin);
         let mut heard = false;
+        // A backlog may hold several of each, and a broker keeps one document per topic, so only the newest is sent.
         let (mut alarms, mut forecast, mut window, mut residuals) = (false, None, None, None);
         let unreadable = self.node.take(|topic, body| match topic.name {
             name if name == topics::FORECAST.name => newest(&mut forecast, body),
@@ -143,11 +145,14 @@ impl MqttBridge {
             name if name == topics::RESIDUALS.name => newest(&mut residuals, body),
             name => {
                 heard |= name == topics::STATUS.name;
+                // The list of alarms is latched state, sent in full; flags suffice and the figures hold the newest.
                 alarms |= name == topics::ALARMS.name;
                 twin.take(name, body).is_ok()
             }
         });
         self.twin = twin;
+        // The time of reading, not the stamp: silence is judged on this
+        // machine's clock, which the twin's need not agree with.
         if heard {
             self.heard = Some(Instant::now());
         }
@@ -166,6 +171,8 @@ impl MqttBridge {
             self.put("residuals", &json::residuals(&residuals));
             self.node_update(|node| mqtt_figures::residuals(node, &residuals));
         }
+        // A message that does not decode comes from another version. It is
+        // counted and reported once, and does not end the bridge.
         if unreadable > 0 {
             self.unreadable += unreadable;
             log(NAMES[0], "unreadable", || {
@@ -175,6 +182,7 @@ impl MqttBridge {
                 )
             });
         }
+        // Judged after reading, so that a status in this batch counts before silence is declared.
         self.judge();
     }
 

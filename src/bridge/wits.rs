@@ -75,20 +75,25 @@ impl WitsBridge {
             .write
             .as_ref()
             .map(|write| TwinFrames::new(write, self.mapping.utc_offset()));
+        // Without frames to write the timer exists for the `select` alone, whose branch is then off.
         let period = writing
             .as_ref()
             .map_or(DIAGNOSTICS, |frames| Duration::from_secs_f64(frames.interval()));
         let (mut diagnostics, mut write) = (interval(DIAGNOSTICS), interval(period));
+        // After a pause of the machine one tick follows, not a burst of those
+        // that were missed: each would write the same values.
         diagnostics.set_missed_tick_behavior(MissedTickBehavior::Delay);
         write.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut twin = TwinFigures::default();
         let seats = Seats::default();
+        // The line lives in this task, not in another: when `run` is dropped its connections close with it.
         let mut line = std::pin::pin!(lines::run(place, times, sender, outgoing.clone(), seats.clone()));
         loop {
             tokio::select! {
                 () = &mut line => return,
                 Some(event) = events.recv() => self.on(event, &seats),
                 _ = diagnostics.tick() => {
+                    // The dispute ends by time, not by an event, so it is looked up at each tick.
                     self.health.disputed = self.sources.is_disputed(lines::now());
                     let message = self.health.diagnostics(&self.node_name, &self.place, lines::now());
                     self.node.diagnose(&message);
@@ -115,6 +120,7 @@ impl WitsBridge {
             LineState::Opened { connection, peer } => {
                 self.health.open += 1;
                 self.health.made += 1;
+                // The peer is foreign text; `printable` keeps control characters out of the log.
                 if let Some(more) = log_ending("wits connection made") {
                     tracing::info!("wits: connection {connection} with {}{more}", printable(&peer));
                 }
@@ -126,14 +132,17 @@ impl WitsBridge {
                 time,
                 bytes,
             } => {
+                // The raw bytes are kept before they are read, so that a capture has what the reader could not use.
                 self.keep(time, connection, &bytes);
                 let Some(from) = self.connections.get_mut(&connection) else {
                     return;
                 };
+                // Events are gathered first, because the line borrows the connection that `take` needs.
                 let mut read = Vec::new();
                 from.line
                     .push(&bytes, time, &mut self.health.counts, |event| read.push(event));
                 for event in read {
+                    // Only whole frames hold a seat. A scanner that connects and sends noise must give way to the rig.
                     if matches!(event, LineEvent::Frame(..)) {
                         seats.whole_frame(connection);
                     }
@@ -142,6 +151,8 @@ impl WitsBridge {
             }
             LineState::Closed { connection, time, why } => self.closed(connection, time, &why),
             LineState::Waiting { why, wait } => {
+                // The reason stays in the diagnostics; the log is limited in
+                // its rate, because a rig may be away for days.
                 self.health.last_loss.clone_from(&why);
                 log("waiting", || {
                     format!(
@@ -159,6 +170,7 @@ impl WitsBridge {
                 )
             }),
             LineState::NotWritten { connection, frames } => {
+                // Frames are dropped for a slow peer and never queued: the rig's next frame replaces them anyway.
                 self.health.written[1] += frames;
                 log("not written", || {
                     format!("connection {connection} takes the twin's frames too slowly; {frames} were left out")

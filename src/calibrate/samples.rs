@@ -63,6 +63,7 @@ pub fn of_log(sequence: &InputSequence) -> Vec<Sample> {
 /// # Errors
 /// When the bag cannot be read.
 pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
+    // Topics are matched by their end, because a bag carries the namespace of its rig.
     let mut bag = flexdrill_bag::open(path)?;
     let wanted = |name: &str, known: &topics::TopicInfo| name.trim_start_matches('/').ends_with(known.name);
     bag.select(|topic| {
@@ -70,6 +71,7 @@ pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
             || wanted(&topic.name, &topics::RIG_INPUTS)
             || InputKind::ALL.iter().any(|kind| topic.is(kind.topic()))
     });
+    // Age minus infinity: an input that never came is older than any `holds`.
     let mut newest = [(f64::NEG_INFINITY, f64::NAN); InputKind::COUNT];
     let (mut origin, mut samples) = (None, Vec::new());
     for message in bag.by_ref() {
@@ -78,20 +80,24 @@ pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
             Err(BagError::Damaged { .. }) => continue,
             message => message?,
         };
+        // Seconds since the first message keep the digits that nanoseconds since 1970 lose in an `f64`.
         let first = *origin.get_or_insert(message.log_time);
         let time = message.log_time.saturating_sub(first) as f64 * 1e-9;
         match message.topic.ros_type.as_str() {
             RigMeasured::ROS_TYPE => {
                 let measured: RigMeasured = message.decode()?;
+                // What the rig itself marks as bad is no observation, and fitting to it would move the coefficients.
                 if measured.quality != RigMeasured::GOOD {
                     continue;
                 }
+                // A sample is made where the rig measured; inputs come at other rates and are those that held then.
                 let mut sample = empty(time, samples.len() as u64 + 1);
                 for (kind, (at, value)) in InputKind::ALL.into_iter().zip(newest) {
                     if time - at <= holds {
                         set(&mut sample, kind, value);
                     }
                 }
+                // The order is that of `windows::Channel`.
                 sample.measured = [
                     MeasuredKind::SurfaceTorque,
                     MeasuredKind::HookLoad,
@@ -103,6 +109,7 @@ pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
             }
             RigInputs::ROS_TYPE => {
                 let inputs: RigInputs = message.decode()?;
+                // `rig/inputs` carries all quantities in one message, NaN for those that are not in it.
                 for kind in InputKind::ALL {
                     if let Some(value) = inputs.value(kind).filter(|value| value.is_finite()) {
                         newest[kind.index()] = (time, value);

@@ -185,15 +185,18 @@ fn quality_of(quality: &ModelQuality) -> String {
     format!("{}, energy error {share} of what vibration loses{cause}", quality.level)
 }
 
+// Each row is one string, so that the same table prints as text, CSV and in documents.
 fn figures_of(measured: &Measured) -> Table {
     let mut table = Table::new(["figure", "value"]);
     let mut row = |figure: &str, value: String| table.row([figure.to_owned(), value]);
+    // Percentiles next to the median: the deadline of real time is missed by the tail.
     let milliseconds = |times| percentiles(times).map(|time| format!("{time:.3}")).join(", ");
     row("static start", format!("{:.3} s", measured.start));
     row(
         "unknowns, step",
         format!("{}, {} ms", measured.unknowns, 1e3 * measured.time_step),
     );
+    // Processor time next to wall time: on a shared machine the first shows the program, the second the neighbours.
     row(
         "real-time factor, of processor time",
         format!("{:.2}, {:.2}", measured.real_time_factor(), measured.processor_factor()),
@@ -206,6 +209,7 @@ fn figures_of(measured: &Measured) -> Table {
         "frame of 20 ms: median, p99, p99.9, max",
         format!("{} ms", milliseconds(&measured.frame_times)),
     );
+    // Phases of the step in its order, in microseconds, to see which part a change has moved.
     row(
         "time per step",
         format!(
@@ -230,6 +234,8 @@ fn figures_of(measured: &Measured) -> Table {
     row("model quality", quality_of(&measured.last.quality));
     measured.figures.rows(&measured.last, &mut table);
     let energy = &measured.energy;
+    // The error stands next to the terms of the balance: only against
+    // them does it say whether the scheme keeps the energy.
     table.row([
         "energy: drive, bit, friction, error".into(),
         format!(
@@ -241,6 +247,7 @@ fn figures_of(measured: &Measured) -> Table {
             measured.energy_error()
         ),
     ]);
+    // The peak comes from the kernel, because no allocator counts what libraries map.
     table.row([
         "peak memory".into(),
         machine::status_kb("VmHWM:").map_or_else(|| "unknown".to_owned(), |kb| format!("{kb} kB")),

@@ -69,6 +69,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
     let (config, _) = built_in::load(&args.config)?;
     let samples = read(args, &config)?;
     let windows = windows::find(&samples, &WindowSettings::default());
+    // The windows are printed before anything can fail: they show why a log is of no use.
     tell_windows(&samples, &windows);
     let refused = refusals(&windows);
     for (channel, refusal) in &refused {
@@ -77,6 +78,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
     if args.windows {
         return Ok(());
     }
+    // The check costs nothing, and the runs that follow take minutes to hours.
     let usable = windows.steady.iter().any(|window| {
         let mut measured = windows::Channel::ALL
             .into_iter()
@@ -84,6 +86,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
         measured.any(|channel| !refused.iter().any(|(known, _)| *known == channel))
     });
     if !usable {
+        // The first refusal is the reason that helps; "nothing observed" alone leaves the reader searching.
         let why = anyhow::Error::from(CalibrationError::NothingObserved);
         return Err(match refused.first() {
             Some((channel, refusal)) => why.context(format!("{}: {}", channel.name_and_unit().0, refusal.text())),
@@ -91,12 +94,16 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
         });
     }
     let unknowns = Unknowns::of(&config)?;
+    // Off bottom and drilling need separate designs: off bottom the
+    // weight is zero and the bit has no part in the torque.
     let covers: Vec<Cover> = [Motion::OffBottom, Motion::Drilling]
         .into_iter()
         .filter_map(|motion| study::cover(&windows, motion, unknowns.modelled.len()))
         .collect();
     check_covers(&config, &covers)?;
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
+    // The folder comes before the runs, so that hours of computing never end in a path that cannot be written. Points
+    // that were run are kept in it and found again.
     let points = run_points(args, &config, &unknowns, &covers)?;
     let settings = StudySettings {
         jobs: args.jobs,
@@ -106,6 +113,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
     tell!("fitting, and checking what was found by full runs");
     let study = study(&config, unknowns, windows, &points, &settings)?;
     let rows = [samples.first(), samples.last()].map(|sample| sample.map_or(0, |sample| sample.row));
+    // The name alone: the path of one machine has no meaning in a file that is passed on.
     let name = args
         .log
         .file_name()
@@ -120,8 +128,10 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: args.seed,
     };
+    // The results are written before the objections are raised, since they are what the objections are judged by.
     write(args, &config, &study, &provenance)?;
     tell_result(&study);
+    // A failed objection ends with an error, so that a script does not use the values.
     let objections: Vec<String> = study.objections().iter().map(ToString::to_string).collect();
     anyhow::ensure!(
         objections.is_empty(),
@@ -218,12 +228,14 @@ fn run_points(
 }
 
 fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Provenance) -> anyhow::Result<()> {
+    // The whole configuration is formed first: if the overlay does not fit it, no file is written.
     let calibrated = overlay::apply(config, study)?;
     let whole = overlay::header(provenance) + &overlay::warnings(study) + &calibrated.to_yaml()?;
     let json = serde_json::to_string_pretty(&overlay::json(study, provenance))?;
     write_file(&args.out, "overlay.yaml", &overlay::yaml(study, provenance))?;
     write_file(&args.out, "calibrated.yaml", &whole)?;
     write_file(&args.out, "calibration.json", &(json + "\n"))?;
+    // The page needs plain data: the report knows neither the study nor its runs.
     let about = page::About {
         log: provenance.log.clone(),
         lines: overlay::header(provenance)
@@ -242,6 +254,7 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
             .map(|checked| page::Checked {
                 window: checked.window,
                 channel: checked.channel,
+                // Readers count members from 1.
                 at: match checked.at {
                     At::Centre => "values found".to_owned(),
                     At::Member(number) => format!("member {}", number + 1),

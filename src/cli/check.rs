@@ -46,6 +46,7 @@ struct Summary<'a>(&'a Config);
 
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A value is formatted as one string first, so that all rows share the width of the names.
         let config = self.0;
         let tool = &config.tool;
         let mut row = |name: &str, value: String| writeln!(f, "{name:<16} {value}");
@@ -77,12 +78,15 @@ impl fmt::Display for Summary<'_> {
         row(
             "clearance",
             format!(
+                // A straight link in a curved guide is a chord: what its middle
+                // needs of the clearance is not free for whirl.
                 "pipe-guide {:.2} mm (a link's chord uses up to {:.2} mm of it), guide-wall {:.2} mm",
                 config.inner_clearance() * 1e3,
                 config.chord_sagitta() * 1e3,
                 config.outer_clearance() * 1e3
             ),
         )?;
+        // A guide that the hole does not bend has no row.
         let preload = config.guide_preload_moment();
         if preload > 0.0 {
             row(
@@ -99,6 +103,7 @@ impl fmt::Display for Summary<'_> {
                 ),
             )?;
         }
+        // The count sets the time per step and the memory, so it is shown before a run is begun.
         let count = config.unknowns();
         row(
             "unknowns",
@@ -113,6 +118,7 @@ impl fmt::Display for Summary<'_> {
         if tool.joint.kind == JointKind::Universal && tool.links > 1 {
             row("chain", folding_in_words(tool.links, tool.joint.cross_phase_step_deg))?;
         }
+        // Under the law of the depth of cut, torque follows from the advance and has no constant share of the weight.
         if config.rock.law != Law::DepthOfCut {
             row(
                 "bit torque",
@@ -145,6 +151,7 @@ impl fmt::Display for Summary<'_> {
                 weight.min_kn, weight.max_kn, weight.initial_kn
             ),
         )?;
+        // The hash names the configuration in recordings and calibrations, which can be compared with it.
         row("hash", config.hash())?;
         for warning in config.warnings() {
             row("warning", warning)?;

@@ -101,6 +101,7 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
 }
 
 fn plan(args: &ReachArgs, config: &Config) -> anyhow::Result<Plan> {
+    // A tool has whole links. Lengths that round to the same tool are computed once.
     let link = config.link_length();
     let mut links = Vec::new();
     for &length in &args.lengths {
@@ -118,6 +119,7 @@ fn plan(args: &ReachArgs, config: &Config) -> anyhow::Result<Plan> {
     }
     links.sort_unstable();
     links.dedup();
+    // Equal values would be the same runs twice.
     let mut frictions = args.friction.clone();
     frictions.sort_by(f64::total_cmp);
     frictions.dedup();
@@ -129,6 +131,7 @@ fn plan(args: &ReachArgs, config: &Config) -> anyhow::Result<Plan> {
         );
         return Err(WrongUse::new(why).into());
     }
+    // Without weight nothing is transferred, and the share at the bit is undefined.
     if !(args.wob > 0.0 && (weight.min_kn..=weight.max_kn).contains(&args.wob)) {
         let why = format!(
             "--wob {} kN: must be above 0 kN and within inputs.weight_on_bit, {} to {} kN",
@@ -136,10 +139,12 @@ fn plan(args: &ReachArgs, config: &Config) -> anyhow::Result<Plan> {
         );
         return Err(WrongUse::new(why).into());
     }
+    // Checked here and not in the runs: each would fail at its start, after the others had been paid for.
     anyhow::ensure!(
         config.rock.law == Law::DepthOfCut || config.boundary.preset == flexdrill_config::Preset::Paper,
         "boundary.preset: none: reach needs the support of the guide at the kick-off, which the preset `paper` has"
     );
+    // From here on all values are SI.
     Ok(Plan {
         links,
         frictions,

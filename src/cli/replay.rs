@@ -81,19 +81,25 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
 }
 
 fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
+    // A recording of flexdrill repeats bit for bit from its own configuration and applied inputs. Any other source
+    // passes the conditioner first, as live samples do.
     if !args.wits && source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
+        // An option that would change the run is refused, not ignored: the result would be taken for the recorded run.
         if args.config.is_some() || args.source.is_given() {
             return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --from, --to and --mapping, or use \
                  another bag").into());
         }
         let script = recording::Script::read(&args.input)?;
         let exactness = script.exactness();
+        // Departures are said before the run, which may take long, and once more as its verdict.
         for departure in &exactness.departures {
             tell!("not exact: {}", printable(departure));
         }
         for note in &exactness.notes {
             tell!("{}", printable(note));
         }
+        // Without applied inputs the samples of the rig are the next best source;
+        // they are conditioned again, so the replay is not exact.
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
                 format!(

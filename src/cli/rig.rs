@@ -200,12 +200,14 @@ async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
     let (Some(first), Some(last)) = (samples.inputs.first(), samples.inputs.last()) else {
         return;
     };
+    // Times count from the first input, so that a log of last year begins now.
     let after = |time: i64| time.saturating_sub(first.time) as f64 * 1e-9;
     let began = Instant::now();
     let mut reported = began;
     let mut newest: [Option<f64>; InputKind::COUNT] = [None; InputKind::COUNT];
     let (mut inputs, mut measured) = (samples.inputs.iter().peekable(), samples.measured.iter().peekable());
     let (mut sent, mut left_out) = (0_u64, 0_u64);
+    // Deadlines are absolute from `began`: a late send does not shift all later ones.
     loop {
         let next = [
             inputs.peek().map(|sample| sample.time),
@@ -216,6 +218,7 @@ async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
         };
         let due = Duration::from_secs_f64((after(next) / rate).max(0.0));
         tokio::time::sleep_until((began + due).into()).await;
+        // Sending takes time too, so more samples may be due by now than the one that was waited for.
         let now = began.elapsed().as_secs_f64() * rate;
         // Of all samples due by now, only the newest are sent.
         let mut batch = Batch::default();
@@ -227,6 +230,7 @@ async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
         }
         sent += to.send(&batch);
         left_out += batch.left_out;
+        // A batch has what changed; the line on the screen shows the newest of each input.
         for (newest, value) in newest.iter_mut().zip(batch.inputs) {
             *newest = value.or(*newest);
         }
@@ -240,6 +244,7 @@ async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
                 to.listeners()
             );
         }
+        // After a pause of the machine the gap makes one batch of the overdue samples, not a burst.
         tokio::time::sleep(LEAST_GAP).await;
     }
     // The last samples need time to arrive before the node leaves the network.

@@ -89,11 +89,14 @@ pub(super) struct RunArgs {
 /// When an argument, the configuration or the network cannot be used, or the recording failed.
 pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
+    // Logging begins before anything that can warn; its level is an argument of ROS.
     logging::start(&ros_args);
     let identity = ros_args
         .remapping
         .identity(&args.namespace, DEFAULT_NODE_NAME)
         .map_err(WrongUse::new)?;
+    // Overrides are for a node by its name, so the identity comes before them. The file that they may name comes before
+    // their values, which apply on top of it.
     let overrides = ros_args.overrides.for_node(&identity);
     let named = parameters::config_file(&overrides).map_err(WrongUse::new)?;
     let (config, config_file) = load_config(chosen_config(args.config.as_deref(), named)?)?;
@@ -103,12 +106,15 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let network = network
         .configured(reach(asked.reach), &asked.interfaces, &asked.peers)
         .map_err(WrongUse::new)?;
+    // Alarms survive a restart only in a file for this domain and name: two nodes on one machine must not share it.
     let state_dir = args
         .state_dir
         .clone()
         .or_else(|| state_file::default_folder(|name| std::env::var(name).ok()));
     let alarm_state =
         state_dir.map(|folder| folder.join(state_file::file_name(network.domain_id, &identity.full_name())));
+    // The token is read before the node starts, so that a missing file
+    // ends the program at once and not after the first viewer.
     let token = Token::where_allowed(args.allow_control, args.token_file.as_deref())?;
     let setup = NodeSetup {
         config: started.config,
@@ -133,15 +139,20 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         lifecycle: args.lifecycle,
         duration: args.duration.or(config.run.duration),
     };
+    // The banner resolves every topic name, so that a remapping that is
+    // not allowed fails before the network is entered.
     print_banner(&setup)?;
     for note in notes.iter().chain(&setup.config.warnings()) {
         tracing::warn!("{note}");
     }
+    // Two workers serve inputs and services. The solver and the publisher
+    // have their own threads and must not wait for a task.
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
         .enable_all()
         .build()?;
     let summary = runtime.block_on(async {
+        // Signals are caught before the node runs: a recording that is cut off by one would need a recovery.
         let shutdown = signals::shutdown(setup.record.is_some())?;
         anyhow::Ok(node::run(setup, shutdown).await?)
     })?;
@@ -186,6 +197,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
         env!("CARGO_PKG_VERSION"),
         setup.identity.full_name()
     );
+    // The hash links this output to recordings and reports of the same configuration.
     row(
         "configuration",
         format!("{}, hash {}", setup.config_file, &config.hash()[..12]),
@@ -205,6 +217,8 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     if setup.use_sim_time {
         row("clock", format!("{} (use_sim_time)", setup.topic_name(&topics::CLOCK)?));
     }
+    // These two topics are enough for a rig; the row names the type
+    // because a publisher of another type is not matched by DDS.
     for (topic, unit) in [(&topics::ROTARY_SPEED_RPM, "r/min"), (&topics::WEIGHT_ON_BIT_KN, "kN")] {
         row(
             "input",
@@ -220,6 +234,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             format!("{} [{}, {what}]", setup.topic_name(topic)?, topic.kind.ros_type),
         );
     }
+    // These are the rates on DDS; recordings and viewers may have higher ones.
     let schedule = flexdrill_outputs::published(config);
     for topic in topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received) {
         let rate = match topic.cadence {
@@ -242,6 +257,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             "not kept, because there is no home folder; use --state-dir".to_owned(),
         ),
     }
+    // The address with the token is shown once, here: who has it may steer.
     if let Some(live) = &setup.live {
         row("live", format!("ws://{}", live.address));
         if let Some(token) = &live.token {
@@ -289,6 +305,7 @@ fn print_summary(summary: &RunSummary) {
         failed_steps,
         ..
     } = summary.status;
+    // Paused time is no fault of the machine, and is kept apart from skipped steps.
     let not_taken = match steps_stood_still {
         0 => String::new(),
         steps => format!(", {steps} not taken (paused or failed)"),
@@ -307,6 +324,7 @@ fn print_summary(summary: &RunSummary) {
             counted(recording.messages, "message"),
             recording.path.display()
         );
+        // The `refused` ones may be on the disk, and have their own line below.
         if recording.lost > 0 {
             let lost = Losses {
                 refused: 0,
@@ -317,6 +335,7 @@ fn print_summary(summary: &RunSummary) {
                 counted(recording.lost, "message")
             );
         }
+        // After a failed sync the kernel may have dropped pages that it had accepted: the program cannot know which.
         if recording.doubtful > 0 {
             say!(
                 "perhaps lost: {} of the recording, which the disk failed to sync",

@@ -132,6 +132,7 @@ fn followed(newest: &Residuals) -> String {
 }
 
 pub(super) fn inputs(status: &TwinStatus) -> Item {
+    // The calm text is shown while none of the item's alarms stands, so the states of all inputs are in it.
     let states: Vec<String> = status
         .input_name
         .iter()
@@ -152,6 +153,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
         .collect();
     let mut values = Vec::new();
     for (index, name) in status.input_name.iter().enumerate() {
+        // A name that this version does not know is left out of the values but is in the text above.
         let Some(kind) = InputKind::of_name(name) else {
             continue;
         };
@@ -175,6 +177,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Item {
         ));
         let count = |counts: &[u64]| counts.get(index).copied().unwrap_or_default();
         let publishers = status.input_publishers.get(index).map_or("", String::as_str);
+        // Publishers are a separate value: monitors plot the first, people read the second.
         values.push((
             publishers_key,
             format!(

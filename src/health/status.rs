@@ -168,15 +168,18 @@ impl StatusKeeper {
 
     /// The status now. Ends the interval of its statistics.
     pub fn status(&mut self, header: Header, sources: &Sources<'_>) -> TwinStatus {
+        // Gauges of the solver are relaxed atomics: each is exact, but two of them may be of neighbouring steps.
         let gauges = sources.gauges;
         let step_count = gauges.step.load(Ordering::Relaxed);
         let times = self.step_times.take();
         let gained = self.model_time_gained(gauges);
+        // Counters are sums since the start. The mean of this interval needs their values at its beginning.
         let (before, step_before) = std::mem::replace(&mut self.counters_before, (self.counters, self.counters_step));
         let steps = self.counters_step.saturating_sub(step_before);
         let iterations = self.counters.newton_iterations.saturating_sub(before.newton_iterations);
         let rejection = self.last_failure.or(self.counters.last_rejection);
         let station = rejection.map_or(0, |rejection| rejection.station);
+        // Skipped steps are two things: late ones, the machine's fault, and those in which the twin stood still.
         let (pace, late) = (self.pace.reading(), gauges.steps_late.load(Ordering::Relaxed));
         self.sequence += 1;
         let mut status = TwinStatus {
@@ -191,6 +194,7 @@ impl StatusKeeper {
             model_time: step_count as f64 * self.time_step,
             step_count,
             time_step: self.time_step,
+            // NaN until two readings exist.
             real_time_factor: self.factor.factor(sources.pace_time, gained).unwrap_or(f64::NAN),
             lateness: gauges.lateness.load(Ordering::Relaxed) as f64 * 1e-9,
             deadline_misses: gauges.deadline_misses.load(Ordering::Relaxed),
@@ -208,6 +212,7 @@ impl StatusKeeper {
             },
             rejected_steps: self.counters.rejected,
             halved_steps: self.counters.halved_steps,
+            // Failures are also counted from the events, because a failed run has no newer snapshot with its counters.
             failed_steps: self.counters.failed_steps.max(self.failures),
             last_rejection_cause: rejection
                 .map(|rejection| rejection.cause.name().to_owned())
@@ -228,6 +233,7 @@ impl StatusKeeper {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             ..TwinStatus::default()
         };
+        // Parts with arrays are filled in place, since they resize to what the twin has.
         self.fill_phases(&mut status, gauges);
         self.fill_inputs(&mut status, sources);
         fill_outputs(&mut status, sources);

@@ -55,6 +55,7 @@ pub struct Progress {
 /// When a value of the axes is out of the configuration's bounds, or the configuration cannot be written.
 pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, SweepError> {
     let [(x, columns), (y, rows)] = &question.axes;
+    // The order is that of the map's cells: rows outside, columns inside.
     let cells = rows
         .iter()
         .flat_map(|y| columns.iter().map(move |x| vec![Value::from(*x), Value::from(*y)]));
@@ -74,6 +75,7 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
             horizon: question.horizon,
             members: question.members,
             run_all: question.run_all,
+            // A start at a running tool comes from the highest speed of the map by default, the state with most motion.
             running: Running {
                 rpm: question
                     .running_rpm
@@ -92,7 +94,9 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
             columns: columns.len(),
             rows: rows.len(),
         }),
+        // The grid makes the sweep a map; other sweeps have rows only.
     };
+    // Checked before any run: a point out of the bounds would fail after hours.
     plan.check_rows(name, config)?;
     Ok(plan)
 }
@@ -114,13 +118,17 @@ pub fn make(
     mut progress: impl FnMut(Progress),
 ) -> Result<Option<Map>, SweepError> {
     let directory = Directory::create(out, plan)?;
+    // The directory's plan, not the given one: it is what earlier runs were made for, and `create` has compared them.
     let plan = directory.plan();
     let grid = plan.map.unwrap_or(Grid { columns: 0, rows: 0 });
     let mut choice = Choice::new(grid, plan.starts.len());
     let all = choice.all();
+    // At least one run, at most all, also for shares that round to nothing.
     let most = ((question.share * all as f64).round() as usize).clamp(1, all);
     let mut here = 0;
     let mut outcomes: Vec<Vec<Option<Outcome>>> = vec![vec![None; plan.rows.len()]; plan.starts.len()];
+    // Each round learns from the runs of the one before. Only whole rounds count,
+    // so that threads and interruptions do not change the choice.
     loop {
         let wanted = if most == all {
             everything(&choice, plan)
@@ -135,6 +143,8 @@ pub fn make(
         let run = |point: &_| point::run(plan, config, point, stop);
         let worked = directory.work(&numbers, jobs, stop, run, |work| {
             progress(Progress {
+                // Work that was found in the directory counts as done, but not as run here: the estimate of the
+                // remaining time needs both.
                 done: before + numbers.len() - work.all + work.done,
                 most,
                 here: here + work.done,
@@ -146,6 +156,7 @@ pub fn make(
         }
         for (run, number) in wanted.into_iter().zip(numbers) {
             let point = &directory.points()[number];
+            // Without this result the choice cannot continue; the same call does so later.
             let Found::Done(outcome) = directory.find(point)? else {
                 return Ok(None);
             };

@@ -37,6 +37,7 @@ fn written(rows: Vec<Vec<String>>) -> Result<Vec<u8>, SweepError> {
 /// When the table cannot be built, which does not occur in memory.
 pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
     let alarms = alarms(map);
+    // Figures have the same names in all runs, so the first that has any gives the columns.
     let figures: Vec<(String, String)> = map
         .cells
         .iter()
@@ -68,6 +69,8 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
         "failure",
     ];
     header.extend(own.map(str::to_owned));
+    // Ids, figures and failures come from files, and a spreadsheet would run a cell that begins like a formula:
+    // `table_cell` prevents that.
     for alarm in &alarms {
         let alarm = table_cell(alarm);
         header.extend(Priority::ALL.map(|priority| format!("{alarm}_{}", priority.name())));
@@ -94,6 +97,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
                 format!("{:.4}", of.confidence),
                 of.chance.map_or(String::new(), |chance| format!("{chance:.4}")),
             ];
+            // Four digits: a chance from at most some hundred members has no more.
             row.extend(of.interval.map(|end| format!("{end:.4}")));
             row.extend([
                 table_cell(&of.alarm).into_owned(),
@@ -107,6 +111,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
                         .alarms
                         .iter()
                         .find(|count| count.alarm == *alarm && count.priority == priority);
+                    // An inferred start has no counts. Zero would claim that its members were run without an alarm.
                     row.push(match of.state {
                         State::Known => count.map_or(0, |count| count.seen).to_string(),
                         _ => String::new(),
@@ -115,6 +120,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
             }
             for (name, _) in &figures {
                 let figure = of.figures.iter().find(|figure| figure.name == *name);
+                // Empty cells keep the columns in place.
                 match figure.and_then(|figure| figure.quantiles) {
                     Some(quantiles) => row.extend(quantiles.map(|value| value.to_string())),
                     None => row.extend(vec![String::new(); 3]),
@@ -216,6 +222,7 @@ pub fn words(map: &Map) -> Vec<String> {
         count(Verdict::Unknown),
         count(Verdict::NotKnown)
     ));
+    // Each inferred start is wrong with its remaining doubt; the sum is the number to be expected.
     let starts = map.cells.iter().flat_map(|cell| &cell.starts);
     let inferred = starts.filter(|start| start.state == State::Inferred);
     let (of, doubtful) = inferred.fold((0, 0.0), |(of, doubtful), start| {
@@ -236,6 +243,7 @@ pub fn words(map: &Map) -> Vec<String> {
         })
         .filter(|(count, _)| *count > 0)
         .collect();
+    // Equal counts are ordered by name, so that the same map always has the same words.
     leading.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| a.1.cmp(&b.1)));
     if !leading.is_empty() {
         let named: Vec<String> = leading

@@ -165,6 +165,7 @@ pub fn serve(
     shut_down: &Arc<Notify>,
     name: impl Fn(&str) -> Result<String, ArgsError>,
 ) -> Result<Vec<Task>, NodeError> {
+    // Transition events are not latched: a tool that joins later asks for the state, as `ros2 lifecycle` does.
     let offer = Offer {
         reliable: true,
         latched: false,
@@ -173,6 +174,7 @@ pub fn serve(
         lifespan: None,
     };
     let events = port.publisher(&name("~/transition_event")?, TransitionEvent::DDS_TYPE, offer);
+    // Time is stopped before the services exist, so that no step is taken in a state that a supervisor has not chosen.
     control
         .set_inactive(Some(label(State::PRIMARY_STATE_UNCONFIGURED)))
         .map_err(|why| NodeError::Stopped(format!("the node cannot start as a managed node: {why}")))?;
@@ -186,6 +188,7 @@ pub fn serve(
         let kind = format!("lifecycle_msgs/srv/{kind}");
         Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
     };
+    // Three closures need the state for as long as the node runs.
     let (change, state, possible) = (Arc::clone(&lifecycle), Arc::clone(&lifecycle), lifecycle);
     Ok(vec![
         Box::pin(
@@ -207,6 +210,7 @@ pub fn serve(
         ))),
         Box::pin(
             server("~/get_available_transitions", "GetAvailableTransitions")?.serve(at_once(
+                // The state is read once: between two readings a transition could change it.
                 move |_: GetAvailableTransitionsRequest| {
                     let now = possible.state();
                     let from_here = TRANSITIONS.iter().filter(|(_, _, from, _)| *from == now);

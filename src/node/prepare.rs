@@ -76,11 +76,13 @@ impl PreparedNode {
     /// # Errors
     /// When a name is not allowed or the checkpoint cannot be read.
     pub(super) fn new(setup: NodeSetup) -> Result<Self, NodeError> {
+        // Files first: a wrong checkpoint or map ends the program before it appears on the network.
         let checkpoint = setup.checkpoint.as_deref().map(read_checkpoint).transpose()?;
         let config = Arc::new(setup.config.clone());
         let window = SafeWindow::of(&config, Path::new(&setup.config_file))?.map(Arc::new);
         let node_name = setup.identity.full_name();
         let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
+        // Log lines from here on also reach `/rosout`; those before it are in the terminal alone.
         if setup.rosout {
             logging::connect(&mut port, &node_name);
         }
@@ -89,8 +91,11 @@ impl PreparedNode {
         let clocks = Clocks::new(setup.use_sim_time);
         let targets = Targets::new(config.simulation().initial_inputs);
         let gauges = Arc::new(Gauges::default());
+        // The solver's end of the link never waits and never allocates; the
+        // rings between the two ends are all that they share.
         let (loop_end, publisher_end, requests) = link(Arc::clone(&targets), Arc::clone(&gauges));
         let inputs = RigInputs::new(&config, targets, clocks.clone());
+        // The values that the model begins with are logged, because the operator has not sent them.
         inputs.log_assumed();
 
         let (update_sender, parameter_updates) = channel();
@@ -101,6 +106,8 @@ impl PreparedNode {
             inputs.clone(),
             Arc::clone(&gauges),
         );
+        // A parameter acts through the control, which checks it against the configuration and the hard limits and sends
+        // it to the solver; the store keeps it only if the control accepts.
         let applying = Arc::clone(&control);
         let parameters = Parameters::new(
             &mut port,
@@ -110,6 +117,7 @@ impl PreparedNode {
             |client| Driver::from(client).to_string(),
         );
 
+        // All endpoints are declared on `port` before DDS starts: the DDS process gets them as one list.
         let (moves, followed) = following::serve(&parameters, &control);
         let mapping = setup.mapping;
         let service_name = |name: &str| setup.service_name(name);
@@ -120,6 +128,8 @@ impl PreparedNode {
         tasks.extend(control::serve(&mut port, mapping, &control, service_name)?);
         let (request_sender, alarm_requests) = channel();
         tasks.extend(alarms::serve(&mut port, mapping, &request_sender, service_name)?);
+        // Search and goals share the tool and the threads, so that they
+        // take turns instead of competing with each other.
         let advisor = Arc::default();
         let (what_if, answering) = what_if::serve(&mut port, mapping, &clocks, &control, &advisor, service_name)?;
         tasks.extend(answering);
@@ -131,6 +141,7 @@ impl PreparedNode {
             forecasts: config.look_ahead.forecast.then(Arc::default),
         };
         let shut_down = Arc::new(Notify::new());
+        // Without `--lifecycle` the services do not exist, and a supervisor sees at once that the node is not managed.
         if setup.lifecycle {
             tasks.extend(lifecycle::serve(
                 &mut port,
@@ -151,12 +162,15 @@ impl PreparedNode {
             let (name, samples) = subscribe(received::plain_topic(kind))?;
             plain.push((kind, name, samples));
         }
+        // The stamped inputs come on one topic with all quantities, for sources that have the time of the measurement.
         let (stamped_name, stamped) = subscribe(&topics::RIG_INPUTS)?;
         let (_, measured) = subscribe(&topics::RIG_MEASURED)?;
+        // With simulated time the clock itself is a subscription: until its first message there is no time.
         if let Some(newest) = clocks.simulated() {
             let (_, ticks) = subscribe(&topics::CLOCK)?;
             tasks.push(Box::pin(clock_topic::follow(inputs.clone(), ticks, Arc::clone(newest))));
         }
+        // Viewers that steer use the same inboxes as DDS, so that a sample of theirs passes every check.
         let viewers = setup.live.is_some().then(|| {
             let mut steered: Vec<_> = plain
                 .iter()
@@ -200,6 +214,7 @@ impl PreparedNode {
     pub(super) async fn start(self) -> Result<RunningNode, NodeError> {
         let setup = self.setup;
         let topic_name = |topic: &TopicInfo| topic_name(&setup, topic);
+        // The recording starts first, so that it has the first message of every topic.
         let recording = match &setup.record {
             Some(path) => Some(RecordingThread::start(path, topic_name)?),
             None => None,
@@ -209,6 +224,7 @@ impl PreparedNode {
             _ => None,
         };
         let port = self.port;
+        // The start of DDS waits for another process, which would block the tasks of this runtime.
         let port = tokio::task::spawn_blocking(move || port.start())
             .await
             .map_err(|error| NodeError::Stopped(error.to_string()))??;
@@ -221,6 +237,7 @@ impl PreparedNode {
         let receiver = || SampleReceiver {
             inputs: self.inputs.clone(),
             dds: port.monitor(),
+            // Samples are copied only where something keeps them.
             record: (recording.is_some() || live.is_some()).then(|| record.clone()),
             warned: Mutex::default(),
         };
@@ -231,6 +248,7 @@ impl PreparedNode {
         tasks.spawn(receive::receive_measured(receiver(), self.measured_samples));
         tasks.spawn(receive::update_targets(self.inputs.clone()));
 
+        // The alarms begin with the state of the last run: an acknowledgement survives a restart of the node.
         let finish = Arc::new(AtomicBool::new(false));
         let mut alarms = AlarmDesk::new(
             Arc::clone(&self.config),
@@ -244,6 +262,7 @@ impl PreparedNode {
         if self.config.look_ahead.advice {
             alarms.advised_by(Arc::clone(&self.answering.advisor));
         }
+        // The forecast desk exists only where forecasts are made, so that nothing is published that never changes.
         let forecasts = self.answering.forecasts.as_ref().map(Arc::clone);
         let publisher = Publisher::new(PublisherParts {
             end: self.publisher_end,
@@ -265,6 +284,8 @@ impl PreparedNode {
             moves: self.moves,
         })
         .map_err(|error| NodeError::Stopped(error.to_string()))?;
+        // The publisher runs before the solver builds its tool, which takes seconds: status and alarms of the node
+        // exist from the beginning.
         let publisher_thread = spawn("publisher", move || publisher.run())?;
 
         let (built_sender, built) = oneshot::channel();
@@ -276,6 +297,8 @@ impl PreparedNode {
             loop_end: self.loop_end,
         };
         let solver_thread = spawn("solver", move || solver.run(built_sender))?;
+        // The look-ahead has its own thread, because a fork of the run is
+        // expensive and must never hold up publisher or solver.
         let (what_if, answering) = (Arc::clone(&self.answering.what_if), self.answering);
         let look_ahead_thread = spawn("look-ahead", move || answering.run())?;
         Ok(RunningNode {
@@ -287,6 +310,7 @@ impl PreparedNode {
             gauges: self.gauges,
             publisher_thread,
             solver_thread,
+            // The caller learns by `built` whether the tool could be built; the thread itself ends only with the node.
             built: Some(built),
             finish,
             shut_down: self.shut_down,

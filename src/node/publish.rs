@@ -173,12 +173,14 @@ impl Publisher {
 
     /// Publishes everything that is queued or due. Returns whether the solver had sent something.
     fn poll(&mut self) -> bool {
+        // Stamps need the instant of the first step. Until the solver has fixed it, events wait in their ring.
         match (self.parts.gauges.start(), &mut self.outputs) {
             (Some(start), None) => self.begin(start),
             (Some(start), Some(outputs)) => outputs.set_start(start),
             (None, _) => {}
         }
         let mut worked = false;
+        // Events before statistics: a frame changes what the status reports in this same call.
         while let Ok(event) = self.parts.end.events.pop() {
             worked = true;
             if let Err(error) = self.publish_event(event)
@@ -187,17 +189,21 @@ impl Publisher {
                 tracing::error!("a message could not be encoded: {error}{more}");
             }
         }
+        // Emptied at every call, as the ring has room for some time only; the percentiles need every step.
         while let Ok(time) = self.parts.end.step_times.pop() {
             self.status.step_times.add(time);
         }
         while let Some(received) = self.parts.received.pop() {
             self.record_received(received);
         }
+        // Samples that the queue could not take are counted under their
+        // topic, and the alarm on the recording sees them.
         if let Some(recording) = &self.parts.recording {
             for (topic, samples) in self.parts.received.missed() {
                 recording.lose(topic, samples);
             }
         }
+        // What follows is paced by the wall clock, because it must continue when the model stands still or fails.
         let now = monotonic::now();
         self.status.note(self.pace_time(), &self.parts.gauges);
         let rates = self.parts.config.outputs.rates;
@@ -209,10 +215,14 @@ impl Publisher {
         }
         if due(&mut self.next_alarms, now, NODE_ALARM_RATE) {
             let pace = self.status.pace();
+            // The node's alarms are judged at a fixed rate, not with the status:
+            // a rate that a client sets must not delay an alarm.
             alarms::judge_node(&mut self.parts, self.failure, pace);
         }
         self.send_forecast();
         let parts = &mut self.parts;
+        // Requests of operators are answered before the list is published,
+        // so that an acknowledgement is in the next list.
         parts.alarms.answer(|| parts.clocks.rig_time());
         if self.parts.alarms.is_due(now) {
             let header = self.header();
@@ -241,11 +251,14 @@ impl Publisher {
     fn publish_event(&mut self, event: LoopEvent) -> Result<(), CdrError> {
         match event {
             LoopEvent::Frame(frame) => {
+                // The status sees every frame, also those that are not due on any topic.
                 self.status.observe(&frame.snapshot);
                 self.motion = MotionEvidence::of(&frame.snapshot);
                 let (parts, thinned) = (&self.parts, &mut self.thinned);
                 let began = monotonic::now();
                 let sent = self.outputs.as_mut().map_or(Ok(()), |outputs| {
+                    // Each message is encoded once. DDS may get fewer of them, and
+                    // combined ones; recording and viewers always get all.
                     outputs.frame(&frame, |encoded| {
                         match thinned.share(&frame, encoded.topic, encoded.cdr)? {
                             Share::Same => parts.publishers.publish(encoded.topic, encoded.cdr),
@@ -256,16 +269,19 @@ impl Publisher {
                         Ok::<(), CdrError>(())
                     })?;
                     thinned.end_frame(&frame);
+                    // The applied inputs are repeated, so that a recording that begins later has those in force.
                     outputs.repeat_applied(&frame, |encoded| parts.send(encoded))
                 });
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
                 if let Some(desk) = &mut self.parts.forecasts {
                     desk.observe(&frame);
                 }
+                // Alarms are judged at their rate in model time, so that a replay judges at the same steps.
                 if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
                     let stamp = outputs.instant(frame.ticks);
                     self.parts.alarms.observe_tool(&frame.snapshot, stamp);
                     let compared = following::compare_with_rig(&mut self.parts, &mut self.rig, &frame, stamp);
+                    // Between two comparisons the last one remains what the rig's alarm is judged by.
                     self.residuals = compared.or(self.residuals.take());
                 }
                 // The ring has room for all frames in circulation, so that this cannot fail.
@@ -279,6 +295,7 @@ impl Publisher {
             } => self.applied(&inputs, ticks, commands),
             LoopEvent::Failed(failure, _) => {
                 self.status.fail(failure);
+                // The alarm stands until the model runs again, whether or not the line below is logged.
                 self.failure = Some(failure);
                 // Inputs that change continuously repeat the step, and its failure, continuously.
                 let clock = monotonic::now() as f64 * 1e-9;
@@ -290,12 +307,14 @@ impl Publisher {
                          ~/reset is called{more}",
                         failure.time
                     );
+                    // A failure is published at once: the next status may be a second away.
                     self.send_status();
                     self.send_diagnostics();
                 }
                 Ok(())
             }
             LoopEvent::Recovered => {
+                // A recovery is logged only if its failure was, or the log would have an end without a beginning.
                 if std::mem::take(&mut self.failure_logged)
                     && let Some(more) = log_ending("the model runs again")
                 {

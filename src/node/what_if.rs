@@ -498,12 +498,15 @@ impl Answering {
         let Some(forecasts) = &self.forecasts else {
             return;
         };
+        // A fork of a failed or paused run would forecast a motion that does not take place.
         if self.gauges.run_state() != RunState::Running {
             return forecasts.note(Busy::StandsStill);
         }
         if Instant::now() < *at {
             return;
         }
+        // The flag comes before the check below: between them a goal can
+        // only come that sees the flag and stops this forecast.
         forecasts.note(Busy::Forecast);
         let stop = self.advisor.forecasts();
         // A goal that came before the flag was there is not kept waiting, and neither is the end of the node.
@@ -518,6 +521,8 @@ impl Answering {
                 let threads = settings.threads as usize;
                 let found = forecast(&start, settings.forecast_members, FORECAST_SEED, threads, &stop);
                 let Some(found) = found else { return };
+                // The forecast belongs to the instant of its fork. Viewers compare step and targets with the present
+                // ones, and see when it no longer applies.
                 Issued {
                     ticks,
                     step: applied.step,
@@ -525,6 +530,7 @@ impl Answering {
                     forecast: Ok(found),
                 }
             }
+            // A forecast that could not be made is issued too, because the page must not keep showing the last one.
             Err(why) => {
                 if let Some(more) = log_ending("no forecast") {
                     tracing::warn!("forecast: {why}{more}");
@@ -539,6 +545,7 @@ impl Answering {
         };
         tracing::debug!("forecast after {:.1} s", began.elapsed().as_secs_f64());
         forecasts.put(issued);
+        // The interval counts from the beginning, so that the computing time is part of it.
         *at = began + FORECAST_INTERVAL;
     }
 

@@ -62,6 +62,7 @@ pub(super) fn sentence(answer: &Answer, stopped_by: &str) -> String {
 }
 
 /// The answer on a candidate.
+// Taken apart by name: a new field of the candidate then does not compile until it has its place in the message.
 pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
     let Candidate {
         rotary_speed,
@@ -69,6 +70,8 @@ pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
         speed_ramp,
         weight_ramp,
     } = of.candidate;
+    // The members are counted by the quality of their worst moment; the
+    // client decides whether an answer from poor ones is of use.
     let [good, degraded, poor] = of.quality;
     WhatIfAnswer {
         candidate: WhatIfCandidate {
@@ -82,11 +85,13 @@ pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
         failed: of.failed,
         failure: of.failure.clone(),
         decided: of.decided,
+        // The interval comes with the chance: ten members do not distinguish 0 from 10 %.
         any_alarm: of.any_alarm.probability,
         any_alarm_lower: of.any_alarm.interval[0],
         any_alarm_upper: of.any_alarm.interval[1],
         alarms: of.alarms.iter().map(of_alarm).collect(),
         figures: Figure::ALL
+            // Name and unit are in every band, so that a client can show figures that it does not know.
             .iter()
             .zip(&of.figures)
             .map(|(figure, band)| {

@@ -98,6 +98,8 @@ pub fn study(
                 while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let point = &points[index];
                     let mut reported = 0.0;
+                    // Progress is counted in links: the cost of a point grows with them. Only the increase is sent, as
+                    // all threads share one sum.
                     let mut report = |share: f64| {
                         // The receiver outlives all threads of this scope.
                         let _ = sender.send((share - reported) * point.links as f64);
@@ -112,12 +114,14 @@ pub fn study(
                         }
                         result
                     });
+                    // A point that was kept reports its whole share here; one that became steady early, the rest.
                     report(1.0);
                     let mut found = found.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
                     found[index] = Some(result);
                 }
             });
         }
+        // The loop below ends with the last sender of the threads.
         drop(sender);
         let mut done = 0.0;
         for part in receiver {
@@ -132,6 +136,7 @@ pub fn study(
     Ok(points
         .iter()
         .zip(found)
+        // The closed form costs nothing and is computed again, so a kept point does not depend on its version.
         .map(|(point, found)| Row {
             length: point.config.well.length(),
             links: point.links,

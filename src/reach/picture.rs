@@ -19,6 +19,7 @@ pub fn figure(plan: &Plan, rows: &[Row]) -> Figure {
         .from_zero()
         .legend(Legend::Stacked);
     for (rotates, name, color) in [(true, "with rotation", WITH), (false, "without rotation", WITHOUT)] {
+        // A run that failed leaves a gap in the curve: a line across it would claim a value.
         let known = |row: &Row| Some(n_to_kn(row.found.as_ref().ok()?.weight[1]));
         weight = curve(weight, plan, rows, rotates, (name, color), known);
     }
@@ -26,6 +27,7 @@ pub fn figure(plan: &Plan, rows: &[Row]) -> Figure {
     weight = thin(weight, plan, rows, "soft string", soft);
     let mut torque = Panel::new("Torque with rotation", x, "N m")
         .from_zero()
+        // Torque exists only with rotation: a tool that does not turn has none to transfer.
         .legend(Legend::Stacked);
     for (end, name, color) in [(0, "at the kick-off", KICK_OFF), (1, "at the bit", WITH)] {
         let known = move |row: &Row| Some(row.found.as_ref().ok()?.torque[end]);
@@ -44,6 +46,7 @@ pub fn figure(plan: &Plan, rows: &[Row]) -> Figure {
     ] {
         let points: Vec<(f64, f64)> = rows
             .iter()
+            // One friction, the middle one: with all of them the few points would not be read.
             .filter(|row| row.friction == middle(plan) && row.rotates)
             .filter_map(|row| {
                 let found = row.found.as_ref().ok()?;
@@ -55,6 +58,7 @@ pub fn figure(plan: &Plan, rows: &[Row]) -> Figure {
         }
     }
     let mut panels = vec![weight, torque];
+    // Without buckling there is no third panel, and two panels fill the width.
     if !onset.lines.is_empty() {
         panels.push(onset.span(2));
     }

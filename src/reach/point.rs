@@ -119,10 +119,12 @@ impl Point {
     pub fn run(&self, load: &Load, report: &mut impl FnMut(f64)) -> Result<Found, String> {
         let tool = self.config.tool();
         let mut simulation = Simulation::new(&tool, &self.config.simulation()).map_err(|error| error.to_string())?;
+        // Whole steps and whole turns in each window: a mean over a part of a turn would differ from window to window.
         let step = simulation.settings().time_step;
         let steps = (load.window(step, self.rotates) / step).round() as u64;
         let per_sample = ((SAMPLE / step).round() as u64).max(1);
         let per_second = ((1.0 / step).round() as u64).max(1);
+        // Above a hoist the advance follows from the weight; without one it is an input.
         let inputs = Inputs {
             rotary_speed: if self.rotates { load.speed } else { 0.0 },
             weight_on_bit: load.weight,
@@ -133,12 +135,16 @@ impl Point {
         simulation.set_refinement(simulation.quality().choice.wanted);
         let mut snapshot = simulation.new_snapshot();
         let mut windows: Vec<[f64; 4]> = Vec::new();
+        // The forces are summed for each window from zero, so that the onset of
+        // buckling belongs to the steady motion and not to the start.
         loop {
             let mut forces = Forces::new(&simulation, &snapshot);
             for count in 0..steps {
                 if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
                     return Err(format!("the step at {:.1} s failed: {failure}", simulation.time()));
                 }
+                // The step is chosen once per second, as the node does: a
+                // choice within a second would follow single impacts.
                 if simulation.step().is_multiple_of(per_second) {
                     simulation.set_refinement(simulation.quality().choice.wanted);
                     report(simulation.time() / load.longest);
@@ -148,6 +154,7 @@ impl Point {
                     forces.add(&simulation, &snapshot);
                 }
             }
+            // With `true` the snapshot ends the interval of the means, so that the windows are disjoint.
             simulation.snapshot(&mut snapshot, true);
             let mean = &snapshot.transfer.mean;
             windows.push([
@@ -156,11 +163,13 @@ impl Point {
                 mean.torque[KICK_OFF],
                 mean.torque[BIT],
             ]);
+            // A mean without a value, at a tool without the sensor's place, would never become steady.
             let last = windows.last().into_iter().flatten();
             if let Some((missing, _)) = FIGURES.iter().zip(last).find(|(_, value)| !value.is_finite()) {
                 return Err(format!("the tool has no {missing}"));
             }
             let judged = Judged::of(&windows, load);
+            // The means can be steady by chance before the motion has run up through the whole tool.
             if judged.is_steady && simulation.time() >= self.settling() {
                 let [weight_at_top, weight, torque_at_top, torque] = judged.means;
                 let (guide, chain) = forces.onsets(&tool, weight_at_top);
@@ -174,6 +183,7 @@ impl Point {
                     time: simulation.time(),
                 });
             }
+            // The next window would end beyond the longest time: the result could only be another "not steady".
             if simulation.time() + steps as f64 * step > load.longest {
                 return Err(judged.unsteady(simulation.time()));
             }

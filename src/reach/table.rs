@@ -89,6 +89,7 @@ fn over_friction(rows: &[&Row], middle: f64, unit: &str, of: impl Fn(&Row) -> Op
 
 /// The results in words, a line each.
 pub fn words(plan: &Plan, rows: &[Row]) -> Vec<String> {
+    // One friction in the sentence; the range of the others follows in brackets.
     let middle = middle(plan);
     let mut lines = vec![format!(
         "At {:.2} kN put in and a friction coefficient of {middle}{}:",
@@ -104,6 +105,7 @@ pub fn words(plan: &Plan, rows: &[Row]) -> Vec<String> {
         let Some(length) = turning.first().map(|row| row.length) else {
             continue;
         };
+        // A row that failed has no figure here, and its reason at the end.
         let torque = |row: &Row| row.found.as_ref().ok().map(|found| found.torque[1]);
         let top = |row: &Row| row.found.as_ref().ok().map(|found| found.torque[0]);
         let weight = |row: &Row| row.found.as_ref().ok().map(|found| n_to_kn(found.weight[1]));
@@ -121,6 +123,7 @@ pub fn words(plan: &Plan, rows: &[Row]) -> Vec<String> {
     lines.push(onset(rows, "The chain of links folds (T > N_eff L / 2)", |row| {
         row.found.as_ref().ok()?.chain_folds_at
     }));
+    // A bit that hardly advances has not reached the state that the figures assume, so its points are named.
     let slow = |row: &&Row| row.rotates && row.found.as_ref().is_ok_and(|found| found.advance < HARDLY);
     let still: Vec<f64> = rows.iter().filter(slow).map(|row| row.length).collect();
     if let (Some(first), count) = (still.first(), still.len()) {
@@ -130,6 +133,7 @@ pub fn words(plan: &Plan, rows: &[Row]) -> Vec<String> {
             counted(count as u64, "point")
         ));
     }
+    // Failures come last and completely: an unknown point must not look like one that was left out on purpose.
     for row in rows {
         if let Err(cause) = &row.found {
             lines.push(format!(

@@ -181,13 +181,17 @@ impl FailoverRecorder {
     /// # Errors
     /// [`BagError::Incomplete`] when any of these could not be written.
     pub fn finish(mut self) -> Result<Recording, BagError> {
+        // A file that was moved or removed meanwhile is abandoned first, so
+        // that the open chunk goes to one that is in place.
         self.check_in_place();
         self.flush();
+        // A last attempt: the messages of the open chunk have no other file, and the disk may have space again.
         if self.part.is_none() {
             self.resume();
         }
         let mut problem = None;
         match self.part.take() {
+            // The file is kept even if its index does not fit: a reader can do without one.
             Some(mut part) => {
                 if let Err(error) = part.end(&self.topics) {
                     self.end_early(&mut part, &error);
@@ -196,13 +200,18 @@ impl FailoverRecorder {
                 self.keep(&part);
             }
             None => {
+                // Nothing can be written, so the open chunk is lost with it, and the
+                // error that stopped the recording is the one to report.
                 self.lost += self.open.len() as u64;
                 problem = self.error.take();
             }
         }
+        // Files whose index had no room get a last chance, now that nothing else is written.
         self.end_unended();
         self.report();
+        // Messages that the queue refused never arrived here, but they are missing as well.
         let lost = self.lost + self.health.not_handed_over();
+        // Without any file there is nothing that metadata could describe.
         if !self.done.is_empty() {
             let counted = [
                 ("flexdrill_messages_lost", lost),
@@ -211,6 +220,7 @@ impl FailoverRecorder {
             let custom: Vec<(&str, String)> = counted.map(|(key, count)| (key, count.to_string())).to_vec();
             let body = metadata::body(&self.topics, &self.done, &custom);
             let written = metadata::write(&*self.storage, &self.location.metadata, &body);
+            // The first problem is the cause; a failure of the metadata is mostly its consequence.
             problem = problem.or(written.err());
         }
         let all = self.in_files();

@@ -22,16 +22,19 @@ pub(crate) struct FileEntry {
 
 /// The YAML under `rosbag2_bagfile_information` for these files; `custom` are rosbag2's free pairs of key and value.
 pub(crate) fn body(topics: &[Topic], files: &[FileEntry], custom: &[(&str, String)]) -> String {
+    // rosbag2 sums over all files in the head and lists each file's own counts below.
     let mut all = Tally::new(topics.len());
     for file in files {
         all.add(&file.tally);
     }
+    // YAML needs `[]` for an empty list: a key without a value would be null.
     let none = |empty: bool| if empty { " []" } else { "" };
     let mut text = format!(
         "version: 9\nstorage_identifier: mcap\n{}topics_with_message_count:{}\n",
         times(&all),
         none(topics.is_empty())
     );
+    // The keys stand in the order that rosbag2 writes, with its quotes: names of topics may hold any character.
     for (topic, count) in topics.iter().zip(&all.per_topic) {
         let _ = write!(
             text,
@@ -52,6 +55,7 @@ pub(crate) fn body(topics: &[Topic], files: &[FileEntry], custom: &[(&str, Strin
         "compression_format: \"\"\ncompression_mode: \"\"\nrelative_file_paths:{}",
         none(files.is_empty())
     );
+    // rosbag2 writes both lists, the names alone and the files with their counts.
     for file in files {
         let _ = writeln!(text, "- {}", quoted(&file.name));
     }
@@ -60,6 +64,7 @@ pub(crate) fn body(topics: &[Topic], files: &[FileEntry], custom: &[(&str, Strin
         let times = nested(&times(&file.tally), "  ");
         let _ = write!(text, "- path: {}{times}", quoted(&file.name));
     }
+    // `~` is what rosbag2 writes without custom data.
     if custom.is_empty() {
         text.push_str("custom_data: ~\n");
     } else {
@@ -68,6 +73,7 @@ pub(crate) fn body(topics: &[Topic], files: &[FileEntry], custom: &[(&str, Strin
     for (key, value) in custom {
         let _ = writeln!(text, "  {key}: {}", quoted(value));
     }
+    // The distribution whose rosbag2 writes version 9.
     text.push_str("ros_distro: jazzy\n");
     text
 }

@@ -50,11 +50,14 @@ impl RecordingThread {
         path: &Path,
         name: impl Fn(&TopicInfo) -> String,
     ) -> Result<Self, BagError> {
+        // All topics are declared at the start, so that every file of the recording has the same channels.
         let recorded: Vec<Topic> = topics::ALL
             .iter()
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
         let health = Arc::new(RecordingHealth::default());
+        // The queue is bounded and never waited for: when it is full,
+        // messages are counted as lost and the node goes on.
         let (queue, items) = sync_channel(QUEUE);
         let queued = Arc::new(AtomicUsize::new(0));
         let (waiting, shared, target) = (Arc::clone(&queued), Arc::clone(&health), path.to_owned());
@@ -73,10 +76,12 @@ impl RecordingThread {
                 None => Err(BagError::Stopped { path: target }),
             }
         };
+        // A thread that cannot start leaves nothing behind, and its error is the caller's.
         let thread = std::thread::Builder::new()
             .name("recorder".into())
             .spawn(work)
             .map_err(BagError::io("start the recorder of", path))?;
+        // The wait is bounded for the same dead disk. The thread is then abandoned, as nothing can interrupt its call.
         match begun.recv_timeout(PATIENCE) {
             Ok(begun) => begun?,
             Err(_) => {

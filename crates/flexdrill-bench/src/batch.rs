@@ -65,8 +65,11 @@ pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&s
         ..Inputs::default()
     };
     say(&format!("{RUN_UP} s of model time until the run is forked"));
+    // The speed must have been reached before the fork: members at rest
+    // would cost fewer iterations than those of a look-ahead.
     advance(&mut run, &inputs, (RUN_UP / config.solver.time_step).round() as u64)?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    // Model time per wall time is what a user waits for; per processor time shows whether threads hinder each other.
     let mut table = Table::new([
         "threads",
         "members in turn on a thread",
@@ -77,8 +80,10 @@ pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&s
         "deadlines missed",
     ]);
     let mut modes = Vec::new();
+    // Powers of two show the trend; all counts between them would take long on a large machine.
     for live in [false, true] {
         for threads in (1..=cores).filter(|threads| threads.is_power_of_two()) {
+            // Two members in turn on one thread show what the cache loses by a second state. Once is enough.
             let in_turn = if threads == 1 && !live { &[1, 2][..] } else { &[1] };
             modes.extend(in_turn.iter().map(|&in_turn| Mode { threads, in_turn, live }));
         }
@@ -93,6 +98,7 @@ pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&s
             if mode.live { "yes" } else { "no" }.to_owned(),
             format!("{factor:.2}"),
             format!("{:.2}", measured.model / measured.processor),
+            // The unit of a map: members of a minute of model time, by the minute.
             format!("{:.1}", 60.0 * factor / MEMBER),
             measured
                 .deadlines

@@ -82,8 +82,10 @@ impl Figures {
 
     /// Adds a row per figure to `table`.
     pub fn rows(&self, last: &Snapshot, table: &mut Table) {
+        // At least one, so that a run that was too short has zeros and not NaN.
         let count = f64::from(self.taken.max(1));
         let mean = self.bit.sum / count;
+        // Rounding can make the variance of a steady speed slightly negative.
         let spread = (self.bit.squares / count - mean * mean).max(0.0).sqrt();
         let (low, high) = self.bit.range.unwrap_or_default();
         table.row([
@@ -102,6 +104,7 @@ impl Figures {
             ("pipe-guide", &self.inner_square, &self.inner_peak),
             ("guide-wall", &self.outer_square, &self.outer_peak),
         ] {
+            // Index of the largest value; the place of the largest RMS and that of the largest peak differ as a rule.
             let at = |values: &[f64]| {
                 (0..values.len())
                     .max_by(|&a, &b| values[a].total_cmp(&values[b]))
@@ -113,6 +116,7 @@ impl Figures {
                 format!("{name} force: largest rms, largest peak"),
                 format!(
                     "{:.0} N at {:.0} deg, {:.0} N at {:.0} deg",
+                    // The sums are of squares over the frames: the RMS is formed once, here.
                     (square[s] / count).sqrt(),
                     place(s),
                     peak[p],
@@ -120,6 +124,7 @@ impl Figures {
                 ),
             ]);
         }
+        // Counts at one instant: whirl comes and ends during a run, so these are of its last state.
         let kinds = |kind| last.whirl.kind.iter().filter(|&&k| k == kind).count();
         use flexdrill_motion::WhirlKind::{Backward, Chaotic, Forward};
         table.row([

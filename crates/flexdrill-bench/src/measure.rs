@@ -107,7 +107,9 @@ pub fn percentiles(times: &Histogram<u64>) -> [f64; 4] {
 /// # Errors
 /// When the tool cannot be built. A step that fails ends the run and is part of the result.
 pub fn run(config: &Config, load: Load, duration: f64, mut every_frame: impl FnMut(f64)) -> anyhow::Result<Measured> {
+    // The tool starts under its load, so that the static start is the one that the node would have.
     let config = config.with_value("inputs.weight_on_bit.initial_kn", load.wob)?;
+    // The clock around the construction shows the static start, which has no steps.
     let began = monotonic::now();
     let mut simulation = Simulation::with_solver(
         &config.tool(),
@@ -125,8 +127,10 @@ pub fn run(config: &Config, load: Load, duration: f64, mut every_frame: impl FnM
     };
     let mut last = simulation.new_snapshot();
     let mut figures = Figures::new(&last);
+    // A histogram instead of a list: the tail counts, and its memory does not grow with the run.
     let mut step_times = Histogram::<u64>::new_with_bounds(1, LONGEST, 3)?;
     let mut frame_times = step_times.clone();
+    // A frame is the snapshot of 20 ms that the node publishes; the step alone would hide its cost.
     let per_frame = (FRAME / time_step).round().max(1.0) as u64;
     let total = (duration / time_step).round() as u64;
     let (mut steps, mut busy, mut frame) = (0, 0, 0);
@@ -135,6 +139,8 @@ pub fn run(config: &Config, load: Load, duration: f64, mut every_frame: impl FnM
     let mut aside = 0;
     let processor = monotonic::processor_time();
     while steps < total {
+        // The clock is read around each step. Sums from one reading to the
+        // next would have the figures and the output in them.
         let before = monotonic::now();
         let outcome = simulation.advance(&inputs);
         let mut took = monotonic::now() - before;
@@ -160,6 +166,7 @@ pub fn run(config: &Config, load: Load, duration: f64, mut every_frame: impl FnM
             frame = 0;
             // What the bench itself does is not the model's.
             let before = monotonic::processor_time();
+            // The first quarter is the run-up to speed, and does not belong to the figures.
             if steps * 4 >= total {
                 figures.add(&last);
             }

@@ -12,6 +12,7 @@ use flexdrill_core::dynamics::phases::Phase;
 /// # Errors
 /// When a tool cannot be built. A failed step is a line of the table.
 pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&str)) -> anyhow::Result<String> {
+    // Times in percentiles, because the deadline is missed by the slowest steps and not by the mean.
     let mut speed = Table::new([
         "case",
         "real-time factor",
@@ -22,15 +23,18 @@ pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&s
         "halved, rejected",
         "energy error",
     ]);
+    // The columns follow the phases of the stepper, so that a new phase appears by itself.
     let names: Vec<&str> = std::iter::once("case")
         .chain(Phase::ALL.map(Phase::name))
         .chain(["sum"])
         .collect();
     let mut phases = Table::with_head(&names);
     let mut failures = String::new();
+    // The hard cases change the tool; the last one, a whirling pipe, changes the motion.
     for case in hard(config).iter().chain([&WHIRLING]) {
         say(&format!("{}: {duration} s of model time", case.name));
         let config = (case.changes)(config)?;
+        // A case may have its own speed, at which its difficulty shows.
         let load = Load {
             wob: case.wob,
             rpm: case.rpm.unwrap_or(load.rpm),
@@ -48,6 +52,7 @@ pub fn tables(config: &Config, load: Load, duration: f64, mut say: impl FnMut(&s
             )
             .collect();
         phases.cells(&cells);
+        // A failed step is a finding on that case and must not end the other cases.
         if let Some(failure) = measured.failure {
             failures.push_str(&format!(
                 "\nFailed: {}, at model time {:.3} s: {}.\n",

@@ -69,10 +69,12 @@ impl Following {
             to: None,
             held: Some(held),
         };
+        // A sample that did not count brings no new estimate, so there is nothing to move to.
         if let Some(frozen) = frozen {
             return held(Held::Frozen(frozen));
         }
         let s = &self.settings;
+        // Half of the 90 % band. Moving to an uncertain estimate would carry its scatter into every force of the twin.
         let half = estimate.deviations().map(|deviation| BAND * deviation);
         if half[0] > s.bands[0] {
             return held(Held::FactorUncertain(half[0], s.bands[0]));
@@ -81,14 +83,18 @@ impl Following {
             return held(Held::TareUncertain(half[1], s.bands[1]));
         }
         let wanted = [estimate.factor(), estimate.tare()];
+        // The limits bound the target and not the step, so that the reason can say which parameter has no more room.
         let target = [0, 1].map(|k| wanted[k].clamp(s.limits[k][0], s.limits[k][1]));
         let ahead = [0, 1].map(|k| target[k] - applied[k]);
+        // Clamping returns the limit itself, so equality with it is exact.
         let at_limit = |k: usize| s.limits[k].contains(&target[k]);
         let stopped = if at_limit(0) {
             Some(Held::FactorAtLimit(target[0]))
         } else {
             at_limit(1).then_some(Held::TareAtLimit(target[1]))
         };
+        // With hysteresis: the way begins beyond a quarter of the half band,
+        // and then continues until the estimate is reached.
         self.moving |= (0..2).any(|k| ahead[k].abs() > CALM * half[k]);
         if !self.moving {
             return Moved {
@@ -99,6 +105,8 @@ impl Following {
         // The share of the way that both rates allow. A step beyond a minute counts as one: the clock may have jumped.
         let minutes = (step / 60.0).min(1.0);
         let share = (0..2).fold(1.0_f64, |share, k| share.min(s.rates[k] * minutes / ahead[k].abs()));
+        // A share of one arrives at the target exactly; rounding on the way
+        // would leave a rest that is moved again and again.
         self.moving = share < 1.0;
         let to = if self.moving {
             [0, 1].map(|k| (applied[k] + share * ahead[k]).clamp(s.limits[k][0], s.limits[k][1]))

@@ -56,7 +56,9 @@ pub struct CombinedPair {
 
 /// Estimates and pairs from a posterior ensemble of standardised unknowns, one column per member.
 pub fn identify(unknowns: &[Unknown], posterior: &DMatrix<f64>) -> (Vec<Estimate>, Vec<CombinedPair>) {
+    // The unknowns are standardised: their prior has mean 0 and variance 1.
     let mean = posterior.column_mean();
+    // At least one as the divisor, so that an ensemble of one member has no spread instead of NaN.
     let divisor = (posterior.ncols().max(2) - 1) as f64;
     let covariance = DMatrix::from_fn(unknowns.len(), unknowns.len(), |i, j| {
         let products = posterior
@@ -69,20 +71,28 @@ pub fn identify(unknowns: &[Unknown], posterior: &DMatrix<f64>) -> (Vec<Estimate
         .iter()
         .enumerate()
         .map(|(index, unknown)| {
+            // The prior variance is 1, so the posterior variance is the ratio of both.
             let ratio = covariance[(index, index)];
             let paired = pairs.iter().any(|pair| pair.unknowns.contains(&index));
+            // Without information of the data the ensemble's own mean and
+            // deviation are noise; the prior is the honest answer.
             let (middle, deviation) = if ratio > NOT_IDENTIFIABLE {
                 (0.0, 1.0)
             } else {
                 (mean[index], ratio.sqrt())
             };
             let value = unknown.value(middle);
+            // The ends are transformed and not the deviation: the band of a logarithmic normal is not symmetrical.
             let band = [-BAND, BAND].map(|z| unknown.value(middle + deviation * z));
             let [low, high] = unknown.prior();
+            // A relative precision has no meaning for an unknown that may be zero,
+            // such as a tare; its prior's width is the measure there.
             let size = match unknown.shape() {
                 Shape::Normal => high - low,
                 Shape::LogNormal => value,
             };
+            // From the worst verdict to the best: a narrow band says little
+            // about an unknown that is only known in combination.
             let verdict = if ratio > NOT_IDENTIFIABLE {
                 Verdict::NotIdentifiable
             } else if paired && ratio > ALONE {

@@ -185,6 +185,7 @@ enum Side {
 /// within their bands. What is measured in the hole decides between causes that look the same from the surface.
 pub fn causes(ratios: &[Option<f64>; Quantity::COUNT], drilling: bool) -> Vec<Cause> {
     use Cause::*;
+    // A quantity that is not measured (unknown) and one that agrees (within) mean different causes.
     let [torque, hook_load, speed, bit_torque, bit_weight] = ratios.map(|ratio| match ratio {
         Some(ratio) if ratio > 1.0 => Side::High,
         Some(ratio) if ratio < -1.0 => Side::Low,
@@ -193,18 +194,22 @@ pub fn causes(ratios: &[Option<f64>; Quantity::COUNT], drilling: bool) -> Vec<Ca
     });
     let beyond = |side: Side| matches!(side, Side::High | Side::Low);
     let mut all = Vec::new();
+    // The order within the lists is that of likelihood, and the causes
+    // nearest to the bit come first: they explain all others.
     if drilling {
         match bit_weight {
             Side::Low => all.extend([WeightLost, WeightSensor]),
             Side::High => all.push(WeightSensor),
             Side::Within | Side::Unknown => {}
         }
+        // Less torque at the bit is the bit's own only if the weight has arrived there.
         match (bit_torque, bit_weight) {
             (Side::Low, Side::Within | Side::High) => all.push(BitTakesLess),
             (Side::Low, Side::Unknown) => all.extend([BitTakesLess, WeightLost]),
             (Side::High, Side::Within | Side::Low | Side::Unknown) => all.push(BitTakesMore),
             _ => {}
         }
+        // A torque at the bit that is measured removes the bit from the causes of the torque at the surface.
         all.extend::<&[Cause]>(match (torque, bit_torque) {
             (Side::High, Side::Unknown) => &[FrictionHigher, BitTakesMore, WeightSensor],
             (Side::High, Side::Within | Side::Low) => &[FrictionHigher, TorqueSensor],
@@ -213,11 +218,14 @@ pub fn causes(ratios: &[Option<f64>; Quantity::COUNT], drilling: bool) -> Vec<Ca
             _ => &[],
         });
     } else {
+        // Off bottom only friction remains. Friction rarely falls by
+        // itself, so with a low torque the sensor comes first.
         all.extend::<&[Cause]>(match torque {
             Side::High => &[FrictionHigher, TorqueSensor],
             Side::Low => &[TorqueSensor, FrictionLower],
             Side::Within | Side::Unknown => &[],
         });
+        // Off bottom the bit carries neither torque nor weight, so what a sensor in the hole shows is its own error.
         if beyond(bit_torque) || beyond(bit_weight) {
             all.push(DownholeSensor);
         }
@@ -228,6 +236,7 @@ pub fn causes(ratios: &[Option<f64>; Quantity::COUNT], drilling: bool) -> Vec<Ca
     if beyond(speed) {
         all.push(SpeedSensor);
     }
+    // Several measurements may name the same cause. The first mention counts, so that the order of likelihood remains.
     let mut seen = Vec::new();
     all.retain(|cause| {
         let fresh = !seen.contains(cause);

@@ -99,6 +99,8 @@ impl Surrogate {
     /// When there are too few points, or they do not differ in every input.
     pub fn new(quantity: &str, inputs: &[Vec<f64>], results: &[f64]) -> Result<Self, CalibrationError> {
         let dimensions = inputs.first().map_or(0, Vec::len);
+        // Twice as many points as coefficients of the mean at least; with
+        // fewer the error of points left out would mean nothing.
         let (count, least) = (coefficients(dimensions), least_points(dimensions));
         if inputs.len() < least || inputs.len() != results.len() {
             return Err(CalibrationError::FewPoints {
@@ -111,21 +113,25 @@ impl Surrogate {
         let poor = || CalibrationError::PoorPoints {
             quantity: quantity.to_owned(),
         };
+        // The inputs are scaled to -1 to 1 over the points, so that lengths of all inputs have the same bounds.
         let scale: Vec<[f64; 2]> = (0..dimensions)
             .map(|k| {
                 let [low, high] = range(inputs.iter().map(|point| point[k]));
                 [0.5 * (low + high), 0.5 * (high - low)]
             })
             .collect();
+        // An input that does not vary has no length that could be found.
         if scale.iter().any(|[_, half]| !half.is_finite() || *half <= 0.0) {
             return Err(poor());
         }
         let seen: Vec<Vec<f64>> = inputs.iter().map(|point| scaled(&scale, point)).collect();
+        // The mean is linear: a constant and a term for each input.
         let terms = DMatrix::from_fn(
             seen.len(),
             count,
             |k, term| if term == 0 { 1.0 } else { seen[k][term - 1] },
         );
+        // Points along a line vary in every input, but do not determine the terms; only the rank shows that.
         let eigenvalues = (terms.transpose() * &terms).symmetric_eigenvalues();
         if eigenvalues.min() <= RANK * eigenvalues.max() {
             return Err(poor());
@@ -133,6 +139,7 @@ impl Surrogate {
         let y = DVector::from_row_slice(results);
         let search = Search { seen: &seen, terms, y };
         let fitted = search.best().ok_or_else(poor)?;
+        // The error comes from points left out, because at its own points the process has none.
         let (errors, stated) = search.left_out(&fitted);
         let squares: f64 = errors.iter().map(|error| error * error).sum();
         Ok(Self {
@@ -255,9 +262,11 @@ impl Search<'_> {
     /// (Rasmussen and Williams, eq. 2.45, with the variance at its best value) and of the density of the lengths.
     fn fit(&self, logarithms: &[f64]) -> Option<(f64, Fitted)> {
         let (noise, lengths) = logarithms.split_last()?;
+        // The search is in logarithms, which keeps lengths and noise positive.
         let inverse: Vec<f64> = lengths.iter().map(|length| libm::exp(-length)).collect();
         let noise = libm::exp(*noise);
         let count = self.seen.len();
+        // In units of the process's variance, which has a closed form below and needs no search.
         let mut covariance = DMatrix::from_diagonal_element(count, count, 1.0 + noise);
         for i in 0..count {
             for j in 0..i {
@@ -265,16 +274,22 @@ impl Search<'_> {
                 covariance[(i, j)] = correlation(&self.seen[i], &self.seen[j], &inverse);
             }
         }
+        // With the Cholesky factor the correlated residuals become independent ones of equal variance.
         let factor = Cholesky::<f64, Dyn>::new(covariance)?.l();
         let half = factor.solve_lower_triangular(&self.terms)?;
         let half_y = factor.solve_lower_triangular(&self.y)?;
+        // Generalised least squares for the coefficients of the mean.
         let mean_factor = (half.transpose() * &half).cholesky()?;
         let mean = mean_factor.solve(&(half.transpose() * &half_y));
         let left = half_y - &half * &mean;
+        // Restricted likelihood: the fitted coefficients of the mean reduce the
+        // degrees of freedom, or the variance would be too small.
         let freedom = (count - self.terms.ncols()) as f64;
+        // Results along a line leave nothing but rounding; without a floor the logarithm below would be infinite.
         let variance = (left.norm_squared() / freedom).max((ROUNDING * self.y.amax()).powi(2));
         let mean_factor = mean_factor.l();
         let determinant = |factor: &DMatrix<f64>| factor.diagonal().iter().map(|value| libm::log(*value)).sum::<f64>();
+        // The likelihood is flat where few points show a length; the density decides there.
         let unusual = lengths.iter().map(|length| {
             let [usual, deviation] = USUAL_LENGTH;
             0.5 * ((length - usual) / deviation).powi(2)
@@ -283,6 +298,7 @@ impl Search<'_> {
             + determinant(&factor)
             + determinant(&mean_factor)
             + unusual.sum::<f64>();
+        // A prediction then costs one product with these weights.
         let weights = factor.transpose().solve_upper_triangular(&left)?;
         let fitted = Fitted {
             inverse,

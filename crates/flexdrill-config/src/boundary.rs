@@ -95,6 +95,7 @@ impl Default for Boundary {
 
 impl Boundary {
     pub(super) fn check(&self, c: &mut Checker, mesh: &Mesh) {
+        // Each support is checked with its index, so that the error points at the line of the file.
         c.below("supports", |c| {
             for (index, held) in self.supports.iter().enumerate() {
                 c.below(index, |c| {
@@ -107,6 +108,8 @@ impl Boundary {
                         "at least one of u, v, w, psi, phi_y, phi_z",
                         "a support that holds nothing is a mistake",
                     );
+                    // A support of the spin at the drive would hold the node
+                    // against the speed that the drive prescribes.
                     let spin_held_at_drive = self.drive == Drive::Top
                         && held.body == Body::Pipe
                         && matches!(
@@ -125,6 +128,7 @@ impl Boundary {
                 });
             }
         });
+        // The checks from here on concern combinations of keys, each valid by itself.
         let nothing_held = self.preset == Preset::None && self.supports.is_empty();
         c.require(
             !nothing_held,
@@ -142,6 +146,8 @@ impl Boundary {
             "free when the preset is none",
             "it belongs to the preset; hold u at the bottom with a support",
         );
+        // With the weight at the kick-off its reaction is the input, so exactly one support may carry the guide along
+        // the hole, and that at the top.
         let at_kickoff = self.weight_on_bit_at == WeightPlace::Kickoff;
         c.require(
             !at_kickoff || self.wob_path == WobPath::Guide,
@@ -151,10 +157,12 @@ impl Boundary {
             "bit with boundary.wob_path shared",
             "the pipe carries a part of the weight there",
         );
+        // The supports of the preset count with those of the configuration: what holds is the sum of both.
         let held = |bottom: bool| {
             self.describe(mesh, false).iter().any(|support| {
                 let top = match support.location {
                     Location::Top | Location::Station(0) => Some(true),
+                    // A support along the whole tool holds the top and everything below.
                     Location::All => None,
                     _ => Some(false),
                 };

@@ -246,9 +246,13 @@ impl HardBounds {
         ] {
             rows.push((format!("{group}.{key}"), side, limit, value));
         }
+        // What the configuration may set is known by its keys. A limit on a
+        // key that is not live has no effect and costs nothing.
         let numbers = config.numbers();
         let rates = numbers.iter().filter(|number| number.key.starts_with("outputs.rates."));
         rows.extend(rates.map(|number| (number.key.clone(), High, "rate", limits.rate)));
+        // A value of the configuration beyond its hard limit is the limit itself: the file is the operator's decision,
+        // and a parameter may come from any client.
         let bound = |(key, side, limit, value): (String, Side, &str, f64)| {
             let own = numbers.iter().find(|number| number.key == key)?;
             let (low, high) = match side {

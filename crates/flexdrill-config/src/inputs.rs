@@ -231,12 +231,14 @@ impl InputsConfig {
 
     /// For the input conditioning; `used` says which inputs the tool's mechanics depend on, by [`InputKind::index`].
     pub fn rules_of(&self, used: [bool; InputKind::COUNT]) -> InputRules {
+        // The order is that of `InputKind::index`; rules are found by it.
         let (speed, weight) = (&self.rotary_speed, &self.weight_on_bit);
         let (advance, pressure) = (&self.rate_of_penetration, &self.standpipe_pressure);
         [
             InputRule {
                 min: speed.min_rpm,
                 max: speed.max_rpm,
+                // A speed has no tare: the sensor counts turns, and its zero is exact.
                 tare_error: 0.0,
                 initial: speed.initial_rpm,
                 safe: speed.safe_rpm,
@@ -262,6 +264,7 @@ impl InputsConfig {
                 min: advance.min_m_per_h,
                 max: advance.max_m_per_h,
                 tare_error: 0.0,
+                // Optional inputs begin with an assumed value, because a rig need not have them at all.
                 initial: advance.assumed_m_per_h,
                 safe: advance.safe_m_per_h,
                 safe_ramp: advance.safe_ramp_m_per_h_per_s,
@@ -271,6 +274,8 @@ impl InputsConfig {
                 used: used[2],
             },
             InputRule {
+                // A pressure sensor has an offset at zero, as the hook load
+                // has, so small negative readings are its tare.
                 min: pressure.min_mpa,
                 max: pressure.max_mpa,
                 tare_error: pressure.tare_error_mpa,

@@ -134,11 +134,13 @@ impl History {
     fn check(&self, c: &mut Checker) {
         match self {
             Self::Constant(value) => c.number("constant", *value, FORCE, "N or N m", FORCE_REASON),
+            // Names of the variants are part of the path, so that the error shows the key as the file has it.
             Self::Ramp { rate, start, end } => c.below("ramp", |c| {
                 c.number("rate", *rate, FORCE, "N/s or N m/s", FORCE_REASON);
                 c.number("start", *start, TIME, "s", TIME_REASON);
                 c.number("end", *end, TIME, "s", TIME_REASON);
                 let bound = format!("after start, {} s", number(*start));
+                // A ramp without a duration would be a jump.
                 c.require(
                     end > start,
                     "end",
@@ -160,12 +162,14 @@ impl History {
             }),
             Self::Table(points) => c.below("table", |c| {
                 c.require(!points.is_empty(), "", "[]", "", "at least one [time, value] pair", "");
+                // Minus infinity before the first pair makes the first comparison true.
                 let mut before = f64::NEG_INFINITY;
                 for (index, &(time, value)) in points.iter().enumerate() {
                     c.below(index, |c| {
                         c.number("0", time, TIME, "s", TIME_REASON);
                         c.number("1", value, FORCE, "N or N m", FORCE_REASON);
                         let bound = format!("after the pair before, {} s", number(before));
+                        // Equal times would leave the value between two pairs undefined.
                         c.require(time > before, "0", number(time), "s", bound, "times must increase");
                     });
                     before = time;

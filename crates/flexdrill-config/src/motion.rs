@@ -54,6 +54,8 @@ impl Config {
     /// outputs, look-ahead, advice and the alarms of the node are left out: a result that was computed for one
     /// configuration holds for every other of the same motion.
     pub fn motion_hash(&self) -> String {
+        // The tree has the keys as the file has them, defaults included, so
+        // that a default that is written out changes nothing.
         let tree = self.to_tree();
         let of = |value: &Value, keys: &[&str]| -> Map<String, Value> {
             let present = keys
@@ -61,8 +63,11 @@ impl Config {
                 .filter_map(|key| Some(((*key).to_owned(), value.get(key)?.clone())));
             present.collect()
         };
+        // Sections are chosen and not removed, so that a new section is not part of the motion before it is listed.
         let mut motion = of(&tree, SECTIONS);
         let mut alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
+        // An off-delay holds an alarm for the operator. Runs are judged with
+        // at most this one, so longer ones give the same result.
         for alarm in alarms.values_mut() {
             if let Some(delay) = alarm.get_mut("off_delay") {
                 *delay = Value::from(delay.as_f64().unwrap_or_default().min(PROMPT_OFF_DELAY));
@@ -93,6 +98,7 @@ impl Config {
                 }
             }
         }
+        // The factor of the calibration acts on the motion, although its section does not as a whole.
         let factor = self.calibration.friction_factor;
         if factor != 1.0 {
             motion.insert("friction_factor".to_owned(), Value::from(factor));

@@ -83,9 +83,11 @@ pub enum End {
 
 impl Pressure {
     pub(super) fn check(&self, c: &mut Checker, schema: &Schema) {
+        // A pressure that comes as an input has no constant to check here; its range is that of the input.
         if let AtTop::Constant(at_top) = self.at_top {
             c.number("at_top", at_top, AT_TOP, "Pa", "in Pa; a rig's pumps give up to 35e6");
         }
+        // The drop may at most use up the whole pressure over the length of the tool.
         let most = Bound::within(0.0, 1.0 / schema.well.length());
         c.number(
             "drop_per_metre",
@@ -94,6 +96,7 @@ impl Pressure {
             "1/m",
             "friction cannot take more than there is: one over the tool's length",
         );
+        // Without diameters the tool's own apply.
         for (key, diameter) in [
             ("seal_diameter", self.seal_diameter),
             ("joint_seal_diameter", self.joint_seal_diameter),
@@ -102,11 +105,13 @@ impl Pressure {
                 c.number(key, diameter, DIAMETER, "m", DIAMETER_REASON);
             }
         }
+        // There is no safe default: a closed, a sealed and a held end have different signs of the pressure's force.
         let Some(end) = self.end else {
             let bound = "closed, sealed or held";
             let reason = "without an end condition a pressure has no effective tension; ask for the tool's drawing";
             return c.wrong("end", "left out", "", bound, reason);
         };
+        // The diameter belongs to one end condition. Elsewhere it would be ignored, and its author would not notice.
         c.require(
             (end == End::Sealed) == self.seal_diameter.is_some(),
             "seal_diameter",
@@ -116,6 +121,8 @@ impl Pressure {
             "given with end sealed and only with it",
             "the pressure pushes a sliding end up by its seal's area",
         );
+        // The end condition must repeat what the supports say, so that a change
+        // of one does not silently change the pressure's force.
         let held = schema.holds_pipe_end();
         let name = if held { "held" } else { "closed or sealed" };
         c.require(

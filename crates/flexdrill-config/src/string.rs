@@ -171,6 +171,7 @@ impl Section {
 
 impl DrillString {
     pub(super) fn check(&self, c: &mut Checker, time_step: f64) {
+        // Single numbers first: the sums and roots below need them in their ranges.
         self.check_numbers(c);
         c.require(
             self.model != Model::Line || !self.sections.is_empty(),
@@ -180,6 +181,7 @@ impl DrillString {
             "at least one section with model: line",
             "waves need something to travel through",
         );
+        // The bound is on the sum, because its parts share one memory of waves.
         let length: f64 = self.sections.iter().map(|section| section.length).sum();
         c.require(
             length <= LONGEST,
@@ -201,15 +203,19 @@ impl DrillString {
                         format!("below the outer diameter, {} m", section.outer_diameter),
                         "a pipe has a wall",
                     );
+                    // Friction and damping are lumped between pieces, so the pieces are shorter than the section.
                     let lumps = section.lumps(self).max(1) as f64;
+                    // The first and the last piece of a section are half ones; they decide.
                     let shortest = if section.lumps(self) > 0 {
                         0.5 * section.length / lumps
                     } else {
                         section.length
                     };
+                    // The axial wave is the faster one, and needs the longer piece.
                     let properties = section.properties(self);
                     let axial = (properties.axial / properties.mass).sqrt();
                     let least = LEAST_STEPS * time_step * axial;
+                    // A NaN was reported by the check of numbers; a second message on it would mislead.
                     c.require(
                         shortest >= least || shortest.is_nan() || least.is_nan(),
                         "length",
@@ -226,6 +232,7 @@ impl DrillString {
     /// The string for the mechanics, `None` without a line. Friction counts with the weight in mud: `gravity` is the
     /// effective one (m/s2).
     pub(super) fn describe(&self, gravity: f64, with_hoist: bool) -> Option<StringDescription> {
+        // Without a line the top of the tool is driven directly, and no string exists for the mechanics.
         if self.model != Model::Line {
             return None;
         }
@@ -233,23 +240,29 @@ impl DrillString {
         let mut weight = 0.0;
         for section in &self.sections {
             let properties = section.properties(self);
+            // `along` of the weight hangs on the hoist, `across` presses on the wall.
             let (across, along) = sine_and_cosine(deg_to_rad(section.inclination_deg));
             let per_metre = properties.mass * gravity;
             weight += per_metre * section.length * along;
             let lumps = section.lumps(self);
             let piece = |length: f64| Piece::of(&properties, length);
+            // A section that neither rubs nor damps is one piece: waves pass through it without a loss.
             if lumps == 0 {
                 pieces.push(piece(section.length));
                 continue;
             }
             let lump = section.length / lumps as f64;
             let normal = per_metre * lump * across;
+            // Half pieces at both ends put the lumps into the middle of their
+            // parts, so the friction acts where it arises on average.
             for k in 0..=lumps {
                 let length = if k == 0 || k == lumps { 0.5 * lump } else { lump };
                 let mut piece = piece(length);
+                // The loss of a whole lump is at its lower end; the last half piece has none, or it would count twice.
                 if k < lumps {
                     piece = piece.with_loss(self.attenuation_per_km * lump / 1000.0);
                 }
+                // No friction without a side force: a vertical section does not lie on the wall.
                 let rubs = k < lumps && normal > 0.0 && self.friction.coefficient > 0.0;
                 piece.friction = rubs.then_some(WallFriction {
                     sliding: self.friction.coefficient * normal,
@@ -260,11 +273,14 @@ impl DrillString {
                 pieces.push(piece);
             }
         }
+        // The top drive may be tuned to the impedance of the string, so it is described after the pieces.
         let drive = self.top_drive.describe(&pieces);
+        // The hoist exists only with a rock that answers the advance; otherwise the weight itself is the input.
         let hoist = with_hoist.then_some(CoreHoist {
             stiffness: self.hoist.stiffness,
             response_time: self.hoist.response_time,
             fastest: self.hoist.fastest_m_per_h / 3600.0,
+            // Touching down is never faster than the hoist can move.
             touch_down: self.hoist.touch_down_m_per_h.min(self.hoist.fastest_m_per_h) / 3600.0,
             clearance: self.hoist.clearance,
             feed: match self.hoist.feed {

@@ -48,8 +48,10 @@ impl Schema {
     /// String, rock and the keys that exclude each other.
     fn check_string(&self, c: &mut Checker) {
         let has_line = self.string.model == Model::Line;
+        // Each section is checked by itself first; what follows are pairs of keys that are valid one by one.
         c.below("rock", |c| self.rock.check(c, has_line));
         c.below("string", |c| self.string.check(c, self.solver.time_step));
+        // The string drives the tool, so nothing else may.
         c.require(
             !has_line || self.boundary.drive == Drive::Top,
             "boundary.drive",
@@ -58,6 +60,7 @@ impl Schema {
             "top with string.model: line",
             "the string turns the first link",
         );
+        // The same speed cannot be the input at both ends of the string.
         let downhole = self.inputs.rotary_speed.measured == Measured::Downhole;
         c.require(
             !has_line || !downhole,
@@ -75,6 +78,8 @@ impl Schema {
             "none or line, or inputs.rotary_speed.measured: downhole",
             "a speed at the surface is not that of the first link",
         );
+        // With a hoist the rock carries the bit along the hole. Any other support in that direction would take an
+        // unknown part of the weight.
         c.require(
             !self.has_hoist() || self.boundary.bottom_axial == BottomAxial::Free,
             "boundary.bottom_axial",
@@ -118,10 +123,12 @@ impl Schema {
     }
 
     pub(crate) fn check(&self, c: &mut Checker) {
+        // The mesh is needed by checks of places; it is formed from numbers that may be wrong, and must only not fail.
         let mesh = self.mesh();
         c.below("run", |c| self.run.check(c));
         c.below("well", |c| self.well.check(c));
         c.below("tool", |c| self.tool.check(c));
+        // The diameters belong to two sections, neither of which can check the clearance alone.
         let guide = self.tool.guide.outer_diameter;
         c.require(
             guide < self.well.hole_diameter,
@@ -133,6 +140,7 @@ impl Schema {
         );
         c.below("contact", |c| self.contact.check(c));
         c.below("environment", |c| {
+            // Numbers before pressure and mud, whose checks use them.
             self.environment.check_numbers(c);
             if let Some(pressure) = &self.environment.pressure {
                 c.below("pressure", |c| pressure.check(c, self));
@@ -142,7 +150,9 @@ impl Schema {
             }
         });
         c.below("boundary", |c| self.boundary.check(c, &mesh));
+        // String, rock and boundary exclude each other in pairs, so they follow the sections.
         self.check_string(c);
+        // In a straight hole no bending moment depends on the guide's spin: the tangent would be singular.
         let guide_may_spin = self.well.is_straight() && !self.tool.guide.fixed && !self.boundary.holds_guide_spin();
         c.require(
             !guide_may_spin,
@@ -152,6 +162,7 @@ impl Schema {
             "given psi of the guide in a straight well",
             "only curvature keeps the guide from turning",
         );
+        // The guide is modelled with small turns about its axis, which this bend would exceed by itself.
         let phase = self.tool.guide.free_curvature_phase_deg;
         c.require(
             phase == 0.0 || self.boundary.holds_guide_spin(),
@@ -172,6 +183,7 @@ impl Schema {
             }
         });
         c.below("initial", |c| self.initial.check(c, self.start));
+        // The start that slides the tool in depends on tool, well and contact, so it is checked after them.
         self.check_slid_in(c);
         c.below("solver", |c| self.solver.check(c));
         c.below("inputs", |c| self.inputs.check(c));
@@ -187,6 +199,7 @@ impl Schema {
         c.below("map", |c| self.map.check(c));
         c.below("guide_preload", |c| self.guide_preload.check(c));
         c.below("pressure_folding", |c| self.pressure_folding.check(c));
+        // A rating without the quantity that it rates would be an alarm that can never stand, and be trusted.
         c.require(
             self.guide_preload.rated_moment_nm == 0.0 || self.tool.guide.free_curvature().is_some(),
             "guide_preload.rated_moment_nm",
@@ -203,6 +216,7 @@ impl Schema {
             "0, or environment.pressure given",
             "without pressure in the pipe none of its compression comes from it",
         );
+        // Alarms and outputs come last: they refer to places and quantities of everything before.
         c.below("alarms", |c| self.alarms.check(c));
         c.below("outputs", |c| self.outputs.check(c));
     }

@@ -243,12 +243,16 @@ async fn act(
     headers: HeaderMap,
     body: Bytes,
 ) -> Response {
+    // Without the permission there is no control at all: a fault in what follows cannot steer.
     let Some(control) = &shared.control else {
         return answer(StatusCode::FORBIDDEN, shared.no_control);
     };
+    // The token is checked before the body is read, so that a stranger's body is never parsed.
     let offered = bearer(&headers);
     if !offered.is_some_and(|token| control.admits(token)) {
         if offered.is_some() {
+            // A wrong token is delayed by its address, which slows guessing. A
+            // missing one comes from every page without control.
             shared.answers.wrong_tokens.refuse(from).await;
         }
         return answer(
@@ -266,6 +270,7 @@ async fn act(
             "the server has been restarted since this page was loaded; reload the page",
         );
     }
+    // Each request names its operator, who stands in the journal and in the log.
     let done = match what.as_str() {
         "steer" => steer(&shared, control, &body),
         "release" => read::<OperatorRequest>(&body).and_then(|plain| control.release(&plain.operator)),
@@ -297,6 +302,7 @@ async fn act(
             Ok(pause) => control.carry_out(&pause.operator, Action::Pause(pause.paused)).await,
             Err(refused) => Err(refused),
         },
+        // Control and questions are set up one by one, so each is checked.
         "what_if" | "cancel_what_if" => {
             let Some(what_if) = &shared.what_if else {
                 return answer(StatusCode::FORBIDDEN, shared.no_control);
@@ -315,6 +321,8 @@ async fn act(
         }
         _ => return answer(StatusCode::NOT_FOUND, "no such request"),
     };
+    // A page distinguishes its own mistake, a conflict with another operator
+    // and a twin that is away: only the last is worth a retry.
     match done {
         Ok(message) => answer(StatusCode::OK, &message),
         Err(refused) => {

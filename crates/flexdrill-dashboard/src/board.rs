@@ -197,6 +197,7 @@ impl Board {
 
 impl Known {
     fn observe(&mut self, topic: &TopicInfo, body: &[u8], arrived: i64) -> Option<i64> {
+        // A message that does not decode is left out, not an error: the twin may be of another version.
         fn read<M: DeserializeOwned>(body: &[u8]) -> Option<M> {
             from_cdr_body(body).ok().map(|(message, _)| message)
         }
@@ -207,6 +208,7 @@ impl Known {
                 let message: TwinStatus = read(body)?;
                 let time = stamp(&message.header.stamp);
                 history.status(time, &message);
+                // The time of arrival counts for the status: its silence is judged by this machine's clock.
                 self.status = Some((message, Instant::now()));
                 time
             }
@@ -220,6 +222,7 @@ impl Known {
                 let message: JointDeflections = read(body)?;
                 let time = stamp(&message.header.stamp);
                 history.joints(time, &message);
+                // Orbits exist only where a page needs them: they hold every sample of a station.
                 if let Some(orbits) = &mut self.orbits {
                     orbits.observe(time, &message);
                 }
@@ -234,6 +237,7 @@ impl Known {
             name if name == topics::WHIRL.name => {
                 let message: WhirlState = read(body)?;
                 let time = stamp(&message.header.stamp);
+                // The session names the stations; without it the figures have no location on the tool.
                 if let Some(session) = &self.session {
                     history.whirl(time, &message, session);
                 }
@@ -254,6 +258,7 @@ impl Known {
             name if name == topics::ALARM_EVENTS.name => {
                 let message: AlarmEvent = read(body)?;
                 let time = stamp(&message.header.stamp);
+                // An event that long is no alarm of ours, and 2000 are kept.
                 if body.len() <= LONGEST_EVENT {
                     self.event(time, message);
                 }
@@ -261,6 +266,7 @@ impl Known {
             }
             name if name == topics::TOOL_SHAPE.name => {
                 let message: MarkerArray = read(body)?;
+                // A shape without markers has no stamp, so the time of arrival stands for it.
                 let time = message
                     .markers
                     .first()
@@ -273,11 +279,13 @@ impl Known {
             name if name == topics::APPLIED_INPUTS.name => {
                 let message: AppliedInputs = read(body)?;
                 let changes = message.parameter_name.iter().zip(&message.parameter_value);
+                // Later shapes are drawn with this factor, so the history must know it.
                 for (_, factor) in changes.filter(|(name, _)| *name == EXAGGERATION) {
                     history.set_exaggeration(*factor);
                 }
                 stamp(&message.header.stamp)
             }
+            // For these the page shows the age alone, so the header is enough.
             name if AGE_ONLY.contains(&name) => {
                 let header: Header = read(body)?;
                 stamp(&header.stamp)

@@ -97,7 +97,9 @@ impl Control {
         limits: Option<[Limit; 2]>,
         status: Option<&TwinStatus>,
     ) -> Result<String, Refused> {
+        // The name stands in the journal, so it is checked before anything else can refer to it.
         let operator = checked_name(operator)?;
+        // Limits come from the twin. Without them a target cannot be judged, and is refused rather than sent.
         let limits = limits.ok_or_else(|| {
             Refused::Away("the limits are not known, because no message of the twin has arrived yet".into())
         })?;
@@ -106,6 +108,7 @@ impl Control {
             .zip(&limits)
             .zip([("rotary_speed_rpm", "r/min"), ("weight_on_bit_kn", "kN")])
         {
+            // `contains` is false for NaN.
             if !(limit.min..=limit.max).contains(value) {
                 let bound = if *value > limit.max { limit.max } else { limit.min };
                 return Err(Refused::Wrong(format!(
@@ -116,12 +119,15 @@ impl Control {
                 )));
             }
         }
+        // A twin that is silent may have another driver by now, so nothing is sent to it.
         let status = status.ok_or_else(|| Refused::Away("the twin has not sent a status for 2 s".into()))?;
+        // Two publishers of an input would raise the alarm on two drivers; this server yields to any other.
         if let Some(other) = self.other_driver(status) {
             return Err(Refused::Conflict(format!(
                 "{other} drives; stop it and wait until it has been silent for the input's max_age"
             )));
         }
+        // The lock comes after all checks that need none, and is held to the end: two pages cannot both begin.
         let mut steering = self.steering();
         let now = Instant::now();
         if let Some(drive) = &mut steering.drive {
@@ -131,8 +137,10 @@ impl Control {
                     drive.operator
                 )));
             }
+            // A renewed request changes the target only. What has been sent so far remains the start of the ramp.
             (drive.target, drive.renewed) = (target, now);
         } else {
+            // The ramp begins at what acts now, within the limits, so that taking over does not cause a jump.
             let sent = applied(status);
             let sent = std::array::from_fn(|input| {
                 let start = sent[input].unwrap_or(limits[input].min);

@@ -78,13 +78,16 @@ impl Dashboard {
     /// # Errors
     /// When the address, DDS or the bag cannot be used.
     pub async fn run(self, ready: impl FnOnce(&str), end: impl Future<Output = ()>) -> Result<(), DashboardError> {
+        // The port is bound before the twin is searched: an occupied port must fail at once.
         let listener = live::listen("--listen", self.address)?;
         let mut url = format!("http://{}/", listener.local_addr()?);
         match self.source {
             Source::Twin { network, twin, token } => {
+                // The token is in the fragment of the URL, which browsers do not send and servers do not log.
                 if let Some(token) = &token {
                     url = format!("{url}#token={}", token.text());
                 }
+                // The network starts first; the page would otherwise load and show nothing.
                 let live = Live::start(&network, &twin, token).await?;
                 let router = api::router(Shared {
                     board: Arc::clone(&live.board),
@@ -95,6 +98,7 @@ impl Dashboard {
                     namespace: twin.namespace.clone(),
                     node: twin.full_name(),
                     bag: None,
+                    // The instance distinguishes this run from an earlier one, whose open pages must not act on it.
                     instance: api::new_instance()?,
                     answers: SharedAnswers::default(),
                 });
@@ -104,6 +108,7 @@ impl Dashboard {
                 tokio::task::spawn_blocking(move || drop(live.port)).await?;
             }
             Source::Bag(path) => {
+                // A bag has the same page without control: the same router with nothing to steer.
                 let recorded = Recorded::start(&path)?;
                 let router = api::router(Shared {
                     board: Arc::clone(&recorded.board),

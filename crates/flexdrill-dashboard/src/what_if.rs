@@ -133,6 +133,7 @@ impl WhatIf {
     /// # Errors
     /// When it is malformed, another question is being answered, or the twin does not accept it.
     pub async fn ask(self: &Arc<Self>, question: Question) -> Result<String, Refused> {
+        // Checked here although the twin checks too: the page gets its answer without a network.
         let operator = crate::control::checked_name(&question.operator)?;
         let count = question.candidates.len();
         if !(1..=MOST_CANDIDATES).contains(&count) {
@@ -149,9 +150,12 @@ impl WhatIf {
             candidates: candidates.collect(),
             horizon: question.horizon,
             members: question.members,
+            // Not all members need to run: once the first ones decide, the page has its answer.
             run_all: false,
             seed: 1,
         };
+        // The lock covers check and entry, so that two questions cannot both
+        // find the place free; it ends before the call, which waits.
         let (number, id) = {
             let mut asked = self.asked();
             if asked.running {
@@ -160,10 +164,12 @@ impl WhatIf {
                     asked.operator
                 )));
             }
+            // A second between questions bounds what a page in a loop can cost the twin.
             if asked.at.is_some_and(|at| at.elapsed() < INTERVAL) {
                 return Err(Refused::Conflict("one question a second; ask again".into()));
             }
             let number = asked.number + 1;
+            // The identifier of a goal must be unique in the network: this server's identity and a count.
             let mut id = [0; 16];
             id[..8].copy_from_slice(&self.identity.to_le_bytes());
             id[8..].copy_from_slice(&number.to_le_bytes());
@@ -183,6 +189,7 @@ impl WhatIf {
         if let Some(more) = log_ending("asks what if") {
             tracing::info!("{operator} asks what if, with {count} candidates{more}");
         }
+        // The entry is made before the request is sent: its answers may come before the call returns.
         let request = WhatIfSendGoalRequest {
             goal_id: UUID { uuid: id },
             goal,
@@ -190,6 +197,7 @@ impl WhatIf {
         let sent = self.parts.send_goal.call(&self.monitor, &request).await;
         let refused = match sent {
             Ok(WhatIfSendGoalResponse { accepted: true, .. }) => {
+                // A separate task follows the goal, since the page does not wait for its answer.
                 tokio::spawn(Arc::clone(self).follow(number, id));
                 return Ok("the twin looks ahead".into());
             }
@@ -202,6 +210,7 @@ impl WhatIf {
             },
             Err(error) => Refused::Away(error.to_string()),
         };
+        // The entry is ended on every refusal, or no further question would be accepted.
         self.end(number, true, refused.to_string(), None);
         Err(refused)
     }

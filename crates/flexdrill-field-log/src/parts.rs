@@ -30,6 +30,7 @@ pub(crate) struct TimeAxis<'a> {
 /// Removes and reports the rows whose time does not advance, in place. Returns the number of the first row of each
 /// part.
 pub(crate) fn order(rows: &mut Vec<Timed>, axis: &TimeAxis<'_>, issues: &mut Issues) -> Vec<u64> {
+    // Only accepted rows are compared with: after an outlier the next row is judged by the last good one.
     let mut parts = Vec::new();
     let mut kept: Vec<Timed> = Vec::with_capacity(rows.len());
     // Added to the log's times, so that they begin at 0 and advance over midnights and from part to part.
@@ -42,17 +43,20 @@ pub(crate) fn order(rows: &mut Vec<Timed>, axis: &TimeAxis<'_>, issues: &mut Iss
             continue;
         };
         let mut time = row.time + shift;
+        // A time of day falls back by almost a day at midnight only.
         if axis.format == TimeFormat::TimeOfDay && last.time - time > DAY / 2.0 {
             shift += DAY;
             time += DAY;
         }
         let step = time - last.time;
+        // Looking ahead one row distinguishes a wrong time from a pause: after a pause the next row is beyond it too.
         if step > axis.max_gap && jumps_ahead(&rows[index + 1..], shift, last.time, time) {
             issues.add(IssueKind::TimeJumps, axis.column, row.number, || {
                 format!("{step:.1} s ahead of the row before, and the next row is back")
             });
             continue;
         }
+        // A clock that was set back continues from there, an outlier returns. Only the rows after it show which.
         if step < 0.0 && continues(&rows[index + 1..], shift, time, last.time) {
             issues.add(IssueKind::TimeRestarts, axis.column, row.number, || {
                 format!(
@@ -60,9 +64,12 @@ pub(crate) fn order(rows: &mut Vec<Timed>, axis: &TimeAxis<'_>, issues: &mut Iss
                     -step
                 )
             });
+            // The new part begins after a gap that no value is held across,
+            // because the log does not say how long the pause was.
             shift += SEAM_IN_GAPS * axis.max_gap - step;
             time = row.time + shift;
             parts.push(row.number);
+        // Rows that stand or fall back would have two values for one instant.
         } else if step <= 0.0 {
             let kind = if step < 0.0 {
                 IssueKind::TimeBackwards
@@ -71,6 +78,7 @@ pub(crate) fn order(rows: &mut Vec<Timed>, axis: &TimeAxis<'_>, issues: &mut Iss
             };
             issues.add(kind, axis.column, row.number, || format!("by {:.2} s", -step));
             continue;
+        // A gap is reported and kept: the samples on both sides are good.
         } else if step > axis.max_gap {
             issues.add(IssueKind::Gap, "", row.number, || {
                 format!("{step:.1} s since the row before")

@@ -48,13 +48,16 @@ pub fn read_bytes(
 ) -> Result<(InputSequence, Report), FieldLogError> {
     let mut issues = Issues::default();
     let mut table = read_table(&name, content, mapping, &mut issues)?;
+    // Tares are found before the range is cut, from all rows: the log may be weighed off bottom far from the range.
     let tares = clean_and_weigh(&mut table.rows, mapping, &mut issues);
 
     let rows = &table.rows;
+    // `read_table` has refused a table without rows.
     let (first, last) = (rows[0], rows[rows.len() - 1]);
     let within = |row: &Row| range.contains(row.number, row.time);
     // Row numbers and times rise together, so the rows of a range are contiguous.
     let from = rows.iter().position(within);
+    // An empty range is an error with the extent of the log, since it is mostly a mistake in its ends.
     let (Some(from), Some(to)) = (from, rows.iter().rposition(within)) else {
         return Err(FieldLogError::EmptyRange {
             file: name,
@@ -81,6 +84,7 @@ pub fn read_bytes(
         issues: &issues,
         written: &table.written,
     };
+    // The report is on the range alone, as the rows outside play no part in the run.
     let mut report = source.report(part, span);
     let begins: Vec<usize> = table
         .parts
@@ -88,6 +92,7 @@ pub fn read_bytes(
         .filter_map(|number| part.binary_search_by_key(number, |row| row.number).ok())
         .filter(|index| *index > 0)
         .collect();
+    // A clock that restarted inside the range has a report for each part: rates and gaps across the seam mean nothing.
     if !begins.is_empty() {
         let ends = begins.iter().copied().chain([part.len()]);
         let mut begin = 0;
@@ -98,6 +103,7 @@ pub fn read_bytes(
             begin = end;
         }
     }
+    // Times begin at 0 with the range, as every run does.
     let mut sequence = sequence(part, mapping);
     sequence.measured = MeasuredSequence::new(table.measured_kinds.clone());
     for row in part {

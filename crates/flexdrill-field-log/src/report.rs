@@ -222,6 +222,7 @@ const PRINTED: usize = 8;
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Rows as an editor numbers them: the reader opens the log to look.
         write!(
             f,
             "{}: rows {} to {} as an editor numbers them (the header is row 1), {} used",
@@ -231,6 +232,7 @@ impl fmt::Display for Report {
             write!(f, ", {} LEFT OUT", self.left_out)?;
         }
         writeln!(f, ", {:.1} s", self.duration)?;
+        // With several parts only these are printed, because sums across a seam would mislead.
         if !self.parts.is_empty() {
             writeln!(
                 f,
@@ -246,6 +248,7 @@ impl fmt::Display for Report {
                 .try_for_each(|(index, part)| write!(f, "part {}\n{part}", index + 1));
         }
         for input in &self.inputs {
+            // A missing optional input is a note, a required one would have been an error.
             if input.kind.is_optional() && input.samples == 0 {
                 writeln!(
                     f,
@@ -265,6 +268,7 @@ impl fmt::Display for Report {
                 input.median
             )?;
         }
+        // Torque is an output of the model, so the log's is for comparison only.
         if let Some(torque) = &self.torque {
             writeln!(
                 f,
@@ -272,6 +276,8 @@ impl fmt::Display for Report {
                 "torque", torque.samples, torque.smallest_kn_m, torque.largest_kn_m, torque.median_kn_m
             )?;
         }
+        // The scale is always said, also when it is 1: a scaled log that
+        // is taken for a measured one is a costly mistake.
         for (kind, scale) in InputKind::ALL.into_iter().zip([self.speed_scale, self.weight_scale]) {
             if scale == 1.0 {
                 writeln!(f, "  {} is used unchanged (scale 1)", kind.name())?;
@@ -283,6 +289,7 @@ impl fmt::Display for Report {
                 )?;
             }
         }
+        // Tares and issues come last, since they may be long.
         self.print_tares(f)?;
         self.print_issues(f)
     }

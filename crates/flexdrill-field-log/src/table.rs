@@ -77,6 +77,7 @@ pub(crate) fn read_table(
     mapping: &Mapping,
     issues: &mut Issues,
 ) -> Result<Table, FieldLogError> {
+    // An encoding other than UTF-8 would make every row unreadable; one error explains them all.
     if let Some(encoding) = foreign_encoding(content) {
         return Err(FieldLogError::Encoding {
             file: file.to_owned(),
@@ -86,6 +87,7 @@ pub(crate) fn read_table(
     let mut reader = LineReader::new(mapping);
     let mut lines = lines(content);
     let first = lines.next().map_or(&b""[..], |(_, line)| line);
+    // A file without line ends would be read into memory as one header.
     if first.len() > LONGEST_LINE {
         return Err(FieldLogError::LongHeader {
             file: file.to_owned(),
@@ -96,11 +98,14 @@ pub(crate) fn read_table(
     let header = reader.read(first);
     let columns = ColumnIndices::find(file, &header, mapping)?;
     let time_column = &mapping.columns.time;
+    // Two passes: the order of the times must be known before values
+    // are read, and the rows of a long log are not copied.
     let mut readable: Vec<(Timed, &[u8])> = Vec::new();
     let mut written = Vec::new();
     // The first unreadable time, for the error when no row has a readable one.
     let mut unreadable = String::new();
     for (number, line) in lines {
+        // Every row of the file is noted here, so that the report can say how many were left out.
         written.push(number);
         if line.len() > LONGEST_LINE {
             let found = format!("{} bytes, at most {LONGEST_LINE} are read", line.len());
@@ -108,6 +113,7 @@ pub(crate) fn read_table(
             continue;
         }
         let record = reader.read(line);
+        // A wrong number of fields shifts all columns, so the row says nothing, whatever its values look like.
         if record.len() != columns.width {
             let found = format!(
                 "{} fields instead of {}{}",
@@ -122,6 +128,7 @@ pub(crate) fn read_table(
         let Some(time) = parsed else {
             let found = text(&record, columns.time).unwrap_or("not text");
             let wrong = format!("{} is not a time{}", quoted(found), mapping.decimal.hint(found));
+            // The first example is enough for the error: where no row has a readable time all have the same reason.
             if unreadable.is_empty() {
                 unreadable = format!("; row {number}: {wrong}");
             }
@@ -141,6 +148,7 @@ pub(crate) fn read_table(
     let mut of_file = readable.iter();
     let mut measured = Vec::new();
     for Timed { number, time } in timed {
+        // Both lists are in the order of the file, so one pass over it suffices.
         let Some((own, line)) = of_file.find(|(row, _)| row.number == number) else {
             continue;
         };
@@ -148,6 +156,7 @@ pub(crate) fn read_table(
         let timed = Timed { number, time };
         let row = columns.row(&record, timed, rows.len(), mapping, issues, &mut measured);
         rows.push(Row {
+            // The time that the log itself gives is kept next to the ordered one, because texts quote it.
             own_time: own.time,
             ..row
         });
@@ -322,6 +331,7 @@ fn text(record: &csv::ByteRecord, index: usize) -> Option<&str> {
 
 impl ColumnIndices {
     fn find(file: &str, header: &csv::ByteRecord, mapping: &Mapping) -> Result<Self, FieldLogError> {
+        // A name that occurs twice is refused: to take the first would be a guess.
         let find = |column: &str, key: &str| {
             let named = header.iter().enumerate();
             let mut indices = named
@@ -336,6 +346,8 @@ impl ColumnIndices {
                     first: first + 1,
                     second: second + 1,
                 }),
+                // The text lists the columns that exist, and the separator that
+                // the header seems to have: the two usual reasons.
                 (None, _) => Err(FieldLogError::MissingColumn {
                     file: file.to_string(),
                     column: column.to_string(),
@@ -346,6 +358,7 @@ impl ColumnIndices {
             }
         };
         let columns = &mapping.columns;
+        // Weight comes directly or from the hook load, which needs to know when the bit is on bottom.
         let (weight, drilling, off_bottom) = match &columns.weight_on_bit {
             WeightOnBitColumn::Direct(direct) => {
                 (find(&direct.column, "columns.weight_on_bit.direct.column")?, None, None)
@@ -359,6 +372,8 @@ impl ColumnIndices {
                 )
             }
         };
+        // An optional column that the mapping names must exist: its absence
+        // is a mistake in the mapping, not a missing input.
         let torque = (columns.torque.as_ref()).map(|torque| find(&torque.column, "columns.torque.column"));
         let rate = columns.rate_of_penetration.as_ref();
         let rate = rate.map(|rate| find(&rate.column, "columns.rate_of_penetration.column"));
@@ -368,6 +383,7 @@ impl ColumnIndices {
             torque: torque.transpose()?,
             rate: rate.transpose()?,
             pressure: pressure.transpose()?,
+            // Every row must have as many fields as the header.
             width: header.len(),
             time: find(&columns.time.column, "columns.time.column")?,
             speed: find(&columns.rotary_speed.column, "columns.rotary_speed.column")?,
@@ -388,20 +404,24 @@ impl ColumnIndices {
         issues: &mut Issues,
         measured: &mut Vec<f64>,
     ) -> Row {
+        // One closure for all columns: each problem is reported by its kind, with the column and the row.
         let mut value = |index: usize, column: &str| -> Option<f64> {
             let Some(text) = text(record, index) else {
                 issues.add(IssueKind::Unreadable, column, number, || "not text".to_string());
                 return None;
             };
+            // Empty is missing and not zero.
             if text.is_empty() {
                 issues.add(IssueKind::Missing, column, number, || "empty".to_string());
                 return None;
             }
             match mapping.decimal.parse(text) {
+                // Rigs write numbers such as -999.25 for a missing value; the mapping lists them.
                 Some(value) if mapping.missing.contains(&value) => {
                     issues.add(IssueKind::Missing, column, number, || text.to_string());
                     None
                 }
+                // Beyond any sensor is a fault of the log, and such a number would hide the rest in a chart.
                 Some(value) if value.abs() <= LARGEST => Some(value),
                 Some(value) if value.is_finite() => {
                     issues.add(IssueKind::Unreadable, column, number, || {
@@ -420,11 +440,13 @@ impl ColumnIndices {
         let columns = &mapping.columns;
         let speed =
             value(self.speed, &columns.rotary_speed.column).map(|speed| columns.rotary_speed.unit.to_rpm(speed));
+        // A condition without a value is unknown, not false: on and off bottom then both stay open.
         let mut condition = |index: Option<usize>, condition: &Condition| {
             index
                 .and_then(|index| value(index, &condition.column))
                 .map(|value| condition.holds(value))
         };
+        // A hook load is read like a weight here. It becomes one when the tare is known, which needs all rows.
         let (weight_column, weight_unit, drilling, off_bottom) = match &columns.weight_on_bit {
             WeightOnBitColumn::Direct(direct) => (&direct.column, direct.unit, None, None),
             WeightOnBitColumn::Hookload(hookload) => (
@@ -443,6 +465,8 @@ impl ColumnIndices {
         let pressure = self.pressure.zip(columns.standpipe_pressure.as_ref());
         let pressure = pressure
             .and_then(|(index, pressure)| value(index, &pressure.column).map(|value| pressure.unit.to_mpa(value)));
+        // Measured quantities may come from a column that is an input too; it
+        // is read once, or its faults would be reported twice.
         let shared = Shared {
             torque_kn_m: torque,
             rate_m_per_h: rate,
@@ -456,6 +480,7 @@ impl ColumnIndices {
                 }
                 (source, _) => shared.value(source),
             };
+            // NaN keeps the measured values of all rows in columns of equal length.
             measured.push(found.unwrap_or(f64::NAN));
         }
         Row {

@@ -216,8 +216,10 @@ fn chosen(study: &Study) -> Vec<usize> {
 
 /// Full runs at what was found and at some members, for some windows of each state of motion.
 pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked> {
+    // A few windows suffice, because a full run takes minutes; they spread over the loads.
     let chosen = chosen(study);
     let modelled = study.unknowns.modelled.len();
+    // Standardised values are what the points and the surrogates take.
     let centre: Vec<f64> = study
         .problem
         .unknowns
@@ -234,11 +236,14 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
     for (at, z) in &places {
         for &window in &chosen {
             let of_log = &study.windows.steady[window];
+            // Coefficients of the model alone: tares act on the measurement and not on the run.
             let point = Point {
                 z: z[..modelled].to_vec(),
                 load: Load {
                     motion: of_log.motion,
+                    // The sign is the direction of rotation, which the model does not distinguish.
                     rotary_speed: of_log.rotary_speed.abs(),
+                    // Off bottom the log's weight is that of its sensor's error.
                     weight: match of_log.motion {
                         Motion::OffBottom => 0.0,
                         Motion::Drilling => of_log.weight,
@@ -249,16 +254,19 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
             wanted.push((*at, z, window, point));
         }
     }
+    // All runs together, so that the threads are used to the end.
     let open = wanted.iter().map(|(.., point)| point.clone()).collect();
     let run = points::run(config, &study.unknowns, open, jobs, |_, _| {});
     let mut checked = Vec::new();
     for ((at, z, window, _), point) in wanted.iter().zip(&run) {
+        // Once per place: the prediction is for all observations at the same time.
         let predicted = study.problem.predict(z);
         for (index, observation) in study.problem.observations.iter().enumerate() {
             if observation.window != *window {
                 continue;
             }
             let quantity = &study.problem.quantities[observation.quantity];
+            // The run has no tare, and the measurement has, so it is added before they are compared.
             let tare = quantity
                 .tare
                 .map_or(0.0, |tare| study.problem.unknowns[tare].value(z[tare]));
@@ -275,6 +283,7 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
                 run: found.map(|figures| figures[quantity.channel as usize] + tare),
                 surrogate: predicted[index],
                 band: study.outcome.explained[index].band,
+                // The band of a difference: both errors are independent.
                 surrogate_band: BAND * deviation.hypot(observation.scatter),
             });
         }

@@ -164,6 +164,7 @@ pub fn header(provenance: &Provenance) -> String {
 /// The changed keys as YAML, with their bands.
 pub fn yaml(study: &Study, provenance: &Provenance) -> String {
     let mut text = header(provenance);
+    // Warnings stand above the values, as this file is applied by hand.
     text.push_str(&warnings(study));
     text.push_str("# Values with the ends of their 90 % bands. Keys that the log does not determine are at the end.\n");
     let mut path: Vec<&str> = Vec::new();
@@ -172,6 +173,7 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
     all.sort_by_key(|entry| entry.key);
     for entry in all {
         let names: Vec<&str> = entry.key.split('.').collect();
+        // Sections that the last key has opened are not written again.
         let shared = names.iter().zip(&path).take_while(|(a, b)| a == b).count();
         let (last, sections) = names
             .split_last()
@@ -184,6 +186,7 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
         } else {
             ""
         };
+        // A factor alone does not give the coefficient that was fitted.
         // A factor alone does not tell the coefficient that was fitted.
         let coefficient = if entry.is_factor {
             format!("; {} {:.4}", entry.name, entry.estimate.value)
@@ -199,6 +202,7 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
         );
         path = names;
     }
+    // Keys that the data do not determine are comments, so that applying the file leaves them as they are.
     for entry in entries(study) {
         if entry.estimate.verdict == Verdict::NotIdentifiable {
             let _ = writeln!(
@@ -213,10 +217,12 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
 
 /// Everything that was found, for other programs; SI units.
 pub fn json(study: &Study, provenance: &Provenance) -> Value {
+    // The keys are the contract with other programs; they are never renamed, only added to.
     let problem = &study.problem;
     let name = |index: usize| problem.unknowns[index].name.as_str();
     json!({
         "version": 1,
+        // The provenance comes first: with it the result can be repeated.
         "provenance": {
             "log": provenance.log,
             "sha256": provenance.sha256,
@@ -227,11 +233,13 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
         },
         "misfit": study.outcome.misfit,
         "explains": study.outcome.explains(),
+        // Other programs should look at this one alone before they use a value.
         "usable": study.objections().is_empty(),
         "not_to_be_used": study.objections().iter().map(|objection| json!({
             "why": objection.name(),
             "text": objection.to_string(),
         })).collect::<Vec<_>>(),
+        // The order is that of the fit, to which indexes in pairs refer. A tare has no keys, as it is not in the model.
         "unknowns": problem.unknowns.iter().zip(&study.outcome.estimates).enumerate().map(|(index, (unknown, estimate))| json!({
             "name": unknown.name,
             "keys": study.unknowns.modelled.get(index).map(|modelled| modelled.keys.clone()),
@@ -267,6 +275,7 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "error_over_stated": quantity.surrogate.over_stated(),
             "range": quantity.surrogate.range,
         })).collect::<Vec<_>>(),
+        // Both lists have one entry per observation.
         "windows": problem.observations.iter().zip(&study.outcome.explained).map(|(observation, explained)| {
             let window = &study.windows.steady[observation.window];
             json!({
@@ -288,6 +297,7 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "rows": study.windows.steady[checked.window].rows,
             "channel": checked.channel.name_and_unit().0,
             "measured": checked.measured,
+            // A run without a figure has a null and its reason, so that it is not taken for agreement.
             "run": checked.run.as_ref().ok(),
             "problem": checked.run.as_ref().err(),
             "at": match checked.at {

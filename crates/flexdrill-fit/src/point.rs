@@ -40,6 +40,7 @@ pub type Figures = [f64; Channel::ALL.len()];
 /// # Errors
 /// Why there are none, in words.
 pub fn run(config: &Config, load: &Load) -> Result<Figures, String> {
+    // The window of means depends on the speed, so the configuration is prepared with it before the tool is built.
     let window = window(config, load);
     let config = prepared(config, load, window).map_err(|error| error.to_string())?;
     let mut simulation = Simulation::new(&config.tool(), &config.simulation()).map_err(|error| error.to_string())?;
@@ -48,9 +49,11 @@ pub fn run(config: &Config, load: &Load) -> Result<Figures, String> {
     let inputs = Inputs {
         rotary_speed: load.rotary_speed,
         weight_on_bit: load.weight,
+        // With a hoist the advance is a result; without one it is an input of the friction along the hole.
         rate_of_penetration: if hoist { 0.0 } else { m_per_h_to_m_per_s(advance) },
         ..Inputs::default()
     };
+    // An auto-driller approaches its weight exponentially; without one the run-up is over sooner.
     let settled = if hoist {
         RESPONSES * config.string.hoist.response_time
     } else {
@@ -61,6 +64,7 @@ pub fn run(config: &Config, load: &Load) -> Result<Figures, String> {
     let per_second = steps(1.0).max(1);
     // As a run that need not keep a pace: the step that the motion needs.
     simulation.set_refinement(simulation.quality().choice.wanted);
+    // Failures are text here: a point without figures is a result of the design, not an error of the program.
     let advance_by = |simulation: &mut Simulation, count: u64| {
         for _ in 0..count {
             if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
@@ -75,10 +79,12 @@ pub fn run(config: &Config, load: &Load) -> Result<Figures, String> {
     advance_by(&mut simulation, steps(settled))?;
     let mut snapshot = simulation.new_snapshot();
     let mut sum = [0.0; Channel::ALL.len()];
+    // Several windows in a row average the slow drift of whirl, which one window would show as its mean.
     for _ in 0..MEANS {
         advance_by(&mut simulation, steps(window))?;
         simulation.snapshot(&mut snapshot, true);
         let mean = &snapshot.transfer.mean;
+        // Torque is compared where the rig measures it: at the surface if there is a string.
         let top = if mean.torque[SURFACE].is_finite() {
             SURFACE
         } else {

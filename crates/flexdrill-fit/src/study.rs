@@ -97,7 +97,9 @@ fn quantities(windows: &Windows, points: &[Point], unknowns: &Unknowns) -> Resul
                 continue;
             }
             let (mut inputs, mut results) = (Vec::new(), Vec::new());
+            // Each state of motion has its own surrogates: the bit changes the torque's dependence on everything.
             for point in points.iter().filter(|point| point.load.motion == motion) {
+                // A point whose run failed is left out; the design has points to spare.
                 if let Some(Ok(figures)) = &point.found
                     && figures[channel as usize].is_finite()
                 {
@@ -117,6 +119,7 @@ fn quantities(windows: &Windows, points: &[Point], unknowns: &Unknowns) -> Resul
             all.push(Quantity {
                 channel,
                 motion,
+                // The surrogate is fitted to the figures without tare, which is added afterwards as its own unknown.
                 surrogate: Surrogate::new(&name, &inputs, &results)?,
                 tare: match channel {
                     Channel::SurfaceTorque => Some(modelled),

@@ -55,11 +55,14 @@ impl Unknowns {
         let ranges = &config.calibration;
         let mut modelled = Vec::new();
         let mut left_out = Vec::new();
+        // Only what the log can show is fitted. Everything else is listed with
+        // its reason, so that a reader does not search for it.
         let leans = config
             .string
             .sections
             .iter()
             .any(|section| section.inclination_deg != 0.0);
+        // Above a vertical string there is no side force, and its coefficient has no effect that a log could show.
         if config.string.model == Model::Line && leans {
             modelled.push(Modelled::of(
                 "friction of the string above",
@@ -69,12 +72,16 @@ impl Unknowns {
         } else {
             left_out.push(("friction of the string above", "no part of the string lies on the wall"));
         }
+        // Both directions of a contact have one coefficient: torque sees them
+        // around and hook load along, and a log rarely separates them.
         modelled.push(Modelled::of(
             "friction of pipe in guide",
             &["contact.inner.friction_tangential", "contact.inner.friction_axial"],
             ranges.friction.ends(),
         )?);
+        // The wall has one unknown per interval of the hole, whose lengths of contact differ.
         modelled.extend(of_the_wall(config, &mut left_out)?);
+        // The law of the rock decides which key the torque at the bit depends on.
         let (key, configured) = match config.rock.law {
             Law::DepthOfCut => (
                 "rock.depth_of_cut.wear_flat_friction",
@@ -86,6 +93,8 @@ impl Unknowns {
             modelled.push(Modelled::of(
                 "friction of the bit on the rock",
                 &[key],
+                // The prior is relative to the configured value, since the
+                // friction of bits differs by much more than its range.
                 ranges.bit.ends().map(|factor| factor * configured),
             )?);
         } else {
@@ -100,9 +109,13 @@ impl Unknowns {
         } else {
             left_out.push(("friction in the joints", "tool.joint.friction is 0: the model has none"));
         }
+        // The tares are bounded by the sensor, not by the mechanics, so
+        // their priors are normal around the configured ones.
         let around = |middle: f64, distance: f64| [middle - distance, middle + distance];
         Ok(Self {
             modelled,
+            // Sensors' tares follow the coefficients in the order of the
+            // unknowns; they act on the measurement and need no runs.
             torque_tare: Unknown::new(
                 "tare of the surface torque",
                 "N m",
@@ -149,9 +162,11 @@ fn of_the_wall(
         .into_iter()
         .filter(|interval| tool.well.has(*interval))
         .collect();
+    // With one interval the coefficient itself is fitted, so that its value can be compared between wells.
     if let [only] = intervals.as_slice() {
         let name = "friction of guide on wall";
         let factor = tool.wall_friction_factors.of(*only);
+        // A factor of zero has switched the friction of this wall off; no coefficient would change that.
         if factor == 0.0 {
             left_out.push((
                 name,
@@ -161,6 +176,7 @@ fn of_the_wall(
         }
         let keys = ["contact.outer.friction_tangential", "contact.outer.friction_axial"];
         let mut whole = Modelled::of(name, &keys, range)?;
+        // The fit has the friction as it acts; the key has it before the factor.
         whole.per_value = 1.0 / factor;
         return Ok(vec![whole]);
     }
@@ -180,6 +196,7 @@ fn of_the_wall(
                 "contact.wall_friction_factors.after_arc",
             ),
         };
+        // A factor on zero remains zero, whatever the log shows.
         let whole = config.contact.outer.friction_axial;
         if whole == 0.0 {
             left_out.push((name, "contact.outer.friction_axial is 0, and so is every factor of it"));

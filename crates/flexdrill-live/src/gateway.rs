@@ -68,10 +68,14 @@ impl Gateway {
 
     async fn admit(&self, mut request: Request) -> Result<Response, (StatusCode, String)> {
         let headers = request.headers();
+        // Checks in the order of their cost and of what they reveal: a browser that
+        // was led here by mistake learns only what this address is.
         if !has_word(headers, &header::UPGRADE, "websocket") {
             let why = "this address speaks the Foxglove WebSocket protocol; open it in Foxglove or Lichtblick\n";
             return Err((StatusCode::UPGRADE_REQUIRED, why.to_owned()));
         }
+        // Before anything else of the request is used: it may come from a
+        // page of another server in the operator's browser.
         if !host_is_ours(headers) || !self.origin_is_ours(headers) {
             let origin = text(headers, &header::ORIGIN).unwrap_or("another host");
             let why = format!(
@@ -81,6 +85,7 @@ impl Gateway {
             log("origin", &why);
             return Err((StatusCode::FORBIDDEN, why));
         }
+        // The first known subprotocol in our order, because the newest one is listed first.
         let known = SUBPROTOCOLS
             .iter()
             .find(|(name, _)| has_word(headers, &header::SEC_WEBSOCKET_PROTOCOL, name));
@@ -89,6 +94,7 @@ impl Gateway {
             log("subprotocol", &why);
             return Err((StatusCode::BAD_REQUEST, why));
         };
+        // RFC 6455 allows only GET and version 13.
         let key = text(headers, &header::SEC_WEBSOCKET_KEY).filter(|_| {
             request.method() == axum::http::Method::GET
                 && text(headers, &header::SEC_WEBSOCKET_VERSION).is_some_and(|version| version.trim() == "13")
@@ -97,26 +103,34 @@ impl Gateway {
             let why = "the request does not open a WebSocket of version 13 (RFC 6455)".to_owned();
             return Err((StatusCode::BAD_REQUEST, why));
         };
+        // Without an address the viewer has the unspecified one. It counts
+        // like a further address and gets no rights from it.
         let address = match request.extensions().get() {
             Some(ConnectInfo(address)) => *address,
             None => SocketAddr::from(([0, 0, 0, 0], 0)),
         };
+        // The token is checked before a seat is taken, so that wrong ones cannot occupy the seats.
         let steering = self.steering(request.uri(), address).await?;
+        // Seats bound the memory: each viewer has a backlog.
         let Ok(seat) = Arc::clone(&self.seats).try_acquire_owned() else {
             let why = format!("{MOST_VIEWERS} live viewers are connected, the largest number allowed; close one");
             log("seats", &why);
             return Err((StatusCode::SERVICE_UNAVAILABLE, why));
         };
+        // The connection becomes a WebSocket only after the response
+        // below has been sent, so the session runs in a task.
         let upgrade = hyper::upgrade::on(&mut request);
         let (hub, steering, subprotocol) = (Arc::clone(&self.hub), steering.map(Arc::clone), *subprotocol);
         tokio::spawn(async move {
             if let Ok(stream) = upgrade.await {
                 let number = next_number();
+                // The backlog exists before the session, because the hub writes into it as soon as it knows the viewer.
                 let backlog = Arc::new(Backlog::new(address));
                 let pilot = steering.map(|steering| Pilot::new(&steering, Viewer { number, address }, &backlog));
                 let session = Session::new(number, &hub, backlog, pilot);
                 session.run(TokioIo::new(stream), subprotocol).await;
             }
+            // The seat is held until the session has ended, however it ends.
             drop(seat);
         });
         let mut response = Response::new(Body::empty());

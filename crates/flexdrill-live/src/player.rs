@@ -213,34 +213,42 @@ impl Player {
             if state.stop {
                 return;
             }
+            // A seek comes before everything else, also while paused: the picture of that instant is shown at once.
             if let Some(time) = state.seek.take() {
                 drop(state);
                 next = publish_state_at(&mut bag, time, output);
                 // The playback clock does not run while the bag is searched.
+                // Another seek may have come meanwhile. Its time counts then, and this one must not set the clock.
                 let mut state = locked(&self.state);
                 if state.seek.is_none() {
                     state.anchor = (Instant::now(), time);
                 }
                 continue;
             }
+            // The condition releases the lock while it waits, and any change of the state wakes it.
             if !state.playing {
                 drop(self.changed.wait(state));
                 continue;
             }
             let now = Instant::now();
+            // At the end the player waits for a seek or stops; the bag stays open for that.
             let Some(message) = &next else {
                 self.end(state, output);
                 continue;
             };
             let (due, time) = (time_of(message), state.time(now, self.range.1));
             if due > time {
+                // Waits are bounded, because the viewers' clock must advance through gaps in the bag.
                 let wait = Duration::from_nanos(((due - time) as f64 / f64::from(state.speed)) as u64);
                 drop(self.changed.wait_timeout(state, wait.min(TIME_INTERVAL)));
             } else {
+                // A machine that is too slow would fall behind without limit, and then send everything at once. The
+                // clock is set back instead.
                 let behind = Duration::from_nanos(((time - due) as f64 / f64::from(state.speed)) as u64);
                 if behind > MOST_BEHIND {
                     state.anchor = (now, due);
                 }
+                // The lock is released before publishing: controls must never wait for the hub.
                 drop(state);
                 if let Some(message) = next.take() {
                     output.hub.publish(message.topic_index, due, message.data);

@@ -153,6 +153,8 @@ impl Session {
 
     fn dispatch(&mut self, message: ClientMessage<'_>) {
         match message {
+            // Each message of the client is answered or ignored as the protocol says. An error ends nothing, because
+            // viewers of several versions connect.
             ClientMessage::Subscribe(message) => {
                 for wanted in message.subscriptions {
                     self.subscribe(wanted.id, wanted.channel_id);
@@ -160,6 +162,7 @@ impl Session {
             }
             ClientMessage::Unsubscribe(message) => {
                 for subscription in message.subscription_ids {
+                    // The hub counts subscriptions by topic, so that a topic without viewers costs nothing.
                     if let Some(topic) = self.subscriptions.remove(&subscription) {
                         self.hub.unsubscribe(self.number, topic);
                     }
@@ -168,6 +171,7 @@ impl Session {
             ClientMessage::Advertise(message) => self.advertise(message),
             ClientMessage::Unadvertise(message) => {
                 for channel in message.channel_ids {
+                    // The sentence is the protocol's own, which Foxglove shows in its list of problems.
                     if self.channels.remove(&channel).is_none() {
                         let why = format!("Client is not advertising channel: {channel}; ignoring unadvertisement");
                         self.backlog.answer(&Status::warning(why));
@@ -176,6 +180,8 @@ impl Session {
             }
             ClientMessage::MessageData(message) => self.publish(&message),
             ClientMessage::GetParameters(message) => {
+                // All requests on parameters need the right to steer, and a bound
+                // on their number, since each name costs a search.
                 if let Some(pilot) = self.parameters(message.parameter_names.len(), "parameters") {
                     pilot.get_parameters(&message.parameter_names, message.id);
                 }
@@ -197,6 +203,8 @@ impl Session {
             }
             ClientMessage::ServiceCallRequest(request) => self.call(&request),
             ClientMessage::PlaybackControlRequest(request) => self.play(&request),
+            // What the server has not announced is refused in words: a
+            // viewer that waits for an answer would seem to hang.
             ClientMessage::SubscribeConnectionGraph | ClientMessage::UnsubscribeConnectionGraph => {
                 self.refuse(unsupported("connectionGraph"));
             }

@@ -209,10 +209,13 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
             ..verdict(WhirlKind::None, 0.0, 1.0 - 0.5 * radius / gates.radius)
         };
     }
+    // A flat orbit is a vibration along a line: it has no direction of
+    // rotation, and the sign of its rate would be noise.
     if view.orbit.axis_ratio < gates.axis_ratio {
         let confidence = 1.0 - 0.5 * view.orbit.axis_ratio / gates.axis_ratio;
         return verdict(WhirlKind::None, 0.0, confidence);
     }
+    // Forward is the direction of the drive, whichever way that turns.
     let direction = view.lines.direction;
     let whirl = |rate: f64, confidence: f64| {
         let kind = if rate * rotation.sense > 0.0 {
@@ -222,6 +225,8 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
         };
         verdict(kind, rate, confidence)
     };
+    // An orbit that does not go around the axis is no whirl. At twice the
+    // speed and with a direction it is the joints' own ripple.
     if !gates.goes_round(view) {
         let directed = gates.is_directed(&view.lines);
         return match rotation.speed {
@@ -231,6 +236,8 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
             _ => verdict(WhirlKind::None, 0.0, 1.0 - 0.5 * view.orbit.radius / gates.large),
         };
     }
+    // Energy in both directions alike: either chaos, or a pipe that is
+    // thrown round and is whirl only over the long window.
     if !gates.is_directed(&view.lines) {
         if gates.is_thrown_round(&long.round) {
             return Verdict {
@@ -247,6 +254,7 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
             verdict(WhirlKind::Chaotic, 0.0, confidence)
         };
     }
+    // With too few turns in the window the direction is not reliable, and half the confidence says that.
     if view.orbit.rate.abs().max(view.lines.rate.abs()) * view.duration < gates.turns * TAU {
         return verdict(WhirlKind::None, 0.0, 0.5);
     }

@@ -65,9 +65,11 @@ impl FullSpectrum {
     /// Lines of centred points that are `spacing` (s) apart, with a Hann window.
     pub(super) fn lines(&mut self, position: &[[f64; 2]], spacing: f64) -> Lines {
         let count = position.len().min(SIZE);
+        // Fewer points give no spectrum: two lobes of the window would fill it.
         if count < 8 {
             return Lines::default();
         }
+        // Half the size, where that is enough, halves the cost of the transform.
         let size = if count > HALF_SIZE { SIZE } else { HALF_SIZE };
         self.fill(&position[..count], size);
         self.transform(size);
@@ -84,16 +86,21 @@ impl FullSpectrum {
             let (plus, minus) = (self.power[index], self.power[size - index]);
             forward += plus;
             backward += minus;
+            // Peak and pace look at both directions together. Otherwise the
+            // stronger of two near lines would decide by a little noise.
             let both = plus + minus;
             if both > peak_power {
                 (peak, peak_power) = (index, both);
             }
+            // The emphasis lets a fast line count against a larger slow one,
+            // because the pace sets the length of the short window.
             let weighed = both * self.emphasis[index];
             if weighed > pace_power {
                 (pace, pace_power) = (index, weighed);
             }
         }
         let total = forward + backward;
+        // Points without any motion have no line.
         if total <= 0.0 {
             return Lines::default();
         }
@@ -101,6 +108,7 @@ impl FullSpectrum {
         let lobe = (2 * size).div_ceil(count);
         let around = peak.saturating_sub(lobe).max(first)..=(peak + lobe).min(half - 1);
         let within: f64 = around.map(|index| self.power[index] + self.power[size - index]).sum();
+        // The direction of the peak decides the sign of the rate, the energy of all lines the direction of the motion.
         let is_forward = self.power[peak] >= self.power[size - peak];
         let step = TAU / (size as f64 * spacing);
         let rate = step * (peak as f64 + self.peak_offset(peak, size, is_forward));

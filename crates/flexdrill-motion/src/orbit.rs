@@ -25,6 +25,7 @@ pub(super) struct Orbit {
 /// on average, and a motion along a line sweeps none.
 pub(super) fn measure_and_stretch(points: &mut Points, detrend: bool, min_radius: f64, min_axis_ratio: f64) -> Orbit {
     let count = points.position.len();
+    // Two points have no area.
     if count < 3 {
         return Orbit::default();
     }
@@ -38,26 +39,32 @@ pub(super) fn measure_and_stretch(points: &mut Points, detrend: bool, min_radius
     // Principal axes of the covariance.
     let half_sum = 0.5 * (yy + zz);
     let half_difference = (0.25 * (yy - zz).powi(2) + yz * yz).sqrt();
+    // Rounding can make the smaller one slightly negative for a line.
     let (major, minor) = (half_sum + half_difference, (half_sum - half_difference).max(0.0));
     let mut orbit = Orbit {
         radius: (yy + zz).max(0.0).sqrt(),
         ..Orbit::default()
     };
+    // A point has no axes; the default ratio stands.
     if major > 0.0 {
         orbit.axis_ratio = (minor / major).sqrt();
     }
+    // An orbit too small to be judged is returned before the costly part.
     if orbit.radius < min_radius {
         return orbit;
     }
+    // A line cannot be stretched to a circle: its noise would be stretched with it.
     let is_line = major <= 0.0 || orbit.axis_ratio < min_axis_ratio;
     let stretch = if is_line {
         [1.0, 0.0, 0.0, 1.0]
     } else {
         let angle = 0.5 * libm::atan2(2.0 * yz, yy - zz);
         let (sin, cos) = libm::sincos(angle);
+        // The factor 2 gives the stretched orbit the mean square radius 1, which the arc sine below needs.
         let (along, across) = ((2.0 * major).sqrt().recip(), (2.0 * minor).sqrt().recip());
         [along * cos, along * sin, -across * sin, across * cos]
     };
+    // The drift is subtracted around the middle, where mean and slope do not depend on each other.
     let middle = 0.5 * (count as f64 - 1.0);
     for (index, position) in points.position.iter_mut().enumerate() {
         let lever = index as f64 - middle;

@@ -56,6 +56,7 @@ impl Lead {
         input_trust: f64,
         settings: &WhirlSettings,
     ) -> Hazard {
+        // The calm hazard has all fields; what is known replaces them below.
         let calm = Hazard {
             since: self.since,
             ..Hazard::calm(kind)
@@ -65,16 +66,21 @@ impl Lead {
             WhirlKind::Forward => &settings.forward_power,
             _ => &settings.backward_cycles,
         };
+        // At OK the threshold is that of WATCH: the next one to be crossed.
         let index = (self.severity as usize).saturating_sub(1).min(thresholds.len() - 1);
         let threshold = thresholds[index];
+        // The entry may be of a station that has whirled before; without a
+        // level and without strength it has nothing to report.
         let Some(watch) = watches
             .get(self.entry)
             .filter(|watch| watch.strength(whirl) > 0.0 || self.severity > Severity::Ok)
         else {
             return Hazard { threshold, ..calm };
         };
+        // While a level stands this is the worst evaluation of the station, otherwise the newest.
         let (station, evaluation) = (&watch.station, watch.reported_evaluation(whirl));
         let evidence = &evaluation.evidence;
+        // Whether a level holds depends on all stations: whirl wanders, and the worst station changes.
         let standing = watches.iter().filter(|watch| watch.level_of(whirl) > Severity::Ok);
         let met = standing.fold([f64::NEG_INFINITY; 3], |met, watch| {
             let of = watch.met(whirl);
@@ -88,6 +94,7 @@ impl Lead {
                 measured_depth: station.measured_depth,
                 inclination: station.inclination,
             }),
+            // Each direction has the figure that its thresholds are in.
             value: match kind {
                 HazardKind::ForwardWhirl => evidence.friction_power,
                 _ => evidence.cycles,
@@ -95,6 +102,7 @@ impl Lead {
             threshold,
             whirl_ratio: evaluation.whirl_ratio.unwrap_or(f64::NAN),
             rolling_share: match evaluation.rolling_share {
+                // 0 stands for "not rolling or sliding" inside and must not be shown as a share.
                 0.0 => f64::NAN,
                 share => share,
             },
@@ -102,6 +110,7 @@ impl Lead {
             impulse: evidence.impulse,
             impact_rate: evidence.impact_rate,
             friction_power: evidence.friction_power,
+            // Doubtful inputs lower the confidence of a hazard; they do not change its level.
             confidence: evidence.confidence * input_trust,
             seen: evaluation.time,
             hold: Hold::of(self.severity, met, time),

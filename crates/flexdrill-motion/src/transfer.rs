@@ -268,16 +268,20 @@ impl TransferWatch {
     }
 
     fn summarise(&mut self) {
+        // Whole blocks only: one that is being filled would weigh a part of a turn.
         let mut total = Block::EMPTY;
         for block in self.full() {
             total.add(block);
         }
+        // Without a full block there is no mean; NaN says so, and zero would be a finding.
         if total.duration <= 0.0 {
             self.summary = Transfer::unknown();
             return;
         }
         let mean = TransferSample::of(total.integrals.map(|integral| integral / total.duration));
+        // Deviations are summed in the order torque, weight, speed, three places for each of the first two.
         let rms = |first: usize| [0, 1, 2].map(|k| (total.squares[first + k] / total.duration).sqrt());
+        // What is put in is measured at the highest place that the tool has.
         let top = if mean.torque[SURFACE].is_nan() {
             KICK_OFF
         } else {
@@ -285,6 +289,8 @@ impl TransferWatch {
         };
         let put_in = mean.torque[top];
         let swing = (total.squares[6] / total.duration).sqrt();
+        // Friction torques are powers over the speed. Near standstill the quotient says nothing, and the swing of a
+        // sticking bit counts as standstill.
         let turns = mean.speed.abs() >= LEAST_SPEED.max(LEAST_TURNING * mean.asked_speed.abs().max(swing));
         self.summary = Transfer {
             duration: total.duration,
@@ -304,6 +310,7 @@ impl TransferWatch {
                 // What the advance does against the wall takes no torque.
                 [of(inner), of(outer - mean.feed_power), of(joints), mean.string_torque]
             },
+            // A torque near zero would make the share of noise over noise.
             torque_efficiency: if turns && put_in.abs() >= LEAST_TORQUE {
                 mean.torque[BIT] / put_in
             } else {

@@ -21,6 +21,7 @@ impl WhirlSettings {
             ("window_turns", self.window_turns),
             ("short_window_turns", self.short_window_turns),
         ];
+        // Zero turns would be a window without samples.
         Bound::Positive.check_all("whirl", &turns, "turns")?;
         Bound::NotNegative.check("whirl.confirmation_turns", self.confirmation_turns, "turns")?;
         let times = [
@@ -28,14 +29,17 @@ impl WhirlSettings {
             ("max_window", self.max_window),
             ("evaluation_interval", self.evaluation_interval),
         ];
+        // Below LONGEST, because windows reserve memory for all their samples.
         Bound::Above(0.0, LONGEST).check_all("whirl", &times, "s")?;
         let times = [
             ("max_bridged_gap", self.max_bridged_gap),
             ("hold_off", self.hold_off),
             ("standstill_time", self.standstill_time),
         ];
+        // Zero is allowed here: it switches bridging or holding off.
         Bound::Within(0.0, LONGEST).check_all("whirl", &times, "s")?;
         Bound::NotNegative.check("whirl.min_rotary_speed", self.min_rotary_speed, "rad/s")?;
+        // Shares and trust are weights between nothing and all.
         let shares = [
             ("min_orbit_ratio", self.min_orbit_ratio),
             ("large_orbit_ratio", self.large_orbit_ratio),
@@ -52,6 +56,7 @@ impl WhirlSettings {
         Bound::Within(0.0, 1.0).check_all("whirl", &shares, "")?;
         // At 1 a level would never be left.
         Bound::Within(0.0, 0.99).check("whirl.hysteresis", self.hysteresis, "")?;
+        // Levels must rise, or the lower of two would never be seen.
         rising("whirl.backward_cycles", &self.backward_cycles, "")?;
         rising("whirl.forward_power", &self.forward_power, "W/m")?;
         for (index, &turns) in self.lasting_turns.iter().enumerate() {

@@ -176,6 +176,7 @@ impl StationWatch {
         circumstances: &Circumstances,
         settings: &WhirlSettings,
     ) {
+        // Evaluations in a row: one that differs begins the count again.
         if verdict.kind == self.candidate {
             self.agreeing = self.agreeing.saturating_add(1);
         } else {
@@ -183,6 +184,7 @@ impl StationWatch {
             self.agreeing = 1;
         }
         let interval = circumstances.evaluation_interval;
+        // A slow whirl needs longer to be confirmed: the time is counted in its turns.
         let confirmed_for = match verdict.kind {
             WhirlKind::None | WhirlKind::Chaotic => 0.0,
             WhirlKind::Forward | WhirlKind::Backward | WhirlKind::JointVibration => {
@@ -193,6 +195,7 @@ impl StationWatch {
         // Chaotic motion resembles another kind now and then by chance, so its time is accumulated, not counted in a
         // row.
         self.chaotic_for = if verdict.kind == WhirlKind::Chaotic {
+            // Bounded above, so that a long chaotic motion is left in the same time as a short one.
             (self.chaotic_for + interval).min(circumstances.chaos_time)
         } else {
             (self.chaotic_for - CHAOS_FADES * interval).max(0.0)
@@ -201,12 +204,15 @@ impl StationWatch {
             WhirlKind::Chaotic => self.chaotic_for >= circumstances.chaos_time,
             _ => self.agreeing >= needed,
         };
+        // Until then the kind before stands, which keeps a verdict from flickering.
         if confirmed {
             self.kind = verdict.kind;
         }
+        // The rate belongs to the adopted kind. That of another verdict would give a whirl the rate of something else.
         if self.kind == verdict.kind {
             self.whirl_rate = verdict.rate * circumstances.sense;
         }
+        // Without rotation there is no speed that the rate could be related to.
         self.whirl_ratio = match (self.kind, circumstances.rotary_speed) {
             (WhirlKind::Forward | WhirlKind::Backward, Some(speed)) => Some(self.whirl_rate / speed),
             _ => None,

@@ -99,16 +99,20 @@ impl WhirlAnalysis {
     /// Samples are expected at the interval given to [`WhirlAnalysis::new`]. A short gap is bridged by straight lines;
     /// after a long one, or when time runs backwards, the windows restart. A repeated time is ignored.
     pub fn push(&mut self, time: f64, rotary_speed: f64, samples: &[StationSample]) {
+        // The first sample counts as one step after nothing.
         let steps = self
             .last_time
             .map_or(1.0, |last| ((time - last) / self.sample_interval).round());
+        // The same time again is a repetition of the message, and would count the motion twice.
         if steps == 0.0 {
             return;
         }
         let longest = (self.settings.max_bridged_gap / self.sample_interval).max(1.0);
+        // Negative steps are a clock that was set back, long ones a pause; lines across either would invent a motion.
         if !(1.0..=longest).contains(&steps) {
             self.restart_windows();
         } else {
+            // The missing samples lie on straight lines: windows need equal spacing.
             let last_speed = self.rotary_speed;
             for step in 1..steps as usize {
                 let part = step as f64 / steps;
@@ -116,26 +120,31 @@ impl WhirlAnalysis {
             }
         }
         self.last_time = Some(time);
+        // A gap that was not bridged counts as the longest that is, so that hold-offs advance but do not end at once.
         let elapsed = steps.clamp(1.0, longest) * self.sample_interval;
         let WhirlSettings {
             min_rotary_speed,
             standstill_time,
             ..
         } = self.settings;
+        // The drive is judged before the stations, which are only judged while it turns.
         self.drive
             .update(elapsed, rotary_speed, min_rotary_speed, standstill_time);
         self.store(rotary_speed, samples, 1.0);
         for (watch, sample) in self.watches.iter_mut().zip(samples) {
             watch.last = *sample;
         }
+        // Stations take turns within an evaluation interval, which spreads the cost evenly over the steps.
         self.due += self.watches.len() as f64 * self.sample_interval / self.evaluation_interval();
         let mut evaluated = 0;
+        // At most one round per call, also after a gap.
         while self.due >= 1.0 && evaluated < self.watches.len() {
             self.due -= 1.0;
             evaluated += 1;
             self.evaluate(self.next_watch, time);
             self.next_watch = (self.next_watch + 1) % self.watches.len();
         }
+        // The tool's levels follow only from new verdicts.
         if evaluated > 0 {
             self.chaotic_share = chaotic_share(&self.watches);
             self.backward.update(time, elapsed, WhirlKind::Backward, &self.watches);
@@ -185,10 +194,12 @@ impl WhirlAnalysis {
 
     /// Fills `out`, one entry per watched station. Does not allocate once `out` has the right size.
     pub fn report(&self, out: &mut WhirlReport) {
+        // `clear` and `extend` keep the capacity: nothing allocates while the model runs.
         fn fill<T>(out: &mut Vec<T>, values: impl Iterator<Item = T>) {
             out.clear();
             out.extend(values);
         }
+        // All columns are in the order of the stations, which is fixed for a run.
         let watches = self.watches.iter();
         fill(&mut out.station, watches.clone().map(|at| at.station.station));
         fill(
@@ -200,6 +211,7 @@ impl WhirlAnalysis {
         fill(&mut out.kind, watches.clone().map(|at| at.kind));
         fill(&mut out.whirl_rate, watches.clone().map(|at| at.whirl_rate));
         fill(
+            // NaN where the quantity does not exist; zero would be a ratio.
             &mut out.whirl_ratio,
             watches.clone().map(|at| at.whirl_ratio.unwrap_or(f64::NAN)),
         );
@@ -212,6 +224,7 @@ impl WhirlAnalysis {
             &mut out.contact_duty,
             watches.clone().map(|at| at.evidence.contact_duty),
         );
+        // The trust in the inputs scales the confidence of all stations alike.
         let trust = self.input_trust;
         fill(
             &mut out.confidence,
@@ -362,19 +375,24 @@ impl WhirlAnalysis {
 
     fn judge(&mut self, index: usize) {
         let (long_window, interval) = (self.long_window(), self.sample_interval);
+        // The window grows with the length of a turn, so the number of samples follows the speed.
         let wanted = (long_window / interval).round() as usize;
         let watch = &self.watches[index];
         let filled = watch.window.filled().min(wanted);
+        // A window that has just begun to fill shows a part of a turn, and any arc looks like a line.
         if (filled as f64) < MIN_FILL * wanted as f64 {
             return;
         }
         let (clearance, watch_length) = (watch.station.clearance, watch.station.length);
+        // The gates depend on the kind before: leaving a kind needs more than remaining in it.
         let gates = Gates::new(clearance, watch.kind, &self.settings);
         let touches = watch.window.touches(filled, interval);
         let round = watch.window.round(filled);
+        // The long window comes first. Its pace sets the length of the short one.
         watch.window.long_points(filled, interval, &mut self.points);
         let mut long = self.view(round, false, &gates);
         let moves = long.orbit.radius >= gates.radius;
+        // Repetition is costly and decides only where the lines have no direction.
         if moves && !gates.is_directed(&long.lines) {
             long.repetition = self.repetition();
         }
@@ -391,13 +409,17 @@ impl WhirlAnalysis {
             window.short_points(short_samples, interval, &mut self.points);
             self.view(round, true, &gates)
         });
+        // A drive that turns backwards turns all directions around.
         let sense = if self.rotary_speed < 0.0 { -1.0 } else { 1.0 };
         let turning = |speed: f64| Some(speed.abs()).filter(|speed| *speed >= self.settings.min_rotary_speed);
         let rotation = Rotation {
             sense,
+            // The mean over the same window as the orbit: during a change of
+            // speed the present one would not fit the past orbit.
             speed: turning(self.mean_rotary_speed(long.duration)),
         };
         let verdict = judge(&long, short.as_ref(), &gates, &rotation);
+        // The verdict may be of the short window, so the speed is taken again over that.
         let rotary_speed = turning(self.mean_rotary_speed(verdict.window));
         let evidence = Evidence {
             clearance_ratio: if clearance > 0.0 {
@@ -410,6 +432,7 @@ impl WhirlAnalysis {
             impulse: touches.impulse,
             impact_rate: touches.impact_rate,
             friction_power: touches.friction_power / watch_length,
+            // A window that is not full yet lowers the confidence by its missing part.
             confidence: verdict.confidence * (filled as f64 / wanted as f64).min(1.0),
             ..Evidence::default()
         };
@@ -419,6 +442,7 @@ impl WhirlAnalysis {
             chaos_time: CHAOS_PART * long_window,
             evaluation_interval: self.evaluation_interval(),
         };
+        // Turns around the axis over those of the drive, also where the motion is no whirl.
         let turned = long.round.net * sense * TAU / long.duration.max(interval);
         self.watches[index].gap_turns = rotation.speed.map(|speed| turned / speed);
         self.watches[index].accept(&verdict, evidence, &circumstances, &self.settings);

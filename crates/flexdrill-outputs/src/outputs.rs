@@ -169,12 +169,16 @@ impl Outputs {
         frame: &Frame,
         mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
+        // One header for all messages of a frame, as they are of one instant.
         let header = self.header_at(frame.ticks);
         let stamp = self.timeline.at(frame.ticks);
         let snapshot = &frame.snapshot;
+        // The order is that of the schedule, so that node and replay give the same sequence of messages.
         for output in frame.due.iter() {
             let topic = match output {
                 Output::JointDeflections => {
+                    // Messages are filled in place and encoded into one buffer:
+                    // their arrays have their size after the first frame.
                     fill::joint_deflections(snapshot, &header, &mut self.joint_deflections);
                     to_cdr_into(&self.joint_deflections, &mut self.bytes)?;
                     &topics::JOINT_DEFLECTIONS
@@ -219,6 +223,7 @@ impl Outputs {
                     to_cdr_into(&self.transfer, &mut self.bytes)?;
                     &topics::TRANSFER
                 }
+                // Alarms are due with a frame, but are published by their book, which decides what is new.
                 Output::Alarms => continue,
             };
             send(Encoded {
@@ -227,14 +232,18 @@ impl Outputs {
                 cdr: &self.bytes,
             })?;
         }
+        // A warning is news if its level has changed, or if it is suppressed
+        // or released: an operator must see why it has gone.
         let suppressed = fill::whirl_warning_is_suppressed(snapshot);
         let warning = Some((snapshot.warning.sequence, suppressed));
+        // At step 0 the warning is sent in any case, so that a client that waits for one knows the level.
         if snapshot.step == 0 || self.warned != warning {
             if self.warned.is_some_and(|(_, before)| before != suppressed) {
                 self.suppressions += 1;
             }
             self.warned = warning;
             fill::whirl_warning(snapshot, &header, frame.input_quality, &mut self.warning);
+            // The sequence counts both causes, since a client takes the same number as a repetition.
             self.warning.sequence += self.suppressions;
             to_cdr_into(&self.warning, &mut self.bytes)?;
             send(Encoded {

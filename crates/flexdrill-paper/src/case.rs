@@ -64,11 +64,13 @@ impl Case {
 /// # Errors
 /// When the configuration is refused, a step fails, or the energy audit does.
 pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, PaperError> {
+    // Turns are the unit of the record, so a standing tool has none.
     if case.rotary_speed_rpm.is_nan() || case.rotary_speed_rpm <= 0.0 {
         return Err(PaperError::Standing {
             rpm: case.rotary_speed_rpm,
         });
     }
+    // The run begins at speed and under load: the paper shows the settled motion and no run-up.
     let config = case
         .config
         .with_value("inputs.weight_on_bit.initial_kn", case.weight_on_bit_kn)?
@@ -81,6 +83,7 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
         ..Inputs::default()
     };
     let dt = settings.time_step;
+    // The sampling rate is rounded to whole steps; the record has the interval that results.
     let per_sample = (1.0 / (case.sample_rate * dt)).round().max(1.0) as u64;
     let mut recorder = Recorder::new(&simulation, inputs.rotary_speed, dt, per_sample);
     let [begin, end] = case.times().map(|time| (time / dt).round() as u64);
@@ -92,12 +95,14 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
         }
         let step = simulation.step();
         let iterations = simulation.solver_counters().newton_iterations;
+        // In a search a case that needs many iterations would cost as much as several others.
         if case.impatient && step >= PATIENCE && iterations > ITERATION_LIMIT * step {
             return Err(PaperError::Slow {
                 iterations,
                 steps: step,
             });
         }
+        // The settling turns are not part of the record.
         if step > begin {
             recorder.after_step(&simulation);
         }
@@ -106,6 +111,7 @@ pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, Pape
         }
     }
     let record = recorder.finish(&simulation);
+    // A run that does not keep its energy proves nothing, whatever its figures say.
     if record.energy_error() > ENERGY_LIMIT {
         return Err(PaperError::Energy {
             error: record.energy.error,

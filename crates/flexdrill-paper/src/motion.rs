@@ -119,10 +119,12 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
             length: 1.0,
         })
         .collect();
+    // The analysis of the node with its own settings, so that the finding is what an operator would be shown.
     let settings = WhirlSettings::default();
     let mut analysis = WhirlAnalysis::new(&settings, record.interval, places);
     let mut report = WhirlReport::default();
     let mut found = vec![Whirl::default(); n];
+    // The verdicts are read as often as they change.
     let every = ((settings.evaluation_interval / record.interval).round() as usize).max(1);
     // The analysis has no result before half of the window is filled.
     let first = record
@@ -138,6 +140,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
         {
             (place.y, place.z) = (y, z);
         }
+        // The analysis runs on the record's samples, whose interval it was built for.
         analysis.push(time, record.rotary_speed, &samples);
         if sample < first || !sample.is_multiple_of(every) {
             continue;
@@ -145,6 +148,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
         analysis.report(&mut report);
         judgements += 1.0;
         for (s, whirl) in found.iter_mut().enumerate() {
+            // Only verdicts with a direction count. The shares are of all judgements, so that chaos lowers both.
             match report.kind[s] {
                 WhirlKind::Forward => whirl.forward += 1.0,
                 WhirlKind::Backward => whirl.backward += 1.0,
@@ -153,6 +157,7 @@ fn whirl(record: &Record, axis: &Axis, body: Body) -> Vec<Whirl> {
             whirl.ratio += report.whirl_ratio[s];
         }
     }
+    // A station that never whirled keeps zeros instead of NaN.
     for whirl in &mut found {
         let turning = whirl.forward + whirl.backward;
         if turning > 0.0 {

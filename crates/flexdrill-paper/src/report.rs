@@ -174,6 +174,8 @@ impl Report<'_> {
         let energy = &self.record.energy;
         let solver = &self.record.solver;
         let steps = self.record.steps;
+        // The table answers whether the numbers can be trusted, in the
+        // order in which a reviewer asks: balance, solver, step.
         let mut rows = vec![
             (
                 "energy error over the drive's work",
@@ -206,6 +208,8 @@ impl Report<'_> {
                 "0: a step that does not converge is halved, or ends the run".to_owned(),
             ),
         ];
+        // The half step shows the error of the time step by the figures themselves. Verdicts are compared because
+        // chaotic motions differ in every number.
         match self.half_step {
             Some(half) => {
                 let same = self
@@ -218,6 +222,7 @@ impl Report<'_> {
                     .findings
                     .iter()
                     .zip(half)
+                    // Only these are positive figures of the motion, whose ratio means something.
                     .filter(|(a, _)| ["ripple", "inner_force", "outer_force"].contains(&a.key))
                     .map(|(a, b)| (a.value / b.value - 1.0).abs())
                     .fold(0.0, f64::max);
@@ -237,10 +242,12 @@ impl Report<'_> {
     }
 
     fn settings_table(&self) -> Table {
+        // The settings that the paper does not give, or gives otherwise, so that a reader can repeat the run.
         let config = &self.case.config;
         let tool = &config.tool;
         let joint = &tool.joint;
         let mm = |value: f64| format!("{:.1}", 1e3 * value);
+        // Sections of the elements, because thick ends make the first one differ from the middle.
         let pipe = tool.pipe.element_sections(tool.elements_per_link);
         let [begin, end] = self.case.times();
         let layer = |layer: &flexdrill_config::Layer| {
@@ -249,6 +256,7 @@ impl Report<'_> {
                 layer.stiffness, layer.damping, layer.friction_tangential, layer.friction_axial
             )
         };
+        // Every number with its unit, as this table is read next to the paper and without the program.
         let rows = vec![
             ("version of flexdrill", env!("CARGO_PKG_VERSION").to_owned()),
             ("configuration hash (SHA-256)", config.hash()),

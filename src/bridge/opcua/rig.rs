@@ -87,14 +87,18 @@ impl RigBridge {
                 nodes,
                 policy,
             } => {
+                // `connected` and the nodes are of this connection; the other counts run since the start.
                 self.health.connected = true;
                 self.health.connections_made += 1;
                 self.health.nodes[0] = nodes as u64;
+                // Opening counts as hearing: a server whose values do not
+                // change sends nothing until its first keep-alive.
                 self.health.heard_at = Some(now());
                 info("connected", || {
                     format!("connection {connection} follows {nodes} nodes; security policy {policy}")
                 });
             }
+            // One missing node does not end the session, since the other quantities are of use without it.
             RigEvent::NotFollowed { node, status } => {
                 self.health.nodes[1] += 1;
                 warn("not followed", || {
@@ -102,6 +106,7 @@ impl RigBridge {
                 });
             }
             RigEvent::Value(raw) => {
+                // A value that is refused also proves that the server lives.
                 self.health.heard_at = Some(raw.arrived);
                 if let Err(fault) = self.collector.take(&raw) {
                     warn(fault.name(), || printable(&fault.to_string()).into_owned());
@@ -109,6 +114,7 @@ impl RigBridge {
             }
             RigEvent::Alive(at) => self.health.heard_at = Some(at),
             RigEvent::Closed { connection, why } => {
+                // Held values would be repeated as present ones, though nothing says that they are.
                 self.collector.forget();
                 self.health.connected = false;
                 self.health.nodes = [0; 2];

@@ -76,32 +76,40 @@ impl ServerBridge {
     /// One life of the server; returns why it ended.
     async fn serve(&mut self, listener: &TcpListener) -> String {
         let (sender, mut events) = mpsc::channel(QUEUE);
+        // A fault of the preparation ends this life; the caller waits and tries again with the same listener.
         let (mut server, prepared) = match server::prepare(&self.setup, sender).await {
             Ok(prepared) => prepared,
             Err(error) => return error.to_string(),
         };
         self.health.last_fault.clear();
         let (mut update, mut diagnostics) = (interval(UPDATE), interval(DIAGNOSTICS));
+        // One update after a pause replaces all that were missed.
         update.set_missed_tick_behavior(MissedTickBehavior::Delay);
         diagnostics.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        // The server runs inside this future, so that returning from it closes all sessions.
         let mut running = std::pin::pin!(prepared.run(listener));
         loop {
             tokio::select! {
                 why = &mut running => return why,
                 Some(event) = events.recv() => self.on(event),
                 _ = update.tick() => {
+                    // One instant for all values of an update: clients compare source times.
                     let at = now();
                     let (twin, health) = (&mut self.twin, &mut self.health);
                     health.unreadable += self.node.take(|topic, body| {
                         health.twin_at = Some(at);
                         twin.take(topic, body, at).is_ok()
                     });
+                    // A refused value means that the address space and the figures
+                    // differ, which only a new life can repair.
                     if let Err(status) = server.update(twin, at) {
                         return format!("a value of the twin was refused: {status}");
                     }
                 }
                 _ = diagnostics.tick() => {
                     let rejected = self.setup.keys.rejected() as u64;
+                    // The count comes from the folder of rejected certificates.
+                    // Only a rise is logged, because the files stay.
                     if rejected > self.health.certificates_rejected {
                         let folder = self.setup.keys.folder().display();
                         warn("certificate", || {
@@ -130,6 +138,7 @@ impl ServerBridge {
                 self.health.opened += 1;
                 info("opened", || format!("connection from {peer}"));
             }
+            // Saturating: `Opened` is dropped when the queue is full, and its `Closed` then comes alone.
             ServerEvent::Closed => self.health.open = self.health.open.saturating_sub(1),
             ServerEvent::Refused { peer } => {
                 self.health.refused += 1;
@@ -138,6 +147,7 @@ impl ServerBridge {
                 });
             }
             ServerEvent::NotOpcUa { peer } => {
+                // Counted apart from refusals: port scanners cause these, and no client has to be helped.
                 self.health.not_opcua += 1;
                 warn("not opcua", || {
                     format!("a connection from {peer} did not begin as OPC UA and was closed")
@@ -154,11 +164,13 @@ impl ServerBridge {
             }
             ServerEvent::Written { quantity, value, user } => {
                 self.health.targets_written += 1;
+                // The stamp is the bridge's: a client's clock is not known to agree with the rig's.
                 let header = Header {
                     stamp: Time::from_nanoseconds(now()),
                     ..Header::default()
                 };
                 let source = format!("opcua user {user}");
+                // One target per message. The others stay out of it, so that an old value of theirs cannot return.
                 let only = |of| (of == quantity).then_some(value);
                 if let Some(inputs) = rig_inputs(only, header, RigInputs::GOOD, &source) {
                     self.node.publish(Outgoing::Inputs, &inputs);

@@ -87,11 +87,14 @@ mod with_mqtt {
     pub fn run(args: &MqttArgs, ros_args: &[String]) -> anyhow::Result<()> {
         let ros = args.ros.start(ros_args, NODE_NAME)?;
         let broker = args.broker()?;
+        // The namespace in the topic keeps two rigs on one broker apart.
         let prefix = match &args.topic {
             Some(prefix) => prefix.clone(),
             None => format!("flexdrill{}", ros.identity.namespace.trim_end_matches('/')),
         };
         let documents = Documents::new(&prefix, args.client_id.as_deref()).map_err(WrongUse::new)?;
+        // The name is checked before the network is touched: a wrong one is an
+        // error of use, and would never come right by waiting.
         let sparkplug = match &args.sparkplug {
             Some(name) => {
                 let name = name.parse().map_err(WrongUse::new)?;
@@ -99,6 +102,7 @@ mod with_mqtt {
             }
             None => None,
         };
+        // A warning and not an error: a broker on the same machine is a common case.
         if broker.exposes_password() {
             tracing::warn!("the password crosses the network unencrypted; give --tls-ca or --tls");
         }
@@ -116,7 +120,10 @@ mod with_mqtt {
             );
             let every = Duration::from_secs_f64(args.every);
             let mut bridge = MqttBridge::new(node, ros.identity.full_name(), broker, documents, sparkplug, every);
+            // Signals are caught before the first connection, so that its end is announced in any case.
             let shutdown = signals::shutdown(false)?;
+            // The bridge ends by a channel, because dropping its future
+            // would leave the broker to find out by a timeout.
             let (stop, stopping) = watch::channel(false);
             let mut running = std::pin::pin!(bridge.run(LinkTimes::default(), stopping));
             tokio::select! {

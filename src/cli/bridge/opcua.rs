@@ -130,11 +130,15 @@ mod with_opcua {
             Some(file) => Users::load(file)?,
             None => Users::default(),
         };
+        // Clients compare the certificate with the host that they were given. An
+        // unspecified address is no name, so the machine's stands for it.
         let host = args.host.clone().unwrap_or_else(|| match address.ip() {
             ip if ip.is_unspecified() => own_name(),
             ip => ip.to_string(),
         });
         let (keys, application_uri) = args.keys(Some(&host))?;
+        // The port is bound before the configuration of the server: port 0 is only known afterwards, and an occupied
+        // one must end the program.
         let listening = tokio::net::TcpListener::bind(address).await;
         let listener = listening.with_context(|| format!("--listen {address}"))?;
         let address = listener.local_addr()?;
@@ -149,10 +153,12 @@ mod with_opcua {
             keys,
             users,
             allow_write: args.allow_write,
+            // On the loopback nothing can be overheard, so clients without certificates may come.
             unencrypted: args.unencrypted || loopback,
             plain_passwords: loopback,
         };
         let topics: Vec<_> = TwinState::topics().collect();
+        // Without writing the node has no publisher of inputs at all: then a fault in the server cannot send any.
         let sends: &[Outgoing] = if args.allow_write {
             &[Outgoing::Diagnostics, Outgoing::Inputs]
         } else {

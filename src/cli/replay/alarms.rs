@@ -68,6 +68,7 @@ impl fmt::Display for AlarmTally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let groups = self.incidents.groups();
         let mut rows: Vec<_> = AlarmId::ALL.into_iter().filter_map(|id| groups.get(id.id())).collect();
+        // Worst first: priority, then whether it asks for an action, then how often it came.
         rows.sort_by_key(|group| std::cmp::Reverse((group.priority, group.acts, group.times)));
         if rows.is_empty() {
             return writeln!(f, "  alarms                 none");
@@ -78,6 +79,7 @@ impl fmt::Display for AlarmTally {
             "\nalarms: {} ({high} high, {medium} medium, {low} low) in {:.1} min, {}",
             self.figures.annunciations,
             self.figures.watched / 60.0,
+            // A rate of less than an hour would make one early alarm look like a flood.
             match self.figures.per_hour {
                 Some(rate) => format!("{rate:.1} per hour"),
                 None => "per hour: not before a full hour".to_owned(),
@@ -90,6 +92,7 @@ impl fmt::Display for AlarmTally {
         )?;
         for group in rows {
             let (worst, moment) = (&group.worst, &group.moment);
+            // Times of the table are seconds of the replay, as in the log's own rows.
             let worst_at = seconds(moment.worst_at.saturating_sub(self.log.start));
             writeln!(
                 f,
@@ -110,6 +113,7 @@ impl fmt::Display for AlarmTally {
                 writeln!(f, "  {:<71}Engineer: {}", "", worst.what_the_engineer_can_do)?;
             }
         }
+        // The two limits are those of EEMUA 191 and ISA 18.2, and comparable with the rig's alarm system.
         writeln!(
             f,
             "  at most {} within 10 min; in flood (more than 10 within 10 min) {}; one alarm at most {} times within 60 s",

@@ -113,6 +113,7 @@ pub(super) fn table(episodes: &[Episode], joints: &Joints, log: &LogPlace) -> St
     shown.truncate(ROWS);
     shown.sort_unstable();
     for episode in shown.iter().map(|index| &episodes[*index]) {
+        // `>` marks an episode that the end of the run cut: its duration is a lower bound.
         let lasts = format!("{}{:.2}", if episode.lasting { ">" } else { "" }, episode.duration);
         let _ = writeln!(
             text,

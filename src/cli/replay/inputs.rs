@@ -24,6 +24,8 @@ pub(super) fn replay(
     out: &Path,
     duration: Option<f64>,
 ) -> anyhow::Result<(Player, Progress)> {
+    // The messages are formed before the samples are taken apart: the recording
+    // gets them as received, the conditioner gets their values.
     let inputs = samples.messages();
     let Samples {
         inputs: samples,
@@ -34,10 +36,12 @@ pub(super) fn replay(
         anyhow::bail!("there is no sample of rotary speed or weight on bit to replay");
     };
     let time_step = config.solver.time_step;
+    // The tail lets the model react to the last sample.
     let span = last.since(first) + TAIL;
     let span = duration.map_or(span, |duration| duration.min(span));
     let steps = (span / time_step).round() as u64;
     let per_period = ((INPUT_PERIOD / time_step).round() as u64).max(1);
+    // The conditioner is the node's own, so that a replay shows what limits, ages and ramps would have done at the rig.
     let mut conditioner = Conditioner::new(config.inputs.rules_of(config.used_inputs()));
     let max_skew = config.inputs.stamp.max_skew;
     let mut player = Player::new(
@@ -53,6 +57,7 @@ pub(super) fn replay(
             }
         },
     )?;
+    // An optional input that is missing everywhere is said once; each sample that lacks it would repeat it.
     for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
         if conditioner.is_of_interest(kind) && !samples.iter().any(|sample| sample.kind == kind) {
             tell!(
@@ -68,6 +73,7 @@ pub(super) fn replay(
     let mut refused = 0_u64;
     while player.step() < steps {
         let now = player.time_of(player.step());
+        // All samples up to now, in the order of their times: as at the rig, the newest good one is in force.
         while let Some(sample) = remaining.next_if(|sample| sample.since(first) <= now) {
             let at = sample.since(first);
             let offered = match sample.stamp {
@@ -76,11 +82,14 @@ pub(super) fn replay(
             };
             if let Err(rejection) = offered {
                 refused += 1;
+                // Ten are enough to see the pattern; the total follows at the end.
                 if refused <= 10 {
                     tell!("at {at:.2} s: {rejection}");
                 }
             }
         }
+        // Parameters that follow the rig act between periods, as in the node:
+        // a change within a period would depend on its length.
         let changes = player.take_followed();
         if !changes.is_empty() {
             let values = changes.iter().map(|change| (&change.name, change.value));
@@ -95,6 +104,8 @@ pub(super) fn replay(
             refinement: player.wanted_refinement(),
             ..player.inputs()
         };
+        // The step always differs, so it is set aside. Only changes are applied, as in the node, because each is a
+        // message in the recording.
         let same = applied.is_some_and(|applied| {
             RunInputs {
                 step: applied.step,
@@ -105,6 +116,7 @@ pub(super) fn replay(
             player.apply(&inputs, &changes, applied.is_none())?;
             applied = Some(inputs);
         }
+        // The last period may be short, so that the run ends at the step that `duration` gives.
         for _ in 0..per_period.min(steps - player.step()) {
             player.advance_or_fail()?;
         }

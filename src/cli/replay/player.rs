@@ -106,6 +106,7 @@ impl Player {
             inputs: mut received,
             mut measured,
         } = from_rig;
+        // Both lists are reversed, so that the next message is taken from the end without moving the others.
         measured.retain(|sample| sample.time >= start);
         measured.reverse();
         received.retain(|(time, _)| *time >= start);
@@ -114,6 +115,7 @@ impl Player {
             .iter()
             .for_each(|(time, message)| rows.push(*time, &message.source));
         received.reverse();
+        // A topic without messages is not announced: a viewer would wait for it.
         let given = [
             (!measured.is_empty()).then_some(&topics::RIG_MEASURED),
             (!received.is_empty()).then_some(&topics::RIG_INPUTS),
@@ -124,6 +126,7 @@ impl Player {
             .map(|topic| Topic::new(name(topic), &topic.kind, topic.qos))
             .collect();
         let recorder = Recorder::create(out, &recorded)?;
+        // The clock measures the time per step only. The simulation itself reads none, which keeps the replay exact.
         let mut simulation = Simulation::new(&config.tool(), settings)?;
         simulation.set_clock(monotonic::now);
         let run = Run::new(simulation, schedule(&config, &config.outputs.rates));
@@ -145,6 +148,7 @@ impl Player {
             tally: Tally::of_log(LogPlace { rows, start }),
         };
         let (hash, yaml) = (player.config.hash(), player.config.to_yaml()?);
+        // The session comes first in the recording, since all other messages refer to its configuration.
         let (recorder, topics) = (&mut player.recorder, &player.topics);
         player
             .outputs

@@ -69,7 +69,10 @@ impl Script {
             RigMeasured::ROS_TYPE,
             Residuals::ROS_TYPE,
         ];
+        // Only these types are decoded: they drive the model or say where
+        // it was; the rest of a recording is far larger.
         bag.select(|topic| wanted.contains(&topic.ros_type.as_str()));
+        // Names may be remapped, so the type finds the topic and the configured name decides between several.
         let names = topics::ALL
             .iter()
             .filter_map(|known| {
@@ -103,6 +106,7 @@ impl Script {
                 }
                 AppliedInputs::ROS_TYPE => {
                     let inputs = message.decode::<AppliedInputs>()?;
+                    // A reset begins the count of steps again, so what was seen before says nothing about the end.
                     if inputs.reset {
                         status_step = 0;
                         newest_stamp = None;
@@ -121,9 +125,11 @@ impl Script {
                     let residuals = message.decode::<Residuals>()?;
                     samples.push((residuals.header.stamp.to_nanoseconds(), Samples::of(&residuals)));
                 }
+                // The last output bounds the run where the status, once a second, came too early.
                 _ => newest_stamp = Some(message.decode::<JointDeflections>()?.header.stamp.to_nanoseconds()),
             }
         }
+        // A file that was cut in a crash is the usual reason to replay it, so it is used as far as it reaches.
         for cut in bag.cuts() {
             tell!(
                 "{} was cut short ({}); the replay ends there",
@@ -132,6 +138,7 @@ impl Script {
             );
         }
         let session = session.with_context(|| format!("{}: it has no {}", path.display(), topics::SESSION.name))?;
+        // Whichever message came last shows how far the run had got.
         let last_step = status_step.max(step_of(newest_stamp, &session, &applied));
         Ok(Self {
             session,
@@ -164,6 +171,7 @@ impl Script {
     /// Possible differences between its replay and the recorded run.
     pub(super) fn exactness(&self) -> Exactness {
         let mut exactness = Exactness::default();
+        // Departures make the outputs differ; notes are losses that do not reach the model.
         let Some(first) = self.applied.first() else {
             exactness.departures.push(format!(
                 "the recording has no {}: the inputs are used as received, and conditioned again",
@@ -171,6 +179,7 @@ impl Script {
             ));
             return exactness;
         };
+        // A recording that another program began later lacks the state at its first step.
         if first.step > 0 && !first.reset {
             exactness.departures.push(format!(
                 "the recording begins at step {} of the run and does not have the model's state at that step: \
@@ -178,6 +187,8 @@ impl Script {
                 first.step
             ));
         }
+        // Applied inputs and residuals act on the replay; gaps of all other
+        // topics are losses of outputs, which the replay makes again.
         for gap in &self.gaps {
             if gap.topic.ros_type == AppliedInputs::ROS_TYPE {
                 exactness.departures.push(format!(
@@ -196,6 +207,7 @@ impl Script {
         exactness
             .notes
             .extend(damaged.map(|damage| format!("the recording is damaged: {damage}")));
+        // Another version may round or order differently, so equal bits are no promise.
         if self.session.version != env!("CARGO_PKG_VERSION") {
             exactness.departures.push(format!(
                 "recorded with flexdrill {}, replayed with {}: outputs may differ",
@@ -224,6 +236,8 @@ impl Script {
             printable(short(&self.session.config_hash)),
             self.applied.len(),
         );
+        // Steps and skips of the messages count from the start of the node,
+        // those of the player from the start of the replay.
         let mut base = Base::of(&self.session, self.applied.first());
         let mut player = Player::new(config, base.start, self.from_rig.clone(), out, |topic| self.name(topic))?;
         player.compare_with(self.samples.iter().copied());
@@ -259,6 +273,8 @@ impl Script {
             if message.reset {
                 base.step = 0;
             }
+            // The inputs hold until the step of the next message. After the last
+            // one the recording's end is known from its outputs.
             let next = self.applied.get(index + 1).map_or(self.last_step, |next| next.step);
             if let Some(until) = base.step(next) {
                 pace.advance(&mut player, until)?;

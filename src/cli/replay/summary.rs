@@ -288,6 +288,7 @@ impl Tally {
     /// Prints the summary. `wall` is the wall time of the replay (s), `time_step` the model's step (s).
     pub(super) fn print(&self, wall: f64, time_step: f64) {
         let row = |name: &str, value: String| say!("  {name:<22} {value}");
+        // Time by steps, not by stamps: skipped steps were not computed.
         let model = self.steps as f64 * time_step;
         row(
             "model time",
@@ -312,6 +313,7 @@ impl Tally {
         if self.steps > 0 {
             row("time per step", self.time_per_step());
         }
+        // Keys are depths of halving in ascending order, so the last is the deepest.
         let split: u64 = self.halvings.values().sum();
         let deepest = self.halvings.keys().next_back().copied().unwrap_or_default();
         row(
@@ -335,6 +337,7 @@ impl Tally {
             "largest bend",
             format!("{:.2} deg {}", rad_to_deg(self.bend.value), at(&self.bend)),
         );
+        // The row says "never" instead of being absent, because an engineer looks for it first.
         if self.joints_at_limit > 0 {
             row(
                 "joints at their limit",
@@ -348,6 +351,7 @@ impl Tally {
         } else {
             row("joints at their limit", "never".into());
         }
+        // Sums since the start are in the last status; without one the run ended before its first second.
         if let Some(last) = &self.last {
             let share = share_of_drive(last.energy_error, last.drive);
             row("model quality", self.quality.text());

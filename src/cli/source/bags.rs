@@ -40,6 +40,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
         .topic(topics::RIG_MEASURED.name)
         .map(|topic| topic.name.clone())
         .ok();
+    // Rotary speed and weight drive the model and must come from somewhere; all else has an assumed value.
     let [speed, weight, advance, pressure] = plain;
     // The optional inputs may be missing.
     let [advance, pressure] = [advance.ok(), pressure.ok()];
@@ -56,6 +57,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
             )));
         }
     };
+    // A topic counts by name and type: another program may use the name for another type.
     let role = |name: &str, ros_type: &str| {
         names.iter().enumerate().position(|(index, known)| {
             let wanted = match index {

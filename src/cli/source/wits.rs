@@ -31,6 +31,7 @@ pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Sample
         sources: Sources::default(),
         without_time: 0,
     };
+    // Each connection has its own reader, because frames of two sources may interleave in the capture.
     let (mut counts, mut lines) = (Counts::default(), BTreeMap::<u64, Line>::new());
     let mut newest = 0;
     for block in capture {
@@ -42,7 +43,9 @@ pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Sample
             }
             block => block?,
         };
+        // Blocks without a time have that of the block before; in files without any, the frames' own stamps count.
         newest = block.time.unwrap_or(newest);
+        // An empty block is the capture's mark for the end of a connection. A frame that was open ends with it.
         if block.bytes.is_empty() {
             if let Some(line) = lines.remove(&block.connection) {
                 line.finish(newest, &mut counts, |event| taken.take(block.connection, event, newest));
@@ -56,9 +59,11 @@ pub(super) fn read(path: &Path, mapping: Option<&Path>) -> anyhow::Result<Sample
             taken.take(block.connection, event, newest);
         });
     }
+    // A capture that was stopped leaves connections open, and their last frames count.
     for (connection, line) in lines {
         line.finish(newest, &mut counts, |event| taken.take(connection, event, newest));
     }
+    // The counts are printed even if all is well: a mapping that fits nothing also gives no error.
     let faults: u64 = counts.faults.iter().sum();
     tell!(
         "{}: {} frames, {} used with {} values; {} bytes in no frame, {faults} faulty items, {} records missing",

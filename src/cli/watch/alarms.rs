@@ -50,6 +50,7 @@ pub(super) fn summary(list: &AlarmList) -> String {
 
 /// Priority, name, state and location.
 pub(super) fn headline(alarm: &Alarm) -> String {
+    // A place without depth would read as "at NaN m".
     let location = match alarm.body {
         Alarm::NOWHERE => String::new(),
         _ if !alarm.measured_depth.is_finite() || !alarm.inclination.is_finite() => String::new(),
@@ -60,6 +61,7 @@ pub(super) fn headline(alarm: &Alarm) -> String {
             rad_to_deg(alarm.inclination)
         ),
     };
+    // Three in a minute is the glossary's chattering.
     let chatters = if alarm.annunciations_last_minute >= 3 {
         format!(", {} times in the last minute", alarm.annunciations_last_minute)
     } else {
@@ -74,6 +76,7 @@ pub(super) fn headline(alarm: &Alarm) -> String {
         0 | 1 => String::new(),
         times => format!(", came {times} times"),
     };
+    // `active` with `ended`: the condition is over, but the alarm holds.
     let ended = if alarm.active && alarm.ended {
         ", condition ended"
     } else {

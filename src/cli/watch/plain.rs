@@ -20,9 +20,11 @@ fn block(board: &Board, now: Instant) -> String {
 }
 
 fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
+    // The heartbeat comes first: when it is missing, everything below is old.
     if let Some(line) = texts::heartbeat(board, now) {
         writeln!(text, "{line}")?;
     }
+    // A part that has not been received has no lines, so that the block never shows values that nothing sent.
     if let Some(status) = board.status() {
         writeln!(
             text,
@@ -74,6 +76,7 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
     if let Some(whirl) = board.whirl() {
         writeln!(text, "whirl      {}", texts::whirl_counts(whirl))?;
     }
+    // Unlike the parts above, the warning always has a line: its absence would be read as "no warning".
     writeln!(text, "warning    {}", texts::warning(board.warning()))?;
     if let Some(list) = board.alarms() {
         writeln!(text, "alarms     {}", alarms::summary(list))?;
@@ -82,6 +85,7 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
             writeln!(text, "           {}", alarms::sentences(alarm))?;
         }
     }
+    // Last, because it puts everything above in question.
     if board.unreadable() > 0 {
         writeln!(
             text,

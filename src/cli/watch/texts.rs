@@ -107,6 +107,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
         .iter()
         .enumerate()
         .map(|(index, name)| {
+            // Arrays of an older twin may be shorter; what they lack is unknown and not zero.
             let at = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);
             let kind = InputKind::of_name(name);
             let convert = |value: f64| kind.map_or(value, |kind| kind.from_si(value));
@@ -118,6 +119,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
                 Some(InputKind::StandpipePressure) => "SPP",
                 None => name,
             };
+            // `MAX` is no state and is shown as unknown.
             let state = status.input_state.get(index).copied().unwrap_or(u8::MAX);
             let rejected = status.input_rejected.get(index).copied().unwrap_or(0);
             let mut line = format!("{label} {} {unit}", number(convert(at(&status.input_applied))));
@@ -130,6 +132,7 @@ pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
             if rejected > 0 {
                 line += &format!(" ({rejected} refused)");
             }
+            // Capitals mark what needs a person: the model no longer follows this input, or two programs send it.
             let flag = |flags: &[bool]| flags.get(index) == Some(&true);
             if flag(&status.input_safe) {
                 line += " TO SAFE VALUE";

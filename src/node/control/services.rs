@@ -29,9 +29,12 @@ impl Control {
     }
 
     async fn save_checkpoint(self: Arc<Self>) -> TriggerResponse {
+        // Before the first step there is no state to save.
         if self.gauges.run_state() == RunState::Starting {
             return answer(Err(ControlError::Starting));
         }
+        // The lock ends before the file is written, or requests in the
+        // meantime would wait for the disk instead of being refused.
         {
             let mut last = self.checkpoint.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(passed) = last
@@ -40,13 +43,16 @@ impl Control {
             {
                 return answer(Err(ControlError::TooOften(passed.as_secs_f64())));
             }
+            // The interval counts from the attempt. A disk that fails must not be written to without pause.
             *last = Some(Instant::now());
         }
+        // The state comes from the solver, and the disk may be slow: both would block a worker of the runtime.
         let saved = tokio::task::spawn_blocking(move || {
             let SavedRun {
                 checkpoint, applied, ..
             } = self.state()?;
             let step = applied.step;
+            // Hash and step name the file, so that a checkpoint fits its configuration and none overwrites another.
             let path = PathBuf::from(format!(
                 "flexdrill_{}_step{step}.checkpoint",
                 &self.config().hash()[..12]
@@ -54,6 +60,7 @@ impl Control {
             if let Err(source) = write_whole(&path, &checkpoint) {
                 return Err(ControlError::Write { path, source });
             }
+            // The client may run on another machine, where a relative path means nothing.
             let absolute = std::path::absolute(&path).unwrap_or(path);
             Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
         });

@@ -14,6 +14,8 @@ const NOT_DESCRIBED: &str = "A key of the configuration.";
 
 /// All parameters of a node.
 pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> ParameterStore {
+    // Bounds and units come from the configuration's own table, so that
+    // a parameter can never accept what a file could not.
     let numbers: BTreeMap<String, NumberKey> = config
         .numbers()
         .into_iter()
@@ -21,6 +23,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
         .collect();
     let (hard, texts) = (HardBounds::of(config), key_texts());
     let mut found = Vec::new();
+    // Every key is a parameter under its path in the file.
     flatten("", &config.to_tree(), &mut found);
     let fixed = |name: &str, description: &str, value| Declaration {
         name: name.to_owned(),
@@ -44,6 +47,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
     let configured = found.into_iter().map(|(name, value)| {
         let number = numbers.get(&name);
         let text = texts.get(&name).map_or(NOT_DESCRIBED, String::as_str);
+        // A range with an open end cannot be declared in ROS 2; its bound is checked when the value is set.
         let range = number
             .map(|number| range_of(number, &hard))
             .filter(|range| range.low.is_finite() && range.high.is_finite());
@@ -55,6 +59,7 @@ pub fn declare(config: &Config, config_file: &str, use_sim_time: bool) -> Parame
         Declaration {
             name,
             description,
+            // The range of a constant would suggest that it can be set.
             range: if read_only.is_some() { None } else { range },
             read_only,
             value,

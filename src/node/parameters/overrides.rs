@@ -98,6 +98,7 @@ pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Starte
             )),
         }
     }
+    // All names are checked before any value is applied, so that the error names the option or file of the wrong one.
     for (key, _) in &values {
         if !config.has(key) {
             let origin = overrides
@@ -111,6 +112,7 @@ pub fn apply_overrides(config: &Config, overrides: &[Override]) -> Result<Starte
             });
         }
     }
+    // Together, because two values may be valid only with each other.
     Ok(Started {
         config: config.with_values("parameters", values)?,
         use_sim_time,

@@ -32,6 +32,7 @@ pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
         // A truncated chunk may lack even its head.
         return (Vec::new(), whole.then(|| "the chunk's head is damaged".to_owned()));
     };
+    // The claimed size counts only as far as the file has bytes. A truncated chunk gives what is there.
     let compressed = match usize::try_from(head.compressed_size) {
         Ok(size) if size <= rest.len() => &rest[..size],
         _ if !whole => rest,
@@ -49,6 +50,7 @@ pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
     } else {
         most
     };
+    // Refused before decompressing, with both sizes in the text: a claim like this is an attack or damage.
     if whole && head.uncompressed_size > most {
         return (
             Vec::new(),
@@ -61,6 +63,7 @@ pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
         );
     }
     let mut records = Vec::new();
+    // Each decoder is cut at the limit, so that false sizes cost no memory either.
     let read = match head.compression.as_str() {
         "" => compressed.take(limit).read_to_end(&mut records),
         "zstd" => zstd::stream::read::Decoder::with_buffer(compressed)
@@ -75,11 +78,13 @@ pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
             );
         }
     };
+    // At a cut the decoder's error and a wrong checksum are expected, and the records before it are good.
     if !whole {
         return (records, None);
     }
     let problem = match read {
         Err(error) => Some(format!("the chunk cannot be decompressed: {error}")),
+        // Length before checksum: it names the defect more exactly.
         Ok(_) if records.len() as u64 != head.uncompressed_size => Some(format!(
             "the chunk decompresses to {} bytes instead of {}",
             records.len(),
@@ -91,6 +96,7 @@ pub(super) fn unpack(body: &[u8], whole: bool) -> (Vec<u8>, Option<String>) {
         }
         Ok(_) => None,
     };
+    // A wrong checksum does not say which record is damaged, so none is used.
     if problem.is_some() {
         records.clear();
     }

@@ -65,6 +65,7 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
     let read_error = || BagError::io("read", path);
     let length = file.metadata().map_err(read_error())?.len();
     let mut reader = BufReader::with_capacity(1 << 16, file);
+    // The magic is all that distinguishes a bag from any other file; everything after it may be damaged.
     let mut magic = [0; MAGIC.len()];
     let is_mcap = reader.read_exact(&mut magic).is_ok() && magic == *MAGIC;
     if !is_mcap {
@@ -79,6 +80,7 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
         messages: None,
         cut: None,
     };
+    // The position is counted here and not asked of the reader, which reads ahead.
     let mut position = MAGIC.len() as u64;
     let most_in_file = chunk::most_in_file(length);
     // Sum of the sizes that the chunks so far claim to decompress to.
@@ -86,6 +88,8 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
     // Number of channels in the whole file, from its statistics.
     let mut channel_count = 0;
     let complete = loop {
+        // A recorder that is killed leaves a file without an end. What is
+        // before the cut is a normal recording, so this is no error.
         if position + RECORD_HEAD > length {
             let why = if position == length {
                 "the file has no end record: its writer was stopped"
@@ -100,6 +104,8 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
         let opcode = head[0];
         let size = Fields(&head[1..]).u64().unwrap_or(u64::MAX);
         let body = position + RECORD_HEAD;
+        // Opcode 0 is not assigned: zeros are what a file has where the
+        // system allocated space and lost power before the data.
         if opcode == 0 {
             scan.cut = Some((position, "no MCAP record begins here: the file is damaged".to_owned()));
             break false;
@@ -107,6 +113,8 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
         let available = length - body;
         if size > available {
             scan.cut = Some((position, "the file ends within a record".to_owned()));
+            // The cut is mostly within a chunk, because chunks are the
+            // largest records. Its beginning can be decompressed.
             if opcode == op::CHUNK {
                 let head = chunk_summary(&mut reader, available).map_err(read_error())?;
                 let (start, end, _) = head.unwrap_or_default();
@@ -128,6 +136,7 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
                 used = size.min(CHUNK_HEAD);
                 let head = chunk_summary(&mut reader, size).map_err(read_error())?;
                 let (start, end, size_unpacked) = head.unwrap_or_default();
+                // The sum is bounded too: many chunks, each within its own bound, could otherwise expand without end.
                 unpacked = unpacked.saturating_add(size_unpacked);
                 if unpacked > most_in_file {
                     return Err(BagError::Damaged {
@@ -147,6 +156,7 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
                     kind: Kind::Chunk,
                 });
             }
+            // Outside of chunks only the time is needed here; the run of messages is read when its turn comes.
             op::MESSAGE => {
                 used = size.min(MESSAGE_HEAD as u64);
                 let mut bytes = vec![0; used as usize];
@@ -155,12 +165,14 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
                     add_loose(&mut scan.segments, position, RECORD_HEAD + size, message.log_time);
                 }
             }
+            // A larger record of these kinds is no topic of a recording, and would be read into memory.
             op::SCHEMA | op::CHANNEL | op::STATISTICS if size <= LARGEST_RECORD => {
                 used = size;
                 let mut bytes = vec![0; size as usize];
                 reader.read_exact(&mut bytes).map_err(read_error())?;
                 if opcode == op::STATISTICS {
                     if let Ok(Record::Statistics(statistics)) = parse_record(opcode, &bytes) {
+                        // The statistics come at the end, and say how many channels the summary must have.
                         scan.messages = Some(statistics.message_count);
                         channel_count = statistics.channel_count as usize;
                     }
@@ -168,11 +180,13 @@ pub(super) fn scan(path: &Path, file: &File) -> Result<Scan, BagError> {
                     scan.channels.add(opcode, &bytes);
                 }
             }
+            // All other records, those of later versions among them, are skipped by their length, as the format asks.
             _ => {}
         }
         reader.seek_relative((size - used) as i64).map_err(read_error())?;
         position = body + size;
     };
+    // A file without its summary, or with a part of it, has the missing topics within its chunks.
     if !complete || scan.channels.count() < channel_count || scan.channels.count() == 0 {
         walk_chunks(path, file, &mut scan)?;
     }

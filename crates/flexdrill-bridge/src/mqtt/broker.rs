@@ -88,10 +88,12 @@ impl Broker {
     /// # Errors
     /// When the text is no address or the authorities cannot be used.
     pub fn new(text: &str, tls: Tls, user: Option<(String, Vec<u8>)>) -> Result<Self, BrokerError> {
+        // The text is in every error, because options may come from a service file that the reader does not see.
         let wrong = |why| BrokerError::Address {
             text: text.to_owned(),
             why,
         };
+        // Only IPv6 has brackets: without them its colons could not be distinguished from that of the port.
         let (host, port) = match text.strip_prefix('[') {
             Some(rest) => {
                 let (host, port) = rest.split_once(']').ok_or_else(|| wrong("the bracket is not closed"))?;
@@ -112,10 +114,12 @@ impl Broker {
                 None => (text, None),
             },
         };
+        // A slash is typically a URL (`mqtt://`), which this option does not take.
         if host.is_empty() || host.chars().any(|c| c.is_whitespace() || c.is_control() || c == '/') {
             return Err(wrong("the host is missing or has a character that no host has"));
         }
         let port = match port {
+            // 1883 and 8883 are the registered ports of MQTT without and with TLS.
             None if tls == Tls::None => 1883,
             None => 8883,
             Some(port) => match port.parse() {
@@ -129,6 +133,8 @@ impl Broker {
             tls,
             user,
         };
+        // The certificates are tried now, so that a wrong file ends the
+        // program at its start and not at the first connection.
         broker.transport()?;
         Ok(broker)
     }
@@ -215,6 +221,7 @@ impl Broker {
     pub(super) fn explained(&self, error: &ConnectionError, was_connected: bool) -> String {
         let closed = "the broker closed the connection";
         match error {
+            // The broker's own reason comes first: it is the only one that a user can act on directly.
             ConnectionError::ConnectionRefused(code) => match code {
                 ConnectReturnCode::BadUserNamePassword | ConnectReturnCode::NotAuthorized => match &self.user {
                     Some((user, _)) => {
@@ -229,10 +236,12 @@ impl Broker {
                 }
                 _ => format!("the broker refuses the connection ({code:?})"),
             },
+            // Errors of the socket may be wrapped by TLS or not. Both mean the same to the user.
             ConnectionError::Tls(TlsError::Io(error)) | ConnectionError::Io(error) => self.explained_io(error),
             ConnectionError::Tls(error) => format!("TLS failed: {error}"),
             ConnectionError::NetworkTimeout => "no answer in time".to_owned(),
             ConnectionError::FlushTimeout => "the broker takes no data".to_owned(),
+            // A ping goes out after each keep-alive without traffic, and the answer may take as long again.
             ConnectionError::MqttState(StateError::AwaitPingResp) => {
                 format!("no sign of life from the broker for {} s", 2 * KEEP_ALIVE_S)
             }
@@ -242,12 +251,14 @@ impl Broker {
                 format!("{closed} without an answer{}", self.tls_hint())
             }
             // `Other` is an end within what was taken for a packet.
+            // Before the first packet these errors depend on what listens there, so the hint on TLS is added only then.
             ConnectionError::MqttState(StateError::Deserialization(Error::Io(error)) | StateError::Io(error))
                 if was_connected || error.kind() != io::ErrorKind::Other =>
             {
                 let hint = if was_connected { "" } else { self.tls_hint() };
                 format!("the connection broke: {error}{hint}")
             }
+            // An answer that is no CONNACK: another service listens on this port.
             ConnectionError::NotConnAck(_) | ConnectionError::MqttState(StateError::Deserialization(_))
                 if !was_connected =>
             {

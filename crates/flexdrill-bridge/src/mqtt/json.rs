@@ -167,6 +167,7 @@ fn alarm(alarm: &Alarm) -> Value {
 
 /// The document of `forecast`.
 pub fn forecast(forecast: &Forecast) -> Value {
+    // Bands and alarms are lists, because a later version may have more; a reader finds its own by name.
     let bands: Vec<Value> = forecast
         .bands
         .iter()
@@ -191,10 +192,12 @@ pub fn forecast(forecast: &Forecast) -> Value {
                 "probability": chance.probability,
                 "lower": chance.lower,
                 "upper": chance.upper,
+                // `quantity` turns NaN into null with its unit: JSON has no NaN.
                 "time_to_first": quantity(chance.time_to_first, "s"),
             })
         })
         .collect();
+    // One document per topic, complete: a client that joins gets the retained one and needs no history.
     json!({
         "stamp": time(&forecast.header.stamp),
         "rotary_speed": quantity(forecast.rotary_speed, "rad/s"),
@@ -208,6 +211,7 @@ pub fn forecast(forecast: &Forecast) -> Value {
             "upper": forecast.any_alarm_upper,
         },
         "alarms": alarms,
+        // The bands are by whole seconds of model time, and begin with the first after the state.
         "bands_from": time(&forecast.bands_from),
         "interval": quantity(forecast.interval, "s"),
         "bands": bands,

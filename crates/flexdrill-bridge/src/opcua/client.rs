@@ -191,11 +191,14 @@ impl RigClient {
     }
 
     async fn connect(&self, connection: &mut u64) -> Ended {
+        // Whether values came decides on the wait before the next attempt; until then every end is a failure.
         let failed = |why: String| Ended { why, brought: false };
         let mut client = match self.client() {
             Ok(client) => client,
             Err(why) => return failed(why),
         };
+        // Each stage has its own time limit. A server that accepts TCP and
+        // then says nothing would hold the client for ever.
         let endpoint = match timeout(CONNECT, self.endpoint(&client)).await {
             Ok(Ok(endpoint)) => endpoint,
             Ok(Err(why)) => return failed(why),
@@ -206,15 +209,19 @@ impl RigClient {
             Some((name, password)) => IdentityToken::new_user_name(name.clone(), password.clone()),
             None => IdentityToken::Anonymous,
         };
+        // The endpoint is used as chosen, so that encryption is never given up for a connection.
         let (session, event_loop) = match client.connect_to_endpoint_directly(endpoint, identity) {
             Ok(session) => session,
             Err(error) => return failed(error.to_string()),
         };
+        // The event loop must be polled for the session to advance, so subscribing runs next to it and not before it.
         let mut happens = pin!(event_loop.enter());
         let mut following = pin!(timeout(CONNECT, self.follow(&session)));
         let mut brought = false;
         let why = loop {
             tokio::select! {
+                // The first sign of a loss ends this connection. The crate's own reconnecting is not used, because
+                // subscriptions might come back without values and nothing would show it.
                 event = happens.next() => match event {
                     None => break "the session ended".to_owned(),
                     Some(Err(status)) => break status.to_string(),
@@ -231,6 +238,7 @@ impl RigClient {
                     Some(Ok(_)) => {}
                 },
                 followed = &mut following, if !brought => {
+                    // A server may answer and not offer subscriptions; the user then needs to know which stage failed.
                     let followed = followed.unwrap_or_else(|_| Err(format!("no subscription within {} s", CONNECT.as_secs())));
                     match followed {
                         Ok(nodes) => {
@@ -246,6 +254,7 @@ impl RigClient {
                 }
             }
         };
+        // Only an `Opened` has its `Closed`: the bridge counts connections by them.
         if brought {
             let closed = RigEvent::Closed {
                 connection: *connection,
@@ -259,6 +268,7 @@ impl RigClient {
 
     /// Subscribes to the nodes. Returns how many the server follows.
     async fn follow(&self, session: &Arc<Session>) -> Result<usize, String> {
+        // Before the session is active the server refuses all services.
         session.wait_for_connection().await;
         let (events, lost) = (self.events.clone(), Arc::clone(&self.lost));
         let callback = DataChangeCallback::new(move |value, item| {
@@ -276,6 +286,7 @@ impl RigClient {
                 value: value.value,
                 arrived: now(),
             };
+            // The callback runs in the crate's task and must not wait: a full queue costs the value, which is counted.
             if events.try_send(RigEvent::Value(raw)).is_err() {
                 lost.fetch_add(1, Ordering::Relaxed);
             }
@@ -284,10 +295,12 @@ impl RigClient {
             .create_subscription(self.interval, 100, 10, 0, 0, true, callback)
             .await
             .map_err(in_words("a subscription"))?;
+        // A node that the server does not have must not cost the others.
         let mut missing = Vec::new();
         let mut items = Vec::new();
         for (index, (id, uri, node)) in self.nodes.iter().enumerate() {
             let mut node = node.clone();
+            // The mapping names namespaces by URI, because their indexes may change with each start of the server.
             if let Some(uri) = uri {
                 let Ok(namespace) = session.get_namespace_index(uri).await else {
                     missing.push((id.clone(), StatusCode::BadNodeIdUnknown));
@@ -297,6 +310,7 @@ impl RigClient {
             }
             items.push((id, self.item(index, node)));
         }
+        // One request for all items, since some servers bound the number of requests.
         let requests = items.iter().map(|(_, item)| item.clone()).collect::<Vec<_>>();
         if !requests.is_empty() {
             let created = session
@@ -309,6 +323,7 @@ impl RigClient {
             });
             missing.extend(refused);
         }
+        // The counts say how many; these events say which.
         for (node, status) in &missing {
             let refused = RigEvent::NotFollowed {
                 node: node.clone(),

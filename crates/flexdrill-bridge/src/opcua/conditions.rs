@@ -106,8 +106,11 @@ impl Condition {
     }
 
     fn field(&self, path: &str) -> Variant {
+        // Only English is served, and marked as such, so that a client with other locales knows.
         let text = |text: &str| Variant::from(LocalizedText::new("en", text));
         let either = |yes: bool, words: [&str; 2]| text(words[usize::from(!yes)]);
+        // Paths are those of the standard's type. A client selects fields by
+        // them, and gets an empty value for one that is unknown.
         match path {
             "EventId" => self.event_id.clone().into(),
             "EventType" => self.event_type.clone().into(),

@@ -132,7 +132,9 @@ impl Prepared {
 /// # Errors
 /// When there is no port for it or the setup is refused.
 pub async fn prepare(setup: &Setup, events: mpsc::Sender<ServerEvent>) -> Result<(TwinServer, Prepared), ServerError> {
+    // The server itself listens on loopback only. The public port is the gateway's, which bounds the connections.
     let inner = TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, 0))).await?;
+    // One flag joins the two node managers: the standard's node takes the request for a refresh, the twin's answers it.
     let refresh = Arc::new(AtomicBool::new(false));
     let (core_refresh, twin_refresh) = (Arc::clone(&refresh), Arc::clone(&refresh));
     let (twin_events, writable) = (events.clone(), setup.allow_write);
@@ -142,6 +144,7 @@ pub async fn prepare(setup: &Setup, events: mpsc::Sender<ServerEvent>) -> Result
     };
     let access = AccessControl::new(setup.users.clone(), setup.plain_passwords, events.clone());
     let mut builder = ServerBuilder::new()
+        // The nodes of the standard come from `CoreNodes`, because it also takes the request for a refresh.
         .without_node_managers()
         .with_node_manager(InMemoryNodeManagerBuilder::new(core))
         .with_node_manager(DiagnosticsNodeManagerBuilder)
@@ -153,6 +156,8 @@ pub async fn prepare(setup: &Setup, events: mpsc::Sender<ServerEvent>) -> Result
         .certificate_path("own/cert.der")
         .private_key_path("private/private.pem")
         .pki_dir(setup.keys.folder())
+        // Trusting unknown certificates would make encryption useless against
+        // a client in the middle; an administrator moves them.
         .trust_client_certs(false)
         .host(setup.host.clone())
         .discovery_urls(vec!["/".to_owned()])
@@ -165,11 +170,13 @@ pub async fn prepare(setup: &Setup, events: mpsc::Sender<ServerEvent>) -> Result
         ("basic256sha256", SecurityPolicy::Basic256Sha256, encrypt),
         ("none", SecurityPolicy::None, MessageSecurityMode::None),
     ] {
+        // Encrypted endpoints always exist; the open one only by option or on loopback.
         if mode == encrypt || setup.unencrypted {
             builder = builder.add_endpoint(name, ServerEndpoint::new("/", policy, mode, &tokens));
         }
     }
     let (server, handle) = builder.build().map_err(ServerError::Setup)?;
+    // These cannot be missing in a server that was built from the parts above; a change of the crate would show here.
     let missing = |what: &str| ServerError::Setup(format!("{what} is missing"));
     let nodes = handle
         .node_managers()

@@ -160,6 +160,7 @@ fn of_figure(figure: Figure) -> Variable {
 }
 
 fn of_status() -> Vec<Variable> {
+    // One constructor per type: the closures read one field, and the rest of a variable cannot differ between them.
     let text = |name: &str, description: &str, read: fn(&TwinStatus) -> String| {
         Variable::new("status", name, description, Kind::Text, &topics::STATUS, move |twin| {
             Some(Variant::from(read(twin.status()?)))
@@ -167,10 +168,12 @@ fn of_status() -> Vec<Variable> {
     };
     let count = |name: &str, description: &str, read: fn(&TwinStatus) -> u64| {
         Variable::new("status", name, description, Kind::Count, &topics::STATUS, move |twin| {
+            // `?` makes a variable without its message unknown (no value), never zero.
             Some(Variant::from(read(twin.status()?)))
         })
     };
     vec![
+        // Words and not codes, because clients show the value without a table.
         text("state", "starting, running, paused or failed", |status| {
             match status.state {
                 TwinStatus::STARTING => "starting",
@@ -205,6 +208,7 @@ fn of_status() -> Vec<Variable> {
 }
 
 fn of_input(kind: InputKind) -> Vec<Variable> {
+    // OPC UA carries SI here, with its unit in the node, so that no client converts twice.
     let unit = match kind {
         InputKind::RotarySpeed => Unit::RadianPerSecond,
         InputKind::WeightOnBit => Unit::Newton,
@@ -213,6 +217,7 @@ fn of_input(kind: InputKind) -> Vec<Variable> {
     };
     // The status lists an input only where it plays a part.
     let of = move |status: &TwinStatus| status.input_name.iter().position(|name| name == kind.name());
+    // The index is found in each message: its order is not part of the contract.
     let numbers = move |name: &str, description: &str, unit, read: fn(&TwinStatus) -> &[f64]| {
         Variable::new(
             "inputs",
@@ -239,6 +244,7 @@ fn of_input(kind: InputKind) -> Vec<Variable> {
             },
         )
     };
+    // The names are those of the message, so that both interfaces are described in one page.
     vec![
         numbers("applied", "Value that acts on the model", unit, |status| {
             &status.input_applied
@@ -284,9 +290,11 @@ const COMPARED: [(&str, Unit); 5] = [
 
 fn of_residuals() -> Vec<Variable> {
     let mut all = Vec::new();
+    // All quantities have the same five variables; those that the rig does not measure have no value.
     for (quantity, unit) in COMPARED {
         let mut add = |name: &str, description: &str, unit, read: fn(&Residual) -> f64| {
             let read = move |twin: &TwinState| {
+                // By name: the message has only what was compared.
                 let residuals = &twin.residuals()?.residuals;
                 number(read(residuals.iter().find(|residual| residual.name == quantity)?))
             };
@@ -300,6 +308,7 @@ fn of_residuals() -> Vec<Variable> {
                     &topics::RESIDUALS,
                     read,
                 )
+                // As `Computed` it is as good as the inputs and the model, and the client sees that in its quality.
                 .meaning(Meaning::Computed),
             );
         };
@@ -322,6 +331,7 @@ fn of_residuals() -> Vec<Variable> {
             |residual| residual.ratio,
         );
     }
+    // Without steady motion the residuals say nothing, so a client must read this one first.
     all.push(
         Variable::new(
             "residuals",
@@ -340,6 +350,7 @@ fn of_residuals() -> Vec<Variable> {
             "What residuals beyond their bands may mean, the likeliest first",
             Kind::Text,
             &topics::RESIDUALS,
+            // A list as one text: many clients of historians store no arrays of text.
             |twin| Some(Variant::from(twin.residuals()?.likely_causes.join("; "))),
         )
         .meaning(Meaning::Computed),
@@ -357,6 +368,8 @@ fn of_window() -> Vec<Variable> {
             &topics::SAFE_WINDOW,
             move |twin| Some(read(twin.window()?)),
         )
+        // The map is stated once and holds until another is loaded, so its
+        // quality depends on the heartbeat and not on its own age.
         .meaning(Meaning::StatedOnChange)
     };
     vec![

@@ -139,23 +139,30 @@ impl TwinServer {
     /// Sends an event for each alarm that changed, and all that stand where a client asked for them.
     fn send_conditions(&mut self, twin: &TwinState, now: i64) {
         let Some(list) = twin.alarms() else { return };
+        // A silent twin makes its alarms uncertain; it does not end them.
         let quality = twin.quality(&topics::ALARMS, Meaning::StatedOnChange, now);
         let mut changed: Vec<Condition> = Vec::new();
         for alarm in &list.alarms {
+            // An alarm of a newer twin has no node here.
             let Some(nodes) = self.alarms.get_mut(&alarm.id) else {
                 continue;
             };
             let standing = Standing::of(alarm);
+            // The first state is news only if the alarm is to be retained;
+            // otherwise a start would send an event for every alarm at rest.
             let is_news = nodes.standing.map_or(standing.retain(), |before| before != standing);
             nodes.standing = Some(standing);
             if !is_news {
                 continue;
             }
+            // The number makes the event's id unique, by which a client refers to it.
             self.events += 1;
             let severity = severity(alarm.priority);
+            // The last severity is that before the change, as Part 9 defines it, and not that of the last event.
             if severity != nodes.severity {
                 nodes.last_severity = std::mem::replace(&mut nodes.severity, severity);
             }
+            // A stamp of zero means that it was never raised, and an event needs a time.
             let time = match alarm.since.to_nanoseconds() {
                 0 => date_time(now),
                 since => date_time(since),
@@ -171,6 +178,7 @@ impl TwinServer {
             nodes.condition = Some(condition.clone());
             changed.push(condition);
         }
+        // Events are notified at the folder, to which clients subscribe for all alarms.
         let folder = id(self.namespace, &[ALARMS]);
         let subscriptions = self.handle.subscriptions();
         subscriptions.notify_events(changed.iter().map(|condition| (condition as &dyn Event, &folder)));
@@ -186,6 +194,7 @@ impl TwinServer {
         if self.refresh_in.is_some() {
             return;
         }
+        // A refresh is framed by two events, so that the client knows which conditions it may forget.
         self.events += 1;
         let event = |kind: ObjectTypeId, text: &str| {
             let id = ByteString::from([date_time(now).ticks().to_be_bytes(), self.events.to_be_bytes()].concat());
@@ -196,6 +205,7 @@ impl TwinServer {
             ObjectTypeId::RefreshEndEventType,
             "These were the conditions that stand.",
         );
+        // The conditions keep the ids of their last event: a refresh repeats, it does not report something new.
         let standing = self.alarms.values().filter_map(|nodes| nodes.condition.as_ref());
         let standing = standing
             .filter(|condition| condition.retain())

@@ -69,6 +69,7 @@ impl Users {
             path: path.to_owned(),
             source,
         };
+        // Checked before reading: passwords that others could read are taken as known to them.
         let mode = std::fs::metadata(path).map_err(failed)?.permissions().mode() & 0o777;
         if mode & 0o077 != 0 {
             return Err(UsersError::Open {
@@ -77,17 +78,21 @@ impl Users {
             });
         }
         let text = std::fs::read_to_string(path).map_err(failed)?;
+        // Errors name the line and never its text, which holds a password.
         let wrong = |line: usize, what| UsersError::Line {
             path: path.to_owned(),
             line: line + 1,
             what,
         };
+        // A wrong line refuses the whole file. A user who is left out in
+        // silence would be looked for at the wrong place.
         let mut users = BTreeMap::new();
         for (number, line) in text.lines().enumerate() {
             if line.trim().is_empty() || line.starts_with('#') {
                 continue;
             }
             let (name, password) = line.split_once(':').ok_or_else(|| wrong(number, "there is no colon"))?;
+            // `ANONYMOUS` would give the rights of a user to every client without a login.
             if name.is_empty()
                 || name == ANONYMOUS_USER_TOKEN_ID
                 || name.len() > 64
@@ -108,6 +113,7 @@ impl Users {
                 return Err(wrong(number, "there are more than 1000 users"));
             }
         }
+        // A file without users is surely a mistake, because without the option nobody could write either.
         if users.is_empty() {
             return Err(wrong(0, "there is no user"));
         }

@@ -174,6 +174,7 @@ impl Collector {
     /// # Errors
     /// When it cannot be used. A bad value is not used as a number, but sent on as bad.
     pub fn take(&mut self, raw: &RawValue) -> Result<(), ValueFault> {
+        // The handle comes from the server, so it may be any number.
         let Some(item) = self.items.get(raw.node) else {
             return Ok(());
         };
@@ -187,6 +188,8 @@ impl Collector {
             self.counts.bad += 1;
             RigInputs::BAD
         };
+        // The source's time is that of the measurement. Too far from the arrival it is a clock that is wrong, or the
+        // time of a change long ago.
         let stamp = match (self.stamp, raw.source_time) {
             (StampSource::Source, Some(time)) if time.abs_diff(raw.arrived) <= STAMP_TOLERANCE.unsigned_abs() => time,
             (StampSource::Source, _) => {
@@ -195,11 +198,13 @@ impl Collector {
             }
             (StampSource::Arrival, _) => raw.arrived,
         };
+        // What is held is taken out first: a value that is refused below must not be repeated as if it were present.
         let before = self.held[raw.node].take();
         let hold = |value: f64| Held {
             value,
             quality,
             stamp,
+            // The last stamp that was sent is kept, because stamps of a quantity must not fall back.
             sent: before.map_or(i64::MIN, |held| held.sent),
             sent_at: i64::MIN,
             fresh: true,
@@ -216,6 +221,7 @@ impl Collector {
                 status: raw.status.to_string(),
             });
         }
+        // The quality may be good and the value none, such as a text: then the mapping names a wrong node.
         let Some(value) = number else {
             self.counts.no_number += 1;
             let kind = raw
@@ -228,6 +234,7 @@ impl Collector {
             });
         };
         let [least, most] = item.range;
+        // The range is that of the mapping, in its unit. NaN is in no range.
         if !(least..=most).contains(&value) {
             self.counts.out_of_range += 1;
             return Err(ValueFault::OutOfRange {
@@ -237,6 +244,7 @@ impl Collector {
                 unit: item.unit,
             });
         }
+        // SI from here on.
         let value = item.unit.to_si(value);
         self.last_value[raw.node] = Some(value);
         self.held[raw.node] = Some(hold(value));

@@ -129,9 +129,12 @@ impl Decoder {
     /// Reads a frame that arrived at `arrived` (ns since 1970).
     pub fn decode(&mut self, frame: &RawFrame, arrived: i64) -> Reading {
         let mut draft = Draft::default();
+        // Sorted by code, so that the items of a record follow each other, whatever their order in the frame.
         let mut items: BTreeMap<ItemCode, &[u8]> = BTreeMap::new();
         for line in &frame.lines {
             match ItemCode::of_line(line) {
+                // If the second silently replaced the first, the order of lines
+                // would decide; so it is a fault of the frame.
                 Some((code, value)) if items.contains_key(&code) => {
                     draft.fault(ItemFaultKind::Twice, Some(code), value, || {
                         "the first is used".to_owned()
@@ -140,25 +143,30 @@ impl Decoder {
                 Some((code, value)) => {
                     items.insert(code, value);
                 }
+                // A line that is no item is a fault of that line; the rest of the frame is of use.
                 None => draft.fault(ItemFaultKind::NoItem, None, line, || {
                     "a line needs four digits and a value, such as 0108 1234.5".to_owned()
                 }),
             }
         }
         draft.more_faults += frame.long_lines;
+        // Headers before values: the sequence number decides whether a record is new at all.
         let records = self.records(&items, &mut draft);
         let newest: Vec<u8> = records
             .iter()
             .filter(|seen| seen.sequence.is_newest())
             .map(|seen| seen.record)
             .collect();
+        // Items of the header describe the record and are no quantities.
         for (&code, &value) in items.iter().filter(|(code, _)| code.item > LAST_HEADER_ITEM) {
             if newest.contains(&code.record) {
                 self.item(code, value, &mut draft);
             }
         }
+        // The outcome counts frames for `/diagnostics`: a line that sends and brings nothing has its reason there.
         let outcome = outcome(&records, &newest, &draft);
         let stamp = self.stamp(&records, arrived);
+        // One stamp for both messages: the values come from one instant.
         let header = RosHeader {
             stamp: Time::from_nanoseconds(stamp),
             ..RosHeader::default()
@@ -209,6 +217,7 @@ impl Decoder {
     }
 
     fn item(&self, code: ItemCode, text: &[u8], draft: &mut Draft) {
+        // Rigs send hundreds of items, so one that is not mapped is counted and not reported.
         let Some(mapping) = self.table.get(&code) else {
             draft.unmapped += 1;
             return;
@@ -218,17 +227,20 @@ impl Decoder {
             draft.nulls += 1;
             return;
         }
+        // The number is read before the test for null, so that a text in a null's place is a fault.
         let Some(value) = number(text) else {
             draft.fault(ItemFaultKind::NoNumber, Some(code), text, || {
                 format!("{} in {} is a number with a point", mapping.quantity, mapping.unit)
             });
             return;
         };
+        // Null values such as -9999 are numbers, and would be out of range with a misleading reason.
         if is_null(text, &self.nulls) {
             draft.nulls += 1;
             return;
         }
         let si = mapping.unit.to_si(value);
+        // Without a range of the mapping the physical bounds of the quantity find a wrong unit.
         let [least, most] = match mapping.valid {
             Some(valid) => valid,
             None => mapping.quantity.plausible().map(|bound| mapping.unit.from_si(bound)),
@@ -243,6 +255,7 @@ impl Decoder {
             });
             return;
         }
+        // Several items may have the same quantity: a mean replaces the maximum that serves in its absence.
         let new = Value {
             value: si,
             fallback: mapping.fallback,

@@ -86,6 +86,7 @@ impl ControlParts {
 impl Control {
     /// Sends a request to the node, and returns the node's message.
     pub async fn carry_out(&self, operator: &str, action: Action) -> Result<String, Refused> {
+        // The name is checked once for all actions; the twin writes it into its journal.
         let operator_name = checked_name(operator)?;
         let (monitor, parts) = (&self.monitor, &self.parts);
         let answered = match action {
@@ -100,6 +101,7 @@ impl Control {
             }
             Action::Shelve { id, reason, duration } => {
                 let request = ShelveAlarmRequest {
+                    // Without a duration an alarm is shelved for one occurrence, as ISA 18.2 calls it.
                     id,
                     one_shot: duration.is_none(),
                     duration: duration.unwrap_or_default(),
@@ -119,6 +121,8 @@ impl Control {
                 answer.map(|UnshelveAlarmResponse { success, message }| (success, message))
             }
             Action::Reset => {
+                // A reset ends the run for everyone, so it is logged here with its
+                // operator; the service has no field for the name.
                 if let Some(more) = log_ending("requests a reset") {
                     tracing::info!("{operator_name} requests a reset{more}");
                 }
@@ -134,6 +138,8 @@ impl Control {
                 answer.map(|SetBoolResponse { success, message }| (success, message))
             }
         };
+        // A refusal is the node's answer and is shown as it is; no answer
+        // at all is another state, in which a retry helps.
         match answered {
             Ok((true, message)) => Ok(message),
             Ok((false, message)) => Err(Refused::Conflict(message)),

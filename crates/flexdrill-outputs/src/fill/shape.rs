@@ -41,6 +41,7 @@ const fn rgba(r: f32, g: f32, b: f32, a: f32) -> ColorRGBA {
 
 /// Fills `out` with five markers, always the same ones, so that each message replaces the one before.
 pub fn tool_shape(snapshot: &Snapshot, header: &Header, style: &ShapeStyle, out: &mut MarkerArray) {
+    // Five in every message: a viewer keeps a marker until one of the same name replaces it.
     out.markers.resize_with(5, Marker::default);
     let [bore, pipe, guide, inner, outer] = out.markers.as_mut_slice() else {
         return;
@@ -76,6 +77,7 @@ pub fn tool_shape(snapshot: &Snapshot, header: &Header, style: &ShapeStyle, out:
             Some((*pipe, [pipe[0] - guide[0], pipe[1] - guide[1]]))
         },
     );
+    // The contact with the wall is at the guide, and its normal is the guide's own displacement from the bore.
     arrows(
         outer,
         header,

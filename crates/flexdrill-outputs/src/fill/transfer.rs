@@ -7,9 +7,11 @@ use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 /// Fills `out`.
 pub fn transfer(snapshot: &Snapshot, header: &Header, out: &mut Transfer) {
+    // Filled in place, so that nothing allocates after the first frame.
     super::stamp(&mut out.header, header);
     let from = &snapshot.transfer;
     out.duration = from.duration;
+    // Mean and RMS stand together for each place, from the top to the bit; NaN for a place that the tool does not have.
     let (torque, weight) = (&from.torque, &from.weight);
     (out.surface_torque, out.surface_torque_rms) = (torque.mean[SURFACE], torque.rms[SURFACE]);
     (out.kickoff_torque, out.kickoff_torque_rms) = (torque.mean[KICK_OFF], torque.rms[KICK_OFF]);
@@ -19,6 +21,7 @@ pub fn transfer(snapshot: &Snapshot, header: &Header, out: &mut Transfer) {
     (out.kickoff_weight, out.kickoff_weight_rms) = (weight.mean[KICK_OFF], weight.rms[KICK_OFF]);
     (out.bit_weight, out.bit_weight_rms) = (weight.mean[BIT], weight.rms[BIT]);
 
+    // Destructured by position: the order of the arrays is that of their definition in the analysis.
     let mean = &from.mean;
     [
         out.pipe_guide_friction_torque,
@@ -36,6 +39,7 @@ pub fn transfer(snapshot: &Snapshot, header: &Header, out: &mut Transfer) {
     out.rate_of_penetration = mean.rate_of_penetration;
     out.drive_at_limit = mean.drive_at_limit;
 
+    // The powers are the terms of the energy balance; what they leave over is `error_power`.
     let power = &from.power;
     out.drive_power = power.drive;
     out.hoist_power = power.hoist;

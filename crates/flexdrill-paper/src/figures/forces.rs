@@ -53,6 +53,7 @@ struct Text {
 
 fn contact(record: &Record, layer: &Layer, text: Text, paper: (f64, f64)) -> Figure {
     let stations = &record.stations;
+    // The effective value of the paper is the root mean square over the record.
     let force = |s: usize| (stations.degrees(s), n_to_kn(layer.square[s].sqrt()));
     let pick = |joint: bool| {
         (0..stations.len())
@@ -60,6 +61,7 @@ fn contact(record: &Record, layer: &Layer, text: Text, paper: (f64, f64)) -> Fig
             .map(force)
             .collect::<Vec<_>>()
     };
+    // All stations as a line and the joints as dots: the paper's claim is that the joints stand out.
     let all = (0..stations.len()).map(force).collect();
     let worst = worst_place(layer);
     let mut profile = Panel::new("(a) Effective force", "inclination (deg)", "RMS force (kN)")
@@ -77,6 +79,7 @@ fn contact(record: &Record, layer: &Layer, text: Text, paper: (f64, f64)) -> Fig
             paper.1, paper.0
         )
     };
+    // The largest force within each sample, or the short collisions would fall between the samples.
     let history = record
         .time
         .iter()
@@ -120,6 +123,7 @@ fn acceleration(record: &Record, axis: &Axis, text: Text, places: usize) -> Figu
             .collect();
         profile = profile.line(Line::new(name, points).color([2, 0, 1][k]));
     }
+    // Parts are equal in inclination, as the paper's places are.
     let end = stations.degrees(stations.len() - 1);
     let mut panels = vec![profile];
     for place in 0..places {

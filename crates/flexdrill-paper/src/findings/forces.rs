@@ -40,6 +40,8 @@ pub(crate) fn worst_place(layer: &Layer) -> usize {
 }
 
 pub(super) fn findings(record: &Record) -> Vec<Finding> {
+    // Each finding quotes the paper's number and defines how ours is
+    // measured, because the paper does not say how it has its own.
     let mut all = Vec::new();
     let inner = Worst::of(record, &record.inner);
     let outer = Worst::of(record, &record.outer);
@@ -50,11 +52,13 @@ pub(super) fn findings(record: &Record) -> Vec<Finding> {
         says,
         definition,
     };
+    // The definitions are shared, so that both contacts are measured alike.
     const FORCE: &str = "largest RMS normal force of a station (kN)";
     const PLACE: &str = "inclination of that station (deg)";
     const PEAK: &str = "largest normal force there (kN)";
     const PERIOD: &str = "dominant period (autocorrelation) of the force there (s)";
     const CONTACT: &str = "time in contact there per turn of the drive (s)";
+    // Pipe and guide first, then guide and wall, in the order of the figures.
     all.push(number(
         text(
             "inner_force",
@@ -67,6 +71,7 @@ pub(super) fn findings(record: &Record) -> Vec<Finding> {
         n_to_kn(inner.force),
         19.97,
     ));
+    // The place of the largest force is a finding of its own: a right number at a wrong place would not agree.
     all.push(place(
         text("inner_place", "14a", "at 88 degrees, the lowermost section", PLACE),
         degrees(&inner),
@@ -79,6 +84,7 @@ pub(super) fn findings(record: &Record) -> Vec<Finding> {
         n_to_kn(inner.peak),
         44.42,
     ));
+    // A period counts by the strength of its autocorrelation, since every record has some period.
     all.push(periodic(
         text("inner_period", "14b", "collides every 1.5 s, one turn", PERIOD),
         inner.period,

@@ -7,6 +7,7 @@ use flexdrill_motion::WhirlKind;
 
 pub(super) fn findings(record: &Record, pipe: &Motion, guide: &Motion) -> Vec<Finding> {
     let stations = &record.stations;
+    // Means over thirds, because single stations scatter by their joints.
     let mean_between = |low: f64, high: f64| {
         let inside: Vec<f64> = (0..stations.len())
             .filter(|&s| (low..=high).contains(&stations.degrees(s)))
@@ -15,6 +16,7 @@ pub(super) fn findings(record: &Record, pipe: &Motion, guide: &Motion) -> Vec<Fi
         inside.iter().sum::<f64>() / inside.len().max(1) as f64
     };
     let end = stations.degrees(stations.len() - 1);
+    // The thirds are of inclination, the paper's axis.
     let (upper, lower) = (mean_between(0.0, end / 3.0), mean_between(2.0 * end / 3.0, end));
     // Where links were continuous, kinks would be spread over all stations alike.
     let even = stations.joint.iter().filter(|&&joint| joint).count() as f64 / stations.len().max(1) as f64;
@@ -27,6 +29,7 @@ pub(super) fn findings(record: &Record, pipe: &Motion, guide: &Motion) -> Vec<Fi
                 definition: "part of the shape's squared kinks (change of slope between elements) that is at joints, over that of a smooth pipe",
             },
             format!("{:.0} % of the kinks at joints", 100.0 * pipe.broken),
+            // Ratios with two limits: from the first on it agrees, from the second on partly.
             pipe.broken / even.max(f64::MIN_POSITIVE),
             [1.5, 1.2],
             "ratio",
@@ -43,6 +46,7 @@ pub(super) fn findings(record: &Record, pipe: &Motion, guide: &Motion) -> Vec<Fi
         ),
         ratio(
             Paper {
+                // The divisor has a floor, for a tool that does not move in its upper third.
                 key: "pipe_bottom",
                 figure: "10",
                 says: "the pipe moves more near the bottom",

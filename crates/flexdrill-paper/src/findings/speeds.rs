@@ -9,6 +9,7 @@ use flexdrill_core::units::rad_per_s_to_rpm;
 
 pub(super) fn findings(record: &Record, guide: &Motion) -> Vec<Finding> {
     let stations = &record.stations;
+    // The five inclinations are those of the paper's figure.
     let ripples: Vec<f64> = FIVE_PLACES
         .iter()
         .map(|&degrees| rad_per_s_to_rpm(spread(record.pipe.spin.at(stations.nearest(degrees)))))
@@ -18,8 +19,10 @@ pub(super) fn findings(record: &Record, guide: &Motion) -> Vec<Finding> {
         .map(|ripple| format!("{ripple:.2}"))
         .collect::<Vec<_>>()
         .join(", ");
+    // The claim is about growth, so that intervals are counted and not the values compared.
     let rising = ripples.windows(2).filter(|pair| pair[1] > pair[0]).count();
     let largest_last = ripples.iter().all(|&ripple| ripple <= ripples[4]);
+    // Partly: the largest ripple is at the bit, but it does not rise everywhere.
     let verdict = if rising == 4 {
         Verdict::Agrees
     } else if largest_last {
@@ -40,10 +43,12 @@ pub(super) fn findings(record: &Record, guide: &Motion) -> Vec<Finding> {
         format!("rises in {rising} of 4 intervals"),
         closeness(verdict, rising as f64 / 4.0),
     );
+    // The range is over both locations of largest motion.
     let spins = guide
         .places
         .map(|s| range(record.guide.spin.at(s)).map(rad_per_s_to_rpm));
     let [low, high] = [spins[0][0].min(spins[1][0]), spins[0][1].max(spins[1][1])];
+    // The clearer of two periods: at either location the motion may hardly repeat.
     let period = guide.places.map(|s| {
         dominant_period(
             &record.guide.spin.at(s).collect::<Vec<_>>(),

@@ -27,6 +27,7 @@ pub(super) fn draw_bit(frame: &mut Frame, board: &Board, area: Rect) {
         },
     );
     let history = board.history();
+    // Time ends at the newest point and not at now: a twin that stands still keeps its picture.
     let end = history.back().map_or(0.0, |point| point.time);
     let speed: Vec<(f64, f64)> = history
         .iter()
@@ -57,6 +58,7 @@ pub(super) fn draw_bit(frame: &mut Frame, board: &Board, area: Rect) {
         line("r/min".to_owned(), &speed, Color::Cyan),
     ])
     .block(Block::bordered().title(title))
+    // The legend may cover most of a small chart, because without it the two scales cannot be read.
     .hidden_legend_constraints((Constraint::Percentage(80), Constraint::Percentage(50)))
     .x_axis(
         Axis::default()
@@ -146,10 +148,12 @@ pub(super) fn draw_forces(frame: &mut Frame, board: &Board, area: Rect) {
         .contacts()
         .map(|contacts| contacts.measured_depth.as_slice())
         .unwrap_or_default();
+    // Each layer has its own scale. A common one would flatten the weaker, and the largest force is written above.
     for (layer, color) in [Color::Cyan, Color::Magenta].into_iter().enumerate() {
         let text = format!("{}: largest {}", words::layer(layer), texts::largest(board, layer));
         frame.render_widget(Line::styled(text, color), rows[2 * layer]);
         let bars = binned(depth, board.peaks()[layer].forces(), usize::from(inner.width));
+        // At least 1 N as the full height: noise of a tool without contact must not fill the chart.
         let largest = bars.iter().copied().fold(1.0, f64::max);
         let data: Vec<u64> = bars
             .iter()
