@@ -47,6 +47,7 @@ const PHASES: [Phase; 8] = [
 /// The log as text.
 pub fn demo_log() -> String {
     let mut text = String::from("time_s,block_height_ft,hookload_klbf,top_drive_rpm,top_drive_torque_ftlb,rig_state\n");
+    // A fixed seed: the log is compared byte by byte in a test.
     let mut noise = Noise(0x2545_f491_4f6c_dd1d);
     let (mut speed, mut weight, mut block) = (0.0_f64, 0.0_f64, 60.0_f64);
     for second in 0..LENGTH {
@@ -55,18 +56,22 @@ pub fn demo_log() -> String {
         let slew = if phase.state == 4 { 4.0 } else { 15.0 };
         speed += (phase.rotary_speed_rpm - speed).clamp(-slew, slew);
         weight += (phase.weight_on_bit_kn - weight).clamp(-2.0, 2.0);
+        // The block follows the bit down; its fall is made up, and only has to be steady.
         block -= 0.01 * speed / 40.0 + 0.002 * weight;
         let time = f64::from(second) + 0.5 + 0.2 * noise.next();
+        // In slips the string hangs in the rotary table, and the hook carries itself alone.
         let hookload = if phase.state == 3 {
             IN_SLIPS_KLBF
         } else {
             OFF_BOTTOM_KLBF - weight / KN_PER_KLBF
         } + 0.15 * noise.next();
         let turning = if speed > 0.0 { speed + 0.5 * noise.next() } else { 0.0 };
+        // Above this weight the bit stalls: the torque no longer follows the speed.
         let stalled = phase.weight_on_bit_kn > 15.0;
         let torque = if stalled { 900.0 } else { 3.0 * speed + 25.0 * weight } + 10.0 * noise.next();
         let (mut hookload, mut turning) = (format!("{hookload:.2}"), format!("{turning:.1}"));
         let mut time = format!("{time:.2}");
+        // The faults are those of real logs, so that the demonstration shows what the reader reports.
         match second {
             // Nothing was written for six seconds.
             138..=143 => continue,

@@ -182,7 +182,7 @@ impl FailoverRecorder {
     /// [`BagError::Incomplete`] when any of these could not be written.
     pub fn finish(mut self) -> Result<Recording, BagError> {
         // A file that was moved or removed meanwhile is abandoned first, so
-        // that the open chunk goes to one that is in place.
+        // that the open chunk is written to one that is in place.
         self.check_in_place();
         self.flush();
         // A last attempt: the messages of the open chunk have no other file, and the disk may have space again.

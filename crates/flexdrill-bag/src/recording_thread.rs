@@ -57,7 +57,7 @@ impl RecordingThread {
             .collect();
         let health = Arc::new(RecordingHealth::default());
         // The queue is bounded and never waited for: when it is full,
-        // messages are counted as lost and the node goes on.
+        // messages are counted as lost and the node continues.
         let (queue, items) = sync_channel(QUEUE);
         let queued = Arc::new(AtomicUsize::new(0));
         let (waiting, shared, target) = (Arc::clone(&queued), Arc::clone(&health), path.to_owned());

@@ -127,6 +127,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .enumerate()
         .filter(|(_, line)| !line.name.is_empty())
         .collect();
+    // The legend stands above the plot, so its rows must be known before the plot has its height.
     let legend_rows = match panel.legend {
         _ if named.is_empty() => 0,
         Legend::Row => 1,
@@ -139,7 +140,9 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
     let (width, height) = area.dim_in_pixel();
     let plot_width = f64::from(width) - f64::from((LEFT + 2 * MARGIN) * SCALE);
     let plot_height = f64::from(height) - f64::from((top + BOTTOM + MARGIN) * SCALE);
+    // Ranges of equal scale depend on the shape of the plot, which is known only now.
     let (x, y) = ranges(panel, plot_width / plot_height);
+    // A reversed range turns the axis: the low side of the hole is drawn below.
     let (y_from, y_to) = if panel.down { (y[1], y[0]) } else { (y[0], y[1]) };
     let mut chart = ChartBuilder::on(area)
         .margin_top(top * SCALE)
@@ -165,6 +168,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .bold_line_style(RGBColor(225, 225, 225).stroke_width(SCALE))
         .axis_style(grey.stroke_width(SCALE))
         .set_all_tick_mark_size((4 * SCALE) as i32)
+        // Labels by the size of the plot: about 50 units apart on x and 45 on y, so that numbers never overlap.
         .x_labels(((plot_width / f64::from(SCALE) / 50.0) as usize).clamp(5, 10))
         .y_labels(((plot_height / f64::from(SCALE) / 45.0) as usize).clamp(4, 9))
         .x_label_formatter(&at_x)
@@ -174,6 +178,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .x_desc(panel.x.as_str())
         .y_desc(panel.y.as_str())
         .draw()?;
+    // The caller puts areas and cells first, because later lines cover earlier ones.
     for (index, line) in panel.lines.iter().enumerate() {
         let color = color(index, line);
         let points = || line.points.iter().copied();
@@ -194,6 +199,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
                 let corners: Vec<_> = points().collect();
                 chart.draw_series(std::iter::once(Polygon::new(corners, color.filled())))?;
             }
+            // Cells have the size that the line gives, in data units, and join without gaps.
             Mark::Cells | Mark::PaleCells => {
                 let [across, up] = line.half;
                 chart.draw_series(
@@ -216,6 +222,7 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
             Mark::Dots => {
                 chart.draw_series(points().map(|at| Circle::new(at, 3 * SCALE, color.filled())))?;
             }
+            // A diamond has its size on the paper and not in data, so that it stays one in every scale.
             Mark::Diamond => {
                 let r = (7 * SCALE) as i32;
                 let corners = [(0, -r), (r, 0), (0, r), (-r, 0)];
@@ -247,6 +254,8 @@ fn color(index: usize, line: &Line) -> RGBAColor {
 
 /// Samples of the lines with their names, above the plot.
 fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result<(), Failure<'a>> {
+    // The samples stand in the order of the lines, in their colours and
+    // marks, so that the legend is read without a key.
     let s = |length: u32| (length * SCALE) as i32;
     let mut at = (s(LEFT + MARGIN), s(8 + ROW + ROW / 2));
     let text = font(TEXT - 1).pos(Pos::new(HPos::Left, VPos::Center));
@@ -258,6 +267,7 @@ fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result
             Mark::Solid | Mark::Thin | Mark::Wide => {
                 area.draw(&PathElement::new(
                     sample,
+                    // Thin lines have a thicker sample, because a short thin one has no visible colour.
                     color.stroke_width(stroke(line.mark).max(2 * SCALE)),
                 ))?;
             }
@@ -281,6 +291,7 @@ fn legend<'a>(area: &Area<'a>, kind: Legend, named: &[(usize, &Line)]) -> Result
         area.draw(&Text::new(line.name.clone(), (x + s(28), y), text.clone()))?;
         match kind {
             Legend::Row => {
+                // plotters estimates the width of a text; the next sample begins after it.
                 let (width, _) = area.estimate_text_size(&line.name, &text)?;
                 at.0 += s(28 + 16) + width as i32;
             }
@@ -300,6 +311,7 @@ fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
     };
     let points = || panel.lines.iter().flat_map(corners);
     let range = |values: &mut dyn Iterator<Item = f64>| {
+        // NaN and infinity are gaps in a curve and must not set its range.
         values
             .filter(|value| value.is_finite())
             .fold([f64::MAX, f64::MIN], |[low, high], value| {
@@ -307,20 +319,24 @@ fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
             })
     };
     let mut x = panel.x_range.unwrap_or_else(|| range(&mut points().map(|p| p.0)));
+    // A bar stands around its number, half a unit to each side.
     if panel.x_range.is_none() && panel.lines.iter().any(|line| line.mark == Mark::Bars) {
         x = [x[0] - 0.5, x[1] + 0.5];
     }
     let mut y = range(&mut points().map(|p| p.1));
     for range in [&mut x, &mut y] {
+        // Without any finite point the range is the empty fold; the axis then shows 0 to 1.
         if range[0] > range[1] {
             *range = [0.0, 1.0];
         }
+        // A constant curve would have a range of width zero, which no scale can be made of.
         if range[1] - range[0] <= 1e-12 * range[1].abs().max(1e-9) {
             let half = 0.05 * range[1].abs().max(1e-9);
             *range = [range[0] - half, range[1] + half];
         }
     }
     let padded = |[low, high]: [f64; 2], part: f64| [low - part * (high - low), high + part * (high - low)];
+    // Equal scale: the larger of both widths decides, and the other range grows around its middle.
     if panel.equal {
         let (x, y) = (padded(x, 0.05), padded(y, 0.05));
         let scale = ((x[1] - x[0]) / aspect).max(y[1] - y[0]);
@@ -328,6 +344,7 @@ fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
         return (around(x, scale * aspect), around(y, scale));
     }
     let mut y = padded(y, 0.06);
+    // After the padding, which would lower the zero line.
     if panel.from_zero {
         y[0] = 0.0;
     }

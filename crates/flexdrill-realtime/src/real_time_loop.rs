@@ -170,17 +170,23 @@ impl<C: Clock> RealTimeLoop<C> {
     }
 
     fn one_period(&mut self) {
+        // Inputs are read once per period, so that all its steps have the same.
         let (inputs, quality) = self.end.targets.get();
         self.wanted.inputs = inputs;
         self.wanted.input_quality = quality;
+        // The motion asks for a refinement, and the pace allows what the machine has had time for.
         self.wanted.refinement = self.run.wanted_refinement().min(self.pace.allowed());
         let current = self.run.applied();
         let new_inputs = inputs != current.inputs;
+        // A paused run takes no step. After a failure the same inputs would
+        // fail again, so it waits until something has changed.
         if self.paused && !self.reset_asked || self.failed && !new_inputs && !self.changed {
             self.run.skip(self.steps_per_period);
+            // The steps that are not taken say nothing about the machine's pace.
             self.pace.forget();
             return;
         }
+        // A reset acts while the run is paused too, and its first frame is published then.
         self.apply(&current);
         if self.paused {
             self.publish_first();
@@ -188,6 +194,7 @@ impl<C: Clock> RealTimeLoop<C> {
             return;
         }
         self.publish_first();
+        // The deadline is the end of this period by the plan, not by when it began: lateness must not move it.
         let end = self.pacer.deadline().saturating_add(self.period);
         let start = self.clock.machine_time();
         let mut began = Instant::now();
@@ -208,6 +215,8 @@ impl<C: Clock> RealTimeLoop<C> {
                         self.push(LoopEvent::Recovered);
                     }
                     self.publish_if_due();
+                    // A step is late against the whole period: within it, steps may take their time. A clock that was
+                    // set in between is no lateness.
                     if self.clock.now() > end.saturating_add(self.clock.jump()) {
                         self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
                     }
@@ -216,11 +225,13 @@ impl<C: Clock> RealTimeLoop<C> {
                     self.failed = true;
                     self.changed = false;
                     self.push(LoopEvent::Failed(failure, self.run.ticks()));
+                    // The rest of the period is skipped, so that model time and clock stay together.
                     self.run.skip(self.steps_per_period - taken);
                     return;
                 }
             }
         }
+        // All steps of the period are taken, so the changed inputs have proved themselves.
         self.changed = false;
         let late = std::mem::take(&mut self.late);
         self.pace

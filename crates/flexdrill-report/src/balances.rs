@@ -299,6 +299,7 @@ impl Balances {
 
     /// Means from the surface to the bit.
     pub(crate) fn transfer(&mut self, time: f64, m: &Transfer) {
+        // Before the first window is full the twin sends no means.
         if m.duration.is_nan() || m.duration <= 0.0 {
             return;
         }
@@ -321,12 +322,17 @@ impl Balances {
         let damping: f64 = damped.iter().sum();
         let taken = m.bit_power + m.friction_power + m.string_power + damping;
         let of_damping: f64 = damped.iter().map(|power| power.abs()).sum();
+        // The size of the balance is half of all that flows: what enters leaves again.
         let all = put_in.iter().map(|power| power.abs()).sum::<f64>() + of_damping;
         let size = 0.5 * (all + m.bit_power.abs() + m.friction_power.abs() + m.string_power.abs());
+        // Power is balanced by the twin's own terms, so the rest is rounding and its limit is relative.
         let rest = put_in.iter().sum::<f64>() - taken - m.stored_power - m.error_power;
         self.power.judge(time, rest, size, 1e-6 * size + 1e-9);
+        // The error of the audit itself belongs to the scheme; damping is
+        // integrated along with the steps and bounds it.
         self.audit
             .judge(time, m.error_power, size, 0.01 * size + 0.5 * of_damping + 0.1);
+        // Means that reach back before the last change of the inputs mix two states, and are not judged.
         let from = time - m.duration;
         if from < self.followed {
             return;
@@ -337,9 +343,13 @@ impl Balances {
             // The losses as torques are powers over the speed of the tool's top, which says that speed.
             let speed = m.pipe_guide_friction_power / m.pipe_guide_friction_torque;
             let friction = m.pipe_guide_friction_power + m.guide_wall_friction_power + m.joint_friction_power;
+            // Torque balances as power does, over the speed: what is put in
+            // along the hole does not come from the torque.
             let given = m.gravity_power + m.load_power + m.feed_power + m.pressure_power + m.axial_update_power;
             let weight = if below_a_hoist { 0.0 } else { m.weight_on_bit_power };
             let lost = (friction + damping - given - weight) / speed;
+            // The torque swings with the speed, and the mean of a product is not the product of the means: their
+            // scatter bounds the difference.
             let rms = (m.kickoff_torque_rms.powi(2) - m.kickoff_torque.powi(2))
                 .max(0.0)
                 .sqrt();
@@ -348,6 +358,7 @@ impl Balances {
             let rest = m.kickoff_torque - m.bit_torque - lost;
             self.torque.judge(time, rest, m.kickoff_torque.abs(), limit);
         }
+        // Without the configuration neither string nor rock is known.
         let Some(tool) = &self.tool else {
             return;
         };
@@ -374,8 +385,10 @@ impl Balances {
             if m.bit_weight < 1.0 || speed <= 0.0 || !even {
                 return;
             }
+            // In a steady state the advance per turn is the depth of cut.
             let removed = speed / TAU * m.depth_of_cut;
             let depth_swing = pressed / (rock.cutter_inclination * rock.specific_energy * radius);
+            // At both ends of the window up to one blade's cut is begun or not finished.
             let cut = m.depth_of_cut.abs() / f64::from(rock.blades) / m.duration;
             let limit = 0.01 * removed + depth_swing * swing / TAU + cut + 1e-6;
             let per_hour = 3600.0;

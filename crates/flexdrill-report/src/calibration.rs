@@ -216,6 +216,7 @@ fn state(motion: Motion) -> &'static str {
 
 /// Measured against predicted, and the residuals over the time of the log.
 fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup, ReportError> {
+    // Minutes for a short log, hours for a long one, so that the axis has readable numbers.
     let end = windows.steady.iter().map(|window| window.span[1]).fold(1.0, f64::max);
     let (time, per) = if end < 10_800.0 {
         ("time (min)", 60.0)
@@ -225,6 +226,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
     let mut panels = Vec::new();
     for channel in Channel::ALL {
         let (unit, factor) = unit(channel);
+        // Off bottom and drilling have different surrogates and are shown apart.
         let of = |motion: Motion| {
             let all = problem.observations.iter().zip(&outcome.explained);
             all.filter(move |(observation, _)| {
@@ -242,6 +244,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
         );
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut any = false;
+        // Both states share one panel of a channel, because one coefficient explains both.
         for (motion, color) in [(Motion::Drilling, 0), (Motion::OffBottom, 1)] {
             let points: Vec<(f64, f64)> = of(motion)
                 .map(|(o, e)| (factor * o.value, factor * e.predicted))
@@ -251,6 +254,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
                 continue;
             }
             any = true;
+            // The expected values before the fit belong to the range too, or the improvement would be cut off.
             for (x, y) in points.iter().chain(&prior) {
                 low = low.min(*x).min(*y);
                 high = high.max(*x).max(*y);
@@ -259,6 +263,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
                 against = against.line(Line::new("as configured before", prior).dots().color(6));
             }
             against = against.line(Line::new(state(motion), points).dots().color(color));
+            // A vertical line for each band, through zero: a residual within it is explained.
             for (observation, explained) in of(motion) {
                 let (x, band) = (observation.time / per, factor * explained.band);
                 over = over.line(Line::new("", vec![(x, -band), (x, band)]).thin().color(6));
@@ -267,6 +272,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
             over = over.line(Line::new(state(motion), residuals.collect()).dots().color(color));
         }
         if any {
+            // The diagonal comes last, when the range of all points is known.
             panels.push(against.line(Line::new("", vec![(low, low), (high, high)]).dashed().color(6)));
             panels.push(over);
         }

@@ -118,6 +118,7 @@ fn nearest(depths: &[f64], depth: f64) -> Option<usize> {
 
 impl Locations {
     pub(crate) fn joints(&mut self, time: f64, m: JointDeflections) {
+        // The first complete message sets the mesh. All later ones are compared with it.
         if self.joint_depth.is_empty() && complete(&m.measured_depth, []) {
             self.joint_depth.clone_from(&m.measured_depth);
             self.joint_inclination.clone_from(&m.inclination);
@@ -138,6 +139,7 @@ impl Locations {
             &m.shear_force,
             &m.torque,
         ];
+        // A second run with another tool in the same bag would be averaged into the first.
         if m.measured_depth != self.joint_depth || !complete(&self.joint_depth, arrays) {
             self.other_mesh += 1;
             return;
@@ -147,11 +149,13 @@ impl Locations {
         self.axial_force.push(time, m.axial_force);
         self.shear_force.push(time, m.shear_force);
         self.torque.push(time, m.torque);
+        // The last seconds are kept, because the worst instant is shown with what came before and after it.
         if self.recent.len() == WINDOW {
             self.recent.pop_front();
         }
         let at = m.lateral_y.into_iter().zip(m.lateral_z).map(|(y, z)| [y, z]).collect();
         self.recent.push_back((time, at, m.spin_rate));
+        // An instant waits until the samples after it have come, and then keeps the window around it.
         for instants in &mut self.instants {
             for (joint, instant) in instants.iter_mut().enumerate() {
                 match instant.wait {
@@ -181,6 +185,8 @@ impl Locations {
             self.other_mesh += 1;
             return;
         }
+        // Contacts are counted by station, orbits are recorded at joints: each station belongs to its nearest joint.
+        // The joints' message may come later.
         if self.nearest.is_empty() && !self.joint_depth.is_empty() {
             self.nearest = self
                 .station_depth
@@ -188,6 +194,7 @@ impl Locations {
                 .filter_map(|depth| nearest(&self.joint_depth, *depth))
                 .collect();
         }
+        // The largest forces decide which joints' orbits are kept.
         for (measure, peaks) in [
             (Measure::PipeGuide, &m.pipe_guide_normal_peak),
             (Measure::GuideWall, &m.guide_wall_normal_peak),
@@ -198,6 +205,7 @@ impl Locations {
                 }
             }
         }
+        // The share of time in contact is the mean of a flag at the messages.
         let touches = |layer: u8| {
             let touching = [layer, ContactForces::BOTH];
             m.state
@@ -226,6 +234,7 @@ impl Locations {
             &m.contact_duty,
             &m.friction_power,
         ];
+        // The stations that are watched do not change during a run; another number is another tool.
         if self.whirl.is_empty() {
             self.whirl.resize(stations, WhirlStation::default());
         }
@@ -241,9 +250,11 @@ impl Locations {
             station.body = m.body[index];
             station.measured_depth = m.measured_depth[index];
             station.inclination = m.inclination[index];
+            // Shares of kinds count evaluations, since these are equally spaced in time.
             station.evaluations += 1;
             *station.kinds.entry(m.kind[index]).or_default() += 1;
             let now = (m.severity[index], m.clearance_ratio[index]);
+            // The worst moment is by level first, and by clearance within a level. Motion without whirl has none.
             if m.kind[index] != WhirlState::NONE && now > station.score() {
                 (station.severity, station.clearance_ratio) = now;
                 station.kind = m.kind[index];
@@ -253,6 +264,7 @@ impl Locations {
                 station.friction_power = m.friction_power[index];
             }
         }
+        // Only the pipe has orbits.
         for index in
             (0..stations).filter(|index| m.body[*index] == WhirlState::PIPE && m.kind[*index] != WhirlState::NONE)
         {

@@ -165,6 +165,7 @@ pub(crate) fn envelopes(summary: &Summary) -> Option<Figure> {
     let (stations, joints) = (&locations.station_depth, &locations.joint_depth);
     let along = "measured depth from the kick-off (m)";
     let mut panels = Vec::new();
+    // Peak and RMS in one panel each: their distance shows whether a force is steady or made of impacts.
     for (layer, title) in ["Normal force, pipe on guide", "Normal force, guide on wall"]
         .into_iter()
         .enumerate()
@@ -176,6 +177,7 @@ pub(crate) fn envelopes(summary: &Summary) -> Option<Figure> {
                 .from_zero(),
         );
     }
+    // Signed quantities as bands from least to largest, because their sign matters.
     for (title, unit, envelope, factor) in [
         ("Axial force, tension positive", "kN", &locations.axial_force, kn()),
         ("Torque through the joints", "N m", &locations.torque, 1.0),
@@ -196,6 +198,7 @@ pub(crate) fn envelopes(summary: &Summary) -> Option<Figure> {
             .line(Line::new("RMS", locations.shear_force.curve(joints, kn(), |s| s.rms())).color(0))
             .from_zero(),
     );
+    // A joint without a limit has no point on its line.
     let limit = joints
         .iter()
         .copied()
@@ -215,6 +218,7 @@ pub(crate) fn envelopes(summary: &Summary) -> Option<Figure> {
             .line(Line::new("RMS", locations.stop_moment.curve(joints, 1.0, |s| s.rms())).color(0))
             .from_zero(),
     );
+    // Both contacts share a panel, so that they can be compared along the tool.
     panels.push(
         Panel::new("Time in contact", along, "%")
             .line(
@@ -295,6 +299,7 @@ pub(crate) fn orbits(summary: &Summary) -> Option<Figure> {
 
 /// The orbits, in a figure of this name.
 pub(crate) fn named_orbits(summary: &Summary, name: &'static str) -> Option<Figure> {
+    // The pipe's axis may move by both clearances: within the guide, and with it.
     let clearance = summary
         .config
         .as_ref()
@@ -311,6 +316,7 @@ pub(crate) fn named_orbits(summary: &Summary, name: &'static str) -> Option<Figu
                 .filter(|(y, z)| is_quantity(*y) && is_quantity(*z))
                 .collect();
             let path = Line::new("", points);
+            // A line through few samples per turn would draw chords of an orbit that nothing has measured.
             let path = if of.samples_per_turn() < LINE_FROM {
                 path.dots()
             } else {
@@ -328,9 +334,11 @@ pub(crate) fn named_orbits(summary: &Summary, name: &'static str) -> Option<Figu
                 "to the low side (mm)",
             )
             .line(path.color(0))
+            // Equal scales and the low side below, as one looks down the hole.
             .equal()
             .down()
             .legend(Legend::Row);
+            // The circle shows how much of the room is used.
             if let Some(clearance) = clearance {
                 let circle = (0..=90).map(|k| {
                     let angle = TAU * f64::from(k) / 90.0;

@@ -179,15 +179,20 @@ impl Reader {
     }
 
     fn decode(&mut self, known: &'static TopicInfo, message: &BagMessage) -> Result<(), BagError> {
+        // The type decides, since each output has its own. Plain inputs
+        // share one type and are distinguished by their topic.
         match known.kind.ros_type {
             SessionInfo::ROS_TYPE => {
                 let session: SessionInfo = message.decode()?;
                 let summary = &mut self.summary;
                 let same =
                     |known: &SessionInfo| known.start == session.start && known.config_hash == session.config_hash;
+                // A session may be in the bag several times; only another start or configuration is another run.
                 if !summary.session.as_ref().is_some_and(same) {
                     summary.runs += 1;
                     if summary.session.is_none() {
+                        // A configuration that this version does not read is no error:
+                        // the report then lacks what depends on it.
                         match Config::from_text("the recorded configuration", &session.configuration) {
                             Ok(config) => {
                                 summary.balances.tool(&config);
@@ -202,6 +207,7 @@ impl Reader {
             }
             AppliedInputs::ROS_TYPE => {
                 let inputs: AppliedInputs = message.decode()?;
+                // Stamps are the twin's time; the first one is the origin of the report.
                 let time = self.stamp(&inputs.header);
                 self.summary.drive.applied(time, &inputs);
                 self.summary.balances.applied(time, &inputs);
@@ -242,10 +248,12 @@ impl Reader {
             }
             AlarmList::ROS_TYPE => {
                 let list: AlarmList = message.decode()?;
+                // The list moves the report's end, though its alarms have their own times.
                 let _ = self.stamp(&list.header);
                 let origin = self.origin.unwrap_or_default();
                 self.summary
                     .incidents
+                    // `since` is the twin's time as well, and counts from the same origin.
                     .alarms(list, |alarm| alarm.since.to_nanoseconds().saturating_sub(origin));
             }
             AlarmEvent::ROS_TYPE => {
@@ -259,6 +267,7 @@ impl Reader {
                 self.summary.health.status(time, status);
             }
             RigInputs::ROS_TYPE => {
+                // Inputs have no stamp of the twin, so their time of reception stands for it.
                 let inputs: RigInputs = message.decode()?;
                 self.summary.log_rows.push(message.log_time, &inputs.source);
                 if let Some(time) = self.received_at(message) {
@@ -289,10 +298,13 @@ impl Reader {
 
     fn finish(mut self, roles: &Roles, cuts: Vec<String>, damaged: &[String], gaps: &[Gap]) -> Summary {
         let summary = &mut self.summary;
+        // All times are relative by now. The absolute ones remain for the head of the page.
         summary.start = self.origin.unwrap_or_default();
         summary.end = summary.end.max(summary.start);
         summary.locations.finish();
         summary.incidents.finish(summary.end.saturating_sub(summary.start));
+        // Whatever is missing is listed in words on the page: a report
+        // without a note must mean that nothing is missing.
         let missing = &mut summary.missing;
         missing.extend(cuts);
         missing.extend(damaged.iter().take(NAMED).map(|damage| format!("Left out: {damage}.")));
@@ -303,6 +315,7 @@ impl Reader {
             ));
         }
         missing.extend(gaps.iter().map(|gap| format!("Lost during the recording: {gap}.")));
+        // An output that the bag never had is another matter than one that was lost.
         for known in OUTPUTS.iter().filter(|known| !roles.has(known)) {
             missing.push(format!("The bag has no {}: {}.", known.name, without(known)));
         }
@@ -314,6 +327,7 @@ impl Reader {
                 unreadable.first
             )
         }));
+        // Stamps before the origin come from another run or a clock that was set back.
         if self.backwards > 0 {
             missing.push(format!(
                 "Left out of the curves: {} with a stamp from before the beginning.",

@@ -42,6 +42,7 @@ pub(crate) struct Roles {
 impl Roles {
     /// Finds the only twin of a bag, or the one in the namespace `wanted`.
     pub(crate) fn find(path: &Path, bag: &Bag, wanted: Option<&str>) -> Result<Self, ReportError> {
+        // The outputs' own topics show the namespaces of the twins in a bag.
         let namespaces: BTreeSet<String> = bag
             .topics()
             .iter()
@@ -50,6 +51,7 @@ impl Roles {
         let listed = || namespaces.iter().cloned().collect::<Vec<_>>().join(", ");
         let namespace = match (wanted, namespaces.len()) {
             (Some(wanted), _) => {
+                // With or without slashes, as a user writes it.
                 let wanted = format!("/{}", wanted.trim_matches('/'));
                 if !namespaces.contains(&wanted) {
                     return Err(ReportError::OtherNamespace {
@@ -60,6 +62,7 @@ impl Roles {
                 }
                 wanted
             }
+            // Without any namespace found the topics may be remapped, which the types decide below.
             (None, 0 | 1) => namespaces.iter().next().cloned().unwrap_or_else(|| "/".to_owned()),
             (None, _) => {
                 return Err(ReportError::SeveralTwins {
@@ -68,6 +71,7 @@ impl Roles {
                 });
             }
         };
+        // By name and type together: a rig's own topic may have a name of ours.
         let mut of: Vec<Option<&'static TopicInfo>> =
             bag.topics()
                 .iter()
@@ -84,6 +88,7 @@ impl Roles {
                 of[only] = Some(known);
             }
         }
+        // Checked at the end, because a remapped topic counts too.
         if !of.iter().flatten().any(|known| OUTPUTS.contains(known)) {
             let present: Vec<&str> = bag.topics().iter().map(|topic| topic.name.as_str()).collect();
             return Err(ReportError::NoTwin {

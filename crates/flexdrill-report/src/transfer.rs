@@ -67,6 +67,7 @@ pub(crate) struct TransferHistory {
 
 impl Default for TransferHistory {
     fn default() -> Self {
+        // Within a group the order is from the surface to the bit, and the page shows it so.
         Self {
             torque: Group::new(&[
                 ("torque at the surface", |m| m.surface_torque),
@@ -93,6 +94,7 @@ impl Default for TransferHistory {
             depth_of_cut: History::default(),
             rate_of_penetration: History::default(),
             drive_at_limit: History::default(),
+            // Shares of both groups refer to the power that is put in.
             put_in: Group::new(&[
                 ("top drive", |m| m.drive_power),
                 ("hoist", |m| m.hoist_power),
@@ -102,6 +104,7 @@ impl Default for TransferHistory {
                 ("pressure", |m| m.pressure_power),
                 ("loads", |m| m.load_power),
             ]),
+            // The rock comes first, then what friction and damping dissipate; the scheme's own damping is last.
             taken: Group::new(&[
                 ("rock", |m| m.bit_power),
                 ("friction of pipe in guide", |m| m.pipe_guide_friction_power),

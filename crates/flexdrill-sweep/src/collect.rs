@@ -17,6 +17,7 @@ impl Directory {
     /// # Errors
     /// When a point has no result and `partial` is not set, or a file is damaged or cannot be read.
     pub fn collect(&self, partial: bool) -> Result<Vec<u8>, SweepError> {
+        // All points are looked at before any problem is reported, so that the error has their whole number.
         let mut missing = 0;
         let mut damaged = Vec::new();
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -30,6 +31,8 @@ impl Directory {
                 Found::Missing => {
                     missing += 1;
                     None
+                    // A damaged point is no missing one: computing it again would
+                    // overwrite what may be the trace of a fault.
                 }
                 Found::Done(outcome) => Some(outcome),
                 Found::Damaged(damage) => {
@@ -37,10 +40,13 @@ impl Directory {
                     None
                 }
             };
+            // Rows are in the plan's order, with or without a result, so
+            // that the bytes do not depend on who computed what.
             writer
                 .write_record(row(self.plan(), point, outcome.as_deref()))
                 .map_err(failed)?;
         }
+        // Damage outranks a missing result, also with `partial`.
         if let Some((path, damage)) = damaged.first() {
             return Err(SweepError::DamagedPoint {
                 path: path.clone(),

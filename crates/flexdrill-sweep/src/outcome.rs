@@ -154,6 +154,8 @@ pub fn from_bytes(plan: &Plan, point: &Point, bytes: &[u8]) -> Result<Outcome, D
 
 impl Outcome {
     fn check(&self, plan: &Plan) -> Result<(), Damage> {
+        // A result may come from another machine, or may have been changed by
+        // hand with its checksum. Its content is therefore checked.
         let wrong = |what: &'static str, value: String, bound: String| Err(Damage::Wrong { what, value, bound });
         if self.members > plan.runs.members {
             return wrong(
@@ -165,12 +167,14 @@ impl Outcome {
         if self.failed > self.members {
             return wrong("failed", self.failed.to_string(), format!("at most {}", self.members));
         }
+        // All counts below refer to the members that ended.
         let ended = self.ended();
         for count in &self.alarms {
             if !plan.runs.alarms.contains(&count.alarm) {
                 let name = count.alarm.escape_debug().to_string();
                 return wrong("alarm", name, "one of the plan's".to_owned());
             }
+            // An alarm that no member saw is not listed, so `seen` is at least one.
             if count.of != ended || count.seen > ended || count.seen == 0 {
                 let value = format!("{} of {}", count.seen, count.of);
                 return wrong("seen", value, format!("1 to {ended} of {ended}"));
@@ -196,6 +200,7 @@ impl Outcome {
                 return wrong("any_alarm", any.to_string(), bound);
             }
         }
+        // Same names, units and order, because tables are formed by position.
         let named = self.figures.iter().map(|figure| (&figure.name, &figure.unit));
         if !named.eq(plan.runs.figures.iter().map(|(name, unit)| (name, unit))) {
             return wrong(
@@ -212,6 +217,7 @@ impl Outcome {
         if let Some(quantiles) = unsorted {
             return wrong("quantiles", format!("{quantiles:?}"), "rising".to_owned());
         }
+        // Each member that ended has exactly one quality.
         if self.quality.iter().map(|count| u64::from(*count)).sum::<u64>() != u64::from(ended) {
             return wrong(
                 "quality",

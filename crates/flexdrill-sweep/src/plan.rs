@@ -168,6 +168,7 @@ impl Plan {
     /// The first problem of the plan's own numbers, if any. The values of its rows are the configuration's to check.
     pub fn problem(&self) -> Option<Problem> {
         let runs = &self.runs;
+        // The checks are in the order of the file, and the first problem is reported.
         let [least, most] = HORIZONS;
         let problem = |what: &str, value: &dyn ToString, bound: String| {
             Some(Problem {
@@ -191,6 +192,7 @@ impl Plan {
         if !(1..=MOST_KEYS).contains(&self.keys.len()) {
             return problem("keys", &self.keys.len(), format!("1 to {MOST_KEYS}"));
         }
+        // A key that is given twice would be set twice, and the second value would win silently.
         for (number, key) in self.keys.iter().enumerate() {
             if self.keys[..number].contains(key) {
                 return problem("keys", key, "given once".to_owned());
@@ -204,6 +206,7 @@ impl Plan {
                 format!("{} values each, one per key", self.keys.len()),
             );
         }
+        // Strictly rising means sorted and without repetition: the number of a point follows from these orders.
         if self.starts.is_empty() || !self.starts.is_sorted_by(|a, b| a < b) {
             return problem(
                 "starts",
@@ -214,6 +217,7 @@ impl Plan {
         if self.seeds.is_empty() || !self.seeds.is_sorted_by(|a, b| a < b) {
             return problem("seeds", &format!("{:?}", self.seeds), "rising, at least one".to_owned());
         }
+        // In 128 bits, since a file may hold any numbers and their product must not wrap.
         let points = (self.rows.len() as u128) * (self.starts.len() as u128) * (self.seeds.len() as u128);
         if !(1..=MOST_POINTS as u128).contains(&points) {
             return problem(
@@ -222,11 +226,13 @@ impl Plan {
                 format!("1 to {MOST_POINTS}, rows times starts times seeds"),
             );
         }
+        // The bound on all model time together protects against a plan that no machine finishes.
         let time = points as f64 * f64::from(runs.members) * runs.horizon;
         if time > MOST_MODEL_TIME {
             let bound = format!("at most {MOST_MODEL_TIME} s; fewer points or members, or a shorter horizon");
             return problem("model time of all members", &time, bound);
         }
+        // Columns times rows may overflow as well; then it is no grid of these rows.
         if let Some(grid) = self.map
             && (self.keys.len() != 2 || grid.columns.checked_mul(grid.rows) != Some(self.rows.len()))
         {

@@ -148,6 +148,7 @@ impl Spec {
                 "the tool must run",
             );
         }
+        // Exactly one form gives the values: with two it would be open which of them counts.
         let given = [
             !self.grid.is_empty(),
             !self.list.is_empty(),
@@ -162,6 +163,7 @@ impl Spec {
                 "exactly one of them gives the values",
             );
         }
+        // Each error has the path of its key, so that it points at the line.
         for (key, values) in &self.grid {
             if let Err(why) = along(values) {
                 c.wrong(
@@ -173,6 +175,7 @@ impl Spec {
                 );
             }
         }
+        // The first point sets the keys of the list.
         let keys = self
             .list
             .first()
@@ -202,6 +205,7 @@ impl Spec {
             }
         }
         if let Some(cube) = &self.latin_hypercube {
+            // The bound of a directory holds for the cube before its points are formed.
             let bound = Bound::within(1.0, MOST_POINTS as f64);
             c.count(
                 "latin_hypercube.points",
@@ -216,6 +220,7 @@ impl Spec {
                 }
             }
         }
+        // Sizes come last: they multiply all of the above, which may be wrong one by one.
         let (keys, points) = self.size();
         if !(1..=MOST_KEYS).contains(&keys) {
             c.wrong(
@@ -267,12 +272,17 @@ impl Spec {
     /// # Errors
     /// As [`Spec::plan`].
     pub fn plan_for(&self, name: &str, config: &Config, program: &Program) -> Result<Plan, SweepError> {
+        // Rows are formed here once. From now on the plan has values only, and
+        // no ranges that another version may expand otherwise.
         let (keys, rows) = self.rows(config);
         let speed = keys.iter().position(|key| key == ROTARY_SPEED);
         let highest = speed.and_then(|at| {
             let speeds = rows.iter().filter_map(|row| row.get(at)?.as_f64());
             speeds.reduce(f64::max).filter(|rpm| *rpm > 0.0)
+            // A start from running needs a speed. The highest of the sweep has the
+            // most motion; without any the configuration's bound.
         });
+        // Sorted and each once, so that equal specifications give the same plan, and points have the same numbers.
         let mut seeds = self.seeds.clone();
         seeds.sort_unstable();
         seeds.dedup();
@@ -309,6 +319,7 @@ impl Spec {
             seeds,
             map: None,
         };
+        // Every row is tried with the configuration now, or a wrong one would be found after hours.
         plan.check_rows(name, config)?;
         Ok(plan)
     }

@@ -65,6 +65,7 @@ impl Directory {
         run: impl Fn(&Point) -> Option<Outcome> + Sync,
         mut progress: impl FnMut(Progress),
     ) -> Result<Worked, SweepError> {
+        // Points are sorted by state first, so that progress can give a total.
         let mut missing: Vec<&Point> = Vec::new();
         let mut damaged = Vec::new();
         let mut worked = Worked::default();
@@ -75,8 +76,10 @@ impl Directory {
                 Found::Damaged(damage) => damaged.push((point, damage)),
             }
         }
+        // Workers do not know of each other. In random order two of them rarely meet at a point.
         fastrand::shuffle(&mut missing);
         let all = missing.len();
+        // A write that fails ends all threads: the disk is full for every one of them.
         let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
         let error: Mutex<Option<SweepError>> = Mutex::new(None);
         std::thread::scope(|scope| {
@@ -93,6 +96,7 @@ impl Directory {
                         let ran = if self.has_file(point) {
                             false
                         } else {
+                            // Nothing is written for a run that was stopped, as its result would be incomplete.
                             let Some(outcome) = run(point) else { return };
                             if let Err(why) = self.put(point, &outcome) {
                                 failed.store(true, Ordering::Relaxed);
@@ -107,6 +111,7 @@ impl Directory {
                     }
                 });
             }
+            // The loop below ends with the last sender.
             drop(sender);
             let mut done = 0;
             for ran in receiver {
@@ -118,11 +123,13 @@ impl Directory {
                 }
                 progress(Progress { all, done });
             }
+            // Whatever the threads left undone: stopped, or failed.
             worked.left = all - done;
         });
         if let Some(error) = error.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
             return Err(error);
         }
+        // Damaged points are reported after the work, because they do not hinder the others.
         match damaged.first() {
             None => Ok(worked),
             Some((point, damage)) => Err(SweepError::DamagedPoint {

@@ -101,11 +101,15 @@ fn swing(twin: &mut CaseTwin, until: f64, mut take: impl FnMut(&CaseTwin)) -> Re
 
 pub(super) fn pipe() -> Result<Vec<Row>, VerifyError> {
     let case = "mud_pipe";
+    // The same missing value is reported wherever the swing cannot be found.
     let mut twin = CaseTwin::new(case)?;
     let of = Case::of(&twin)?;
     let none = VerifyError::Missing { case, what: "a swing" };
     let mut samples = Vec::new();
+    // The swing is that of the first mode, projected out of all stations,
+    // so that higher modes do not disturb the crossings.
     let dt = swing(&mut twin, 1.0, |twin| samples.push(Case::first_mode(twin, Body::Pipe)))?;
+    // First without viscosity: the added mass alone shifts the frequency.
     let [wet, ..] = of.mass();
     let frequency = |mass: f64| (of.stiffness(&of.pipe) / mass).sqrt() / (2.0 * PI);
     let got = crossing_frequency(&samples, dt).ok_or(none)?;
@@ -120,17 +124,21 @@ pub(super) fn pipe() -> Result<Vec<Row>, VerifyError> {
             2.0 * FREQUENCY,
         ),
     ];
+    // The second run differs in the viscosity alone, and so does what is compared.
     let mut damped = CaseTwin::with(case, |config| config.with_value("environment.mud.damping", "viscous"))?;
     let omega = 2.0 * PI * damped.config.tool().mud.map_or(0.0, |mud| mud.frequency);
     let mut samples = Vec::new();
     let dt = swing(&mut damped, 1.0, |twin| {
         samples.push(Case::first_mode(twin, Body::Pipe))
     })?;
+    // The real part of the oscillating film adds mass, the imaginary one
+    // damps; both follow from the frequency that is configured.
     let [real, imaginary] = of.oscillating(omega);
     let between = of.between(of.inner);
     let mass = of.pipe.mass + of.disc(of.bore) + between * real - of.disc(of.inner[0]);
     let (drag, natural) = (omega * between * imaginary, 2.0 * PI * frequency(mass));
     let ratio = drag / (2.0 * mass * natural);
+    // The damped frequency is lower than the natural one; the twin shows the damped one.
     let swinging = natural * (1.0 - ratio * ratio).sqrt() / (2.0 * PI);
     let got = crossing_frequency(&samples, dt).ok_or(VerifyError::Missing { case, what: "a swing" })?;
     rows.push(Row::relative(
@@ -140,6 +148,7 @@ pub(super) fn pipe() -> Result<Vec<Row>, VerifyError> {
         got,
         FREQUENCY,
     ));
+    // The decrement between maxima gives the ratio without knowledge of mass or stiffness.
     let decrement = log_decrement(&samples).ok_or(VerifyError::Missing { case, what: "a decay" })?;
     let got = decrement / decrement.hypot(2.0 * PI);
     rows.push(Row::relative(
@@ -262,17 +271,20 @@ pub(super) fn squeeze() -> Result<Vec<Row>, VerifyError> {
     let case = "mud_squeeze";
     let mut twin = CaseTwin::new(case)?;
     let of = Case::of(&twin)?;
+    // The closed form is that of a narrow film, whose width is small against the radius.
     let (width, viscosity) = (of.inner[1] - of.inner[0], of.kinematic * of.density);
     let film = 12.0 * PI * viscosity * (of.inner[0] / width).powi(3);
     let reached = |eccentricity: f64| eccentricity / (1.0 - eccentricity * eccentricity).sqrt() - eccentricity;
     let load = 100.0;
     let mut rows = Vec::new();
+    // Times are compared between these eccentricities: the start, in which the pipe gains its speed, is left out.
     let ends = [0.8, 0.9, 0.95];
     let mut times = Vec::new();
     let (mut before, last) = (0.0, twin.last());
     while times.len() < ends.len() && twin.time() < 5.0 {
         twin.step()?;
         let now = twin.displacement(last, Body::Pipe, Direction::W) / width;
+        // The crossing is interpolated within the step, or the step would be the error of the time.
         if now >= ends[times.len()] {
             let step = twin.simulation.settings().time_step;
             times.push(twin.time() - step * (now - ends[times.len()]) / (now - before));
@@ -281,6 +293,7 @@ pub(super) fn squeeze() -> Result<Vec<Row>, VerifyError> {
     }
     for k in 1..ends.len() {
         let expected = film * width / load * (reached(ends[k]) - reached(ends[k - 1]));
+        // A run that does not get there has NaN, which no tolerance accepts.
         let got = match (times.get(k - 1), times.get(k)) {
             (Some(start), Some(end)) => end - start,
             _ => f64::NAN,
@@ -288,6 +301,7 @@ pub(super) fn squeeze() -> Result<Vec<Row>, VerifyError> {
         let quantity = format!("time from eps {} to {} (s)", ends[k - 1], ends[k]);
         rows.push(Row::relative(case, quantity, expected, got, SQUEEZE));
     }
+    // The work of the load is what the film has taken, because nothing else moves.
     let audit = twin.simulation.energy();
     let worked = audit.loads.abs();
     rows.push(Row::scaled(

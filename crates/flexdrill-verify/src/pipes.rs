@@ -123,10 +123,12 @@ pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
     let case = "chain_in_guide";
     let mut twin = CaseTwin::new(case)?;
     let [(w_pipe, _), (w_guide, ei)] = beams(&twin);
+    // Weights come from the case itself, so that the closed form has the numbers that the twin has.
     let tool = twin.config.tool();
     let l = twin.config.well.length();
     let link = l / tool.links as f64;
     let load = w_pipe * link;
+    // Long enough for the chain to come to rest under its damping.
     twin.run_to(0.05)?;
     let joints: Vec<usize> = twin.simulation.joint_stations().to_vec();
     // Beam on two supports, by superposition.
@@ -134,16 +136,19 @@ pub(super) fn chain_in_guide() -> Result<Vec<Row>, VerifyError> {
         let by_weight = w_guide * x * (l.powi(3) - 2.0 * l * x * x + x.powi(3)) / (24.0 * ei);
         let by_loads = (1..tool.links).map(|j| {
             let at = link * j as f64;
+            // The formula holds left of the load; right of it the beam is seen from its other end.
             let (x, b) = if x <= at { (x, l - at) } else { (l - x, at) };
             load * b * x * (l * l - b * b - x * x) / (6.0 * l * ei)
         });
         by_weight + by_loads.sum::<f64>()
     };
     let mut rows = Vec::new();
+    // The first joint lies near a support, the fourth in the middle, where the guide's deflection is largest.
     for number in [1, 4] {
         let station = joints[number - 1];
         let gap = twin.simulation.clearance(station, Body::Pipe).unwrap_or(f64::NAN);
         let guide = deflection(link * number as f64);
+        // The chain lies on the guide: guide, clearance, and the penetration of the contact under one link's weight.
         let pipe = guide + gap + load / tool.inner.stiffness;
         let down = |body| twin.displacement(station, body, Direction::W);
         rows.push(Row::relative(

@@ -136,16 +136,21 @@ impl Log {
     /// The samples at 1 Hz: off bottom, the drilling parts in a random order, off bottom again.
     fn samples(&mut self, config: &Config, unknowns: &Unknowns) -> anyhow::Result<Vec<Sample>> {
         let given = &config.calibration;
+        // The noise is that of the configuration, so that the fit assumes the truth about the sensors.
         let [torque, weight] = IN_THE_HOLE;
         let noise = [given.torque_noise_nm, kn_to_n(given.hook_load_noise_kn), torque, weight];
+        // A random walk by the second: the deviation after an hour, over the root of 3600.
         let drift = [given.torque_drift_nm, kn_to_n(given.hook_load_drift_kn), 0.0, 0.0].map(|hour| hour / 60.0);
         let modelled = unknowns.modelled.len();
+        // Tares follow the modelled unknowns in the order of the truth.
         let tares = [
             unknowns.torque_tare.value(self.truth[modelled]),
             unknowns.hook_load_tare.value(self.truth[modelled + 1]),
             0.0,
             0.0,
         ];
+        // Off bottom comes first and last, as on a rig. The loads between come
+        // in random order, or the drift would follow the weight.
         let (off_bottom, drilling) = self.points.split_at_mut(1);
         self.random.shuffle(drilling);
         let (mut walk, mut samples) = ([0.0; Channel::ALL.len()], Vec::new());
@@ -160,12 +165,14 @@ impl Log {
                 Motion::Drilling => DRILLING_TIME,
             };
             for _ in 0..seconds {
+                // Channels start as NaN, so that one that is forgotten counts as not measured.
                 let mut measured = [f64::NAN; Channel::ALL.len()];
                 for k in 0..measured.len() {
                     walk[k] += drift[k] * normal(&mut self.random);
                     measured[k] = figures[k] + tares[k] + walk[k] + noise[k] * normal(&mut self.random);
                 }
                 let row = samples.len() as u64;
+                // The header is row 1 and rows are counted from 1, so the first sample is row 2.
                 samples.push(Sample {
                     time: row as f64,
                     row: row + 2,
@@ -328,6 +335,7 @@ fn shown(holds: usize, of: usize) -> String {
 /// When a run of a log fails, or nothing can be fitted.
 pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
     let unknowns = Unknowns::of(plan.config)?;
+    // All runs of the twin come first and are kept; fitting takes seconds and can be repeated.
     let (points, logs) = runs(plan, &unknowns)?;
     let trials = trials(plan, &unknowns, &points, logs)?;
     let Some(first) = trials.first() else {
@@ -339,6 +347,7 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
         .iter()
         .map(|unknown| unknown.name.clone())
         .collect();
+    // A log that straddles the force of the wear flats shows both branches of the bit's law, and determines more.
     let straddling = trials.iter().filter(|trial| trial.straddles).count();
     let each = counts(trials.iter(), names.len());
     let of_straddling = counts(trials.iter().filter(|trial| trial.straddles), names.len());
@@ -350,6 +359,7 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
         "posterior over prior variance",
         "identified, bounded, in combination",
     ]);
+    // The interval of the count comes with it: with few logs a share of nine in ten may be chance.
     for ((name, count), straddles) in names.iter().zip(&each).zip(&of_straddling) {
         let mean = |sum: f64| sum / trials.len() as f64;
         bands.row([
@@ -368,6 +378,7 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
         "error of a run left out",
         "over its stated error",
     ]);
+    // The surrogates are the same for all logs, so those of the first stand for all.
     for quantity in &first.problem.quantities {
         let (name, unit) = quantity.channel.name_and_unit();
         let motion = match quantity.motion {
@@ -392,6 +403,7 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
          wear flats' force at the bit. The twin explains {explained}.",
         trials.len()
     );
+    // Checks by full runs are costly, so only some logs have them.
     let checked: Vec<&(Vec<Checked>, Vec<Objection>)> =
         trials.iter().filter_map(|trial| trial.checked.as_ref()).collect();
     if !checked.is_empty() {
@@ -400,6 +412,7 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
             " Full runs checked {} of them and found nothing against {usable}.",
             checked.len()
         ));
+        // Sorted, so that equal reasons are neighbours and can be counted.
         let mut reasons: Vec<&str> = checked
             .iter()
             .flat_map(|(_, all)| all.iter().map(Objection::name))

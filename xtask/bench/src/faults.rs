@@ -57,6 +57,7 @@ type Came = (u32, Option<Cause>);
 /// # Errors
 /// When a run of the twin fails.
 pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
+    // Figures of the twin are computed once. The watch below repeats them with noise, at a cost of nothing.
     let figures = |config: &Config, weight: f64| {
         eprintln!("the twin at {RPM} r/min and {weight} kN");
         let load = Load {
@@ -76,13 +77,16 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
             drilling: figures(config, weight)?,
         })
     };
+    // A sensor that shows too much leads the driller to put on less: the true weight is lower than the shown one.
     let healthy = shown(config, WEIGHT)?;
     let less_weight = figures(config, TRUE_WEIGHT)?;
     let arc = shown(&in_the_arc(config)?, WEIGHT)?;
     let layers = shown(&in_both_layers(config)?, WEIGHT)?;
+    // A bit that takes half of its torque lowers the torque at the surface by the same amount.
     let mut dull = healthy;
     dull.drilling[2] *= 0.5;
     dull.drilling[0] -= dull.drilling[2];
+    // The hook load and the shown weight stay; what depends on the true weight is that of the lower one.
     let sensor = Shown {
         drilling: [less_weight[0], healthy.drilling[1], less_weight[2], less_weight[3]],
         ..healthy
@@ -105,6 +109,8 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
     ]);
     let mut calm = Table::new(["measured", "error of the twin", "days", "false alarms per day"]);
     for in_the_hole in [false, true] {
+        // With the error of the twin and without: the first shows what the
+        // rig sees, the second what the method can do at best.
         for error in [0.0, config.calibration.model_error] {
             let rig = Rig::new(config, in_the_hole, error);
             let measured = if in_the_hole { "surface and hole" } else { "surface" };
@@ -112,6 +118,7 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
             for (name, fault) in &faults {
                 let mut came: Vec<Came> = (0..RUNS)
                     .filter_map(|seed| {
+                        // The fault begins after a time without one, in which the comparison has settled.
                         let all = rig.watch(seed, BEGIN + LOOKED, &healthy, |second| {
                             if second < BEGIN { healthy } else { *fault }
                         });
@@ -130,6 +137,7 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
                     named(&came),
                 ]);
             }
+            // Other seeds than those of the faults, and none of the seconds has a fault: every alarm is a false one.
             let alarms: usize = (0..DAYS)
                 .map(|day| rig.watch(1000 + day, duration as u32, &healthy, |_| healthy).len())
                 .sum();
@@ -222,20 +230,25 @@ impl Rig {
     /// Seconds at which the alarm came in a run of so many seconds, in which the twin computes `twin` and the rig shows what
     /// `truth` gives for a second.
     fn watch(&self, seed: u64, seconds: u32, twin: &Shown, truth: impl Fn(u32) -> Shown) -> Vec<Came> {
+        // One generator per run and seed: all noise of a run is in its order, so that it repeats.
         let mut random = fastrand::Rng::with_seed(seed);
         let mut normal = move || {
+            // Box and Muller; one minus the number avoids the logarithm of zero.
             let radius = (-2.0 * (1.0 - random.f64()).ln()).sqrt();
             radius * (std::f64::consts::TAU * random.f64()).cos()
         };
+        // The error of the twin is one factor per run: a model that is wrong is so all day.
         let shares: Figures = std::array::from_fn(|_| 1.0 + self.error * normal());
         let mut monitor = Monitor::new(self.monitor);
         let mut drift = [0.0; 2];
         let mut alarm = Alarm::default();
         let mut came = Vec::new();
         for second in 0..seconds {
+            // A random walk by the second, as that of a calibration's logs.
             for (drift, hour) in drift.iter_mut().zip(self.drift) {
                 *drift += hour / 60.0 * normal();
             }
+            // A stand is drilled, then the tool rotates off bottom, then it rests for the connection.
             let of_stand = second % STAND;
             let rests = of_stand >= STAND - AT_REST;
             let off_bottom = of_stand >= STAND - AT_REST - OFF_BOTTOM;
@@ -246,6 +259,7 @@ impl Rig {
             let mut measured = [f64::NAN; Quantity::COUNT];
             measured[0] = truth[0] * shares[0] + drift[0] + noise(Quantity::SurfaceTorque) * normal();
             measured[1] = truth[1] * shares[1] + drift[1] + noise(Quantity::HookLoad) * normal();
+            // Mud pulse telemetry brings a word now and then; between two there is no value.
             if self.in_the_hole && second.is_multiple_of(WORD) {
                 measured[2] = speed + noise(Quantity::DownholeSpeed) * normal();
                 measured[3] = truth[2] * shares[2] + noise(Quantity::DownholeTorque) * normal();
@@ -257,9 +271,11 @@ impl Rig {
                 weight: if off_bottom { 0.0 } else { kn_to_n(WEIGHT) },
                 good: true,
                 measured,
+                // The twin's figures have neither noise nor tare; the comparison expects them like that.
                 predicted: [twin[0], twin[1], speed, twin[2], twin[3]],
             });
             let worst = compared.worst();
+            // Without a comparison the alarm keeps its state, as in the node.
             let beyond = worst.map(|(_, of)| of.difference().abs() >= of.limit(LEVELS[0]));
             if alarm.comes(beyond, self.delays) {
                 came.push((second, None));

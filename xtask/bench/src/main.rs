@@ -212,12 +212,14 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
         case,
         Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults | Cases::RigMap | Cases::Calibration
     ) && args.configs.is_empty();
+    // The options apply to the rig's configuration as well, since it is loaded here and not with the others.
     let load = |file: &str| anyhow::Ok(changed(Config::load(file)?, args.time_step, &args.set)?);
     let rig = of_the_rig.then(|| load("config/rig.yaml")).transpose()?;
     let (name, config) = match &rig {
         Some(rig) => ("config/rig.yaml", rig),
         None => (name.as_str(), config),
     };
+    // Each case has a duration in which its statistics settle.
     let duration = args.duration.unwrap_or_else(|| case.usual_duration());
     let constant = Load {
         rpm: args.rpm,
@@ -227,6 +229,7 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
     let tables = match case {
         Cases::RealTime => {
             let tables = real_time::tables(config, constant, duration, |line| eprintln!("{line}"))?;
+            // Real time has its own head: it is quoted elsewhere.
             return Ok(real_time::section(name, duration, &tables));
         }
         Cases::StepError => step_error::tables(configs, args.rpm, duration)?,
@@ -247,6 +250,7 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
         Cases::RigFaults => faults::tables(config, duration)?,
         Cases::RigMap => {
             let (tables, figure) = rig_map::tables(config, duration, args.jobs.into())?;
+            // The picture is only written next to the document that shows it.
             if let Some(folder) = args.write.as_deref().and_then(Path::parent) {
                 std::fs::write(folder.join("images/rig_map.svg"), flexdrill_plot::svg(&figure)?)?;
             }
@@ -263,8 +267,10 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
         Cases::RigQuality => quality::tables(config, args.rpm, duration, quality::RIG_STEPS)?,
         Cases::Physics => physics::tables(config, &load("config/default.yaml")?, constant, duration)?,
         Cases::Scaling => scaling::tables(config, constant, duration)?,
+        // `All` is resolved by the caller; it stands here to complete the match.
         Cases::Memory | Cases::All => memory::tables(config, constant, duration)?,
     };
+    // The command is printed with the options that determine the figures, so that a reader can repeat it.
     let options = match case {
         Cases::Truth | Cases::RigTruth => {
             let first = args.first.map_or_else(String::new, |first| format!(" --first {first}"));

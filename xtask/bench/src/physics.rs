@@ -77,14 +77,17 @@ pub(crate) fn tables(config: &Config, paper: &Config, load: Load, duration: f64)
         "us per iteration",
     ]);
     let mut refused = String::new();
+    // The paper's tool is the reference of every row.
     let mut tools = vec![("`config/default.yaml`", paper.clone())];
     for piece in PIECES {
         match changed(config, piece) {
+            // A configuration that refuses a piece is a line of the result: pieces exclude each other.
             Ok(tool) => tools.push((piece.name, tool)),
             Err(error) => refused.push_str(&format!("\nNot run: {}: {error}.\n", piece.name)),
         }
     }
     let mut fastest: Vec<Option<Measured>> = tools.iter().map(|_| None).collect();
+    // In turns and not one after another, so that a busy minute of the machine hits all tools alike.
     for round in 1..=ROUNDS {
         for ((name, tool), fastest) in tools.iter().zip(&mut fastest) {
             eprintln!("{name}: {duration} s of model time, {round} of {ROUNDS}");
@@ -92,6 +95,7 @@ pub(crate) fn tables(config: &Config, paper: &Config, load: Load, duration: f64)
             if let Some(failure) = measured.failure {
                 anyhow::bail!("{name}: a step failed: {failure}");
             }
+            // The fastest of several runs is the one that was least disturbed.
             if fastest
                 .as_ref()
                 .is_none_or(|before| measured.step_time() < before.step_time())
@@ -100,6 +104,7 @@ pub(crate) fn tables(config: &Config, paper: &Config, load: Load, duration: f64)
             }
         }
     }
+    // Processor time compares tools; wall time would compare the neighbours on the machine.
     let reference = fastest[0].as_ref().map_or(f64::NAN, Measured::processor_factor);
     for ((name, _), measured) in tools.iter().zip(fastest.iter().flatten()) {
         let (factor, time) = (measured.processor_factor(), measured.step_time());

@@ -61,6 +61,7 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, steps: &[f64]) ->
             weight_on_bit: kn_to_n(case.wob),
             ..Inputs::default()
         };
+        // The motion of the tool sets the interval for all its runs.
         let motion = Motion::of(&tool, inputs, duration);
         let run = |config: &Config| {
             eprintln!("{}: {duration} s in steps of {} s", case.name, config.solver.time_step);
@@ -68,8 +69,10 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, steps: &[f64]) ->
             let motion = Motion::of(config, inputs, motion.duration);
             Record::run(config, &motion, 0.0)
         };
+        // The fine run is the reference for all others of the case, and comes first.
         let fine = run(&refined(&tool)?)?;
         let first = row(case.name, refined(&tool)?.solver.time_step, &fine, None);
+        // Rows are printed as they come: the whole takes hours.
         eprintln!("{}", first.join(" | "));
         table.row(first);
         for (name, config) in variants(case.name, &tool, steps, index == 0)? {
@@ -80,6 +83,7 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, steps: &[f64]) ->
                     eprintln!("{}", row.join(" | "));
                     table.row(row);
                 }
+                // A step that does not converge at this size is a result of the table, not an error.
                 Err(StepErrorFailure::Step { failure, .. }) => {
                     table.cells(&[name, format!("{}", 1e3 * step), format!("failed: {failure}")]);
                 }

@@ -72,6 +72,7 @@ pub(crate) fn tables(config: &Config, duration: f64, jobs: usize) -> anyhow::Res
         .iter()
         .map(|guide| config.with_values(guide.name, (guide.changes)()))
         .collect::<Result<_, ConfigError>>()?;
+    // A cell's number counts guides, speeds and weights in this order; the threads take numbers.
     let (of_guide, of_speed) = (SPEEDS.len() * WEIGHTS.len(), WEIGHTS.len());
     let cells = Mutex::new(vec![None; GUIDES.len() * of_guide]);
     let next = AtomicUsize::new(0);
@@ -89,14 +90,17 @@ pub(crate) fn tables(config: &Config, duration: f64, jobs: usize) -> anyhow::Res
             }
         }
     };
+    // A run that fails ends the study: a map with a hole would be quoted without its reason.
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
         threads
             .into_iter()
             .try_for_each(|thread| thread.join().unwrap_or_else(|_| Err(anyhow::anyhow!("a run panicked"))))
     })?;
+    // Every cell is there, since each thread ran until the numbers ended and none failed.
     let cells: Vec<Cell> = cells.into_inner().unwrap_or_default().into_iter().flatten().collect();
     let of = |guide: usize, speed: usize, weight: usize| cells[guide * of_guide + speed * of_speed + weight];
+    // The width of these lines is that of the document that they are pasted into.
     let mut text = format!(
         "{duration} s of model time each, {OFF_BOTTOM} s of them off bottom. In a cell: stick-slip index and rate of penetration\n\
          (m/h) over the last {JUDGED} s, and in brackets weight (kN) and torque (N m) at the bit.\n"
@@ -119,6 +123,7 @@ pub(crate) fn tables(config: &Config, duration: f64, jobs: usize) -> anyhow::Res
         }
         text.push_str(&format!("\n**Guide: {name}.**\n\n{}", table.text()));
     }
+    // The first row of panels shows the index, the second the advance, a column per guide.
     let panels = [true, false].into_iter().flat_map(|index| {
         GUIDES.iter().enumerate().map(move |(guide, Guide { name, .. })| {
             let quantity = if index {
@@ -154,10 +159,12 @@ fn run(config: &Config, rpm: f64, kn: f64, duration: f64) -> anyhow::Result<Cell
     let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
     let mut snapshot = simulation.new_snapshot();
     let steps = (LOOK / config.solver.time_step).round() as u32;
+    // Two windows of the transfer make the mean, each half.
     let mut sums = [0.0; 3];
     while simulation.time() < duration {
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
+            // The tool turns off bottom first, as a rig puts weight on a bit that turns.
             weight_on_bit: if simulation.time() < OFF_BOTTOM {
                 0.0
             } else {
@@ -172,6 +179,7 @@ fn run(config: &Config, rpm: f64, kn: f64, duration: f64) -> anyhow::Result<Cell
                 "{rpm} r/min, {kn} kN: {outcome:?}"
             );
         }
+        // The snapshot ends the interval of the stick-slip index, so that the last one belongs to the end of the run.
         simulation.snapshot(&mut snapshot, true);
         // The window of `transfer` is 5 s: two of them.
         let left = duration - simulation.time();

@@ -27,6 +27,7 @@ pub(crate) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
     ]);
     let (mut steps, mut iterations) = (Vec::new(), Vec::new());
     let mut fastest: [Option<Measured>; LINKS.len()] = Default::default();
+    // Rounds in turn, so that a slow minute of the machine hits all sizes.
     for round in 1..=ROUNDS {
         for (links, fastest) in LINKS.into_iter().zip(&mut fastest) {
             eprintln!("{links} links: {duration} s of model time, {round} of {ROUNDS}");
@@ -34,6 +35,7 @@ pub(crate) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
             if let Some(failure) = measured.failure {
                 anyhow::bail!("{links} links: a step failed: {failure}");
             }
+            // The fastest run is the one that was least disturbed.
             if fastest
                 .as_ref()
                 .is_none_or(|before| measured.step_time() < before.step_time())
@@ -43,6 +45,7 @@ pub(crate) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
         }
     }
     for (links, measured) in LINKS.into_iter().zip(fastest.iter().flatten()) {
+        // Cost by link and by iteration apart: a larger tool also needs more iterations.
         let mean = measured.step_time();
         let [p50, p99, ..] = percentiles(&measured.step_times);
         let size = links as f64;
@@ -60,6 +63,7 @@ pub(crate) fn tables(config: &Config, load: Load, duration: f64) -> anyhow::Resu
                 .map(|gaps| format!("{:.2}", gaps / size))
                 .join(", "),
         ]);
+        // The exponent is fitted to all sizes: the cache bends the curve between two of them.
         steps.push((size, mean));
         iterations.push((size, mean / measured.iterations()));
     }

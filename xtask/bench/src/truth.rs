@@ -144,15 +144,18 @@ struct Task {
 /// When a tool cannot be built, a step fails, or a part cannot be written.
 pub(crate) fn tables(plan: &Plan<'_>) -> anyhow::Result<String> {
     let mut columns: Vec<&Column> = OF_MOTION.iter().collect();
+    // Transfer needs a string; other tools have no such columns.
     if plan.with_transfer {
         columns.extend(OF_TRANSFER);
     }
     columns.push(&SHARE);
+    // Few cases are for a first look, since all take hours.
     let cases = &hard(plan.config)[..plan.first.min(hard(plan.config).len())];
     let figures = run_all(&tasks(plan, cases)?, &columns, plan)?;
     let mut head = vec!["case", "step (ms)"];
     head.extend(columns.iter().map(|column| column.head));
     let mut table = Table::with_head(&head);
+    // Tasks are in the order of cases, steps and runs, so that each row has its runs in one piece.
     let mut rows = figures.chunks(plan.runs as usize);
     for case in cases {
         let mut fine: Option<Vec<Mean>> = None;
@@ -165,6 +168,7 @@ pub(crate) fn tables(plan: &Plan<'_>) -> anyhow::Result<String> {
                 case.name.to_owned(),
                 format!("{}", 1e3 * part * plan.config.solver.time_step),
             ];
+            // The first step of a case is the finest. All others have their difference to it.
             row.extend(columns.iter().enumerate().map(|(k, column)| {
                 let fine = fine.as_ref().filter(|_| column.compares).map(|fine| fine[k]);
                 means[k].text(fine, column.decimals)

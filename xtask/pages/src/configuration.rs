@@ -57,23 +57,27 @@ fn section(out: &mut String, root: &Value, schema: &Value, path: &str, above: &m
     } else {
         out.push_str("\n## The whole file\n");
     }
+    // JSON Schema lists required keys at the object and not at the key.
     let required: Vec<&str> = schema["required"]
         .as_array()
         .into_iter()
         .flatten()
         .filter_map(Value::as_str)
         .collect();
+    // A default of the whole section applies to its keys where they have none.
     let default = schema.get("default");
     out.push_str("| key | type | default | meaning |\n|---|---|---|---|\n");
     for (key, value) in keys {
         let full = joined(path, key);
         let target = resolved(root, value);
+        // Objects have a section below; their default would be the whole section in a cell.
         let shown = match value.get("default").or_else(|| default?.get(key)) {
             _ if required.contains(&key.as_str()) => "required".to_owned(),
             Some(Value::Object(_)) if properties(target).is_some() => "see below".to_owned(),
             Some(Value::Null) | None => String::new(),
             Some(value) => format!("`{}`", plain_value(value)),
         };
+        // The comment at the key says more than that of its type.
         let description = value
             .get("description")
             .or_else(|| target.get("description"))
@@ -91,9 +95,11 @@ fn section(out: &mut String, root: &Value, schema: &Value, path: &str, above: &m
             cell(description.unwrap_or_default())
         );
     }
+    // Sections follow the table, depth first, so that a section stands below the key that leads to it.
     for (key, value) in keys {
         below(out, root, value, &joined(path, key), above);
     }
+    // A type may occur at two places; only one within itself would have no end.
     above.pop();
 }
 

@@ -41,6 +41,7 @@ pub fn page() -> std::io::Result<String> {
          against our own earlier figures `regress_*`.\n\n\
          ## Published figures\n",
     );
+    // Validations come first: figures from outside weigh more than closed forms.
     for validation in VALIDATIONS {
         let _ = write!(
             out,
@@ -53,6 +54,7 @@ pub fn page() -> std::io::Result<String> {
         );
         table(&mut out, "published", &(validation.run)().map_err(failed)?);
     }
+    // Both kinds of laws run in one call, since each call builds and starts the tests.
     let (published, analytic) = (laws::named(VAL), laws::named(ANALYTIC));
     let figures = laws::figures(published.iter().chain(&analytic))?;
     out.push_str(
@@ -76,6 +78,7 @@ pub fn page() -> std::io::Result<String> {
     }
     out.push_str("\n## Closed forms of single laws\nTests of a law alone, with their comments.\n");
     of_laws(&mut out, "closed form", &analytic, &figures);
+    // The page ends with what nothing validates, because a reader would otherwise take it for covered.
     out.push_str(NOT_COVERED);
     Ok(out)
 }

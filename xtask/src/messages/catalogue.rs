@@ -133,6 +133,7 @@ impl Catalogue {
         text: &str,
         source: Source,
     ) -> Result<(), parser::ParseError> {
+        // Lines are counted, because errors must name the line of the file and not that of a part.
         let lines: Vec<&str> = text.lines().collect();
         let cuts: Vec<usize> = (0..lines.len()).filter(|&line| lines[line].trim() == "---").collect();
         let [first, second] = cuts[..] else {
@@ -146,11 +147,13 @@ impl Catalogue {
             kind: "action",
             name: format!("{name}_{part}"),
         };
+        // Each part begins with its line in the file.
         let parts = [
             ("Goal", &lines[..first], 1),
             ("Result", &lines[first + 1..second], first + 2),
             ("Feedback", &lines[second + 1..], second + 2),
         ];
+        // The parts come first. The carriers below refer to them.
         for (kind, lines, first_line) in parts {
             let text: String = lines.iter().flat_map(|line| [*line, "\n"]).collect();
             let definition = parser::parse(part(kind), &text, Source::Text, first_line)?;
@@ -163,6 +166,7 @@ impl Catalogue {
             array: Array::Single,
         };
         let time = TypeName::message("builtin_interfaces", "Time");
+        // Names, fields and their order are fixed by rosidl: the type hashes are formed over them.
         let carriers = [
             (
                 "SendGoal_Request",
@@ -186,14 +190,17 @@ impl Catalogue {
             ),
         ];
         for (kind, fields) in carriers {
+            // The text of a carrier exists nowhere as a file, so it is written as rosidl writes it.
             let text: String = fields.iter().map(written).collect();
             let definition = made_of(part(kind), fields, &text, Source::Text);
             self.definitions.insert(definition.name.clone(), definition);
         }
+        // Only two services have types of the action; cancelling has one type for all actions.
         for service in ["SendGoal", "GetResult"] {
             let service = Service::new(package, "action", &format!("{name}_{service}"), "", Source::Text);
             self.services.insert(service.whole.name.clone(), service);
         }
+        // The action as a whole has a hash too, which ROS 2 announces.
         let whole = TypeName {
             name: name.to_owned(),
             ..part("")

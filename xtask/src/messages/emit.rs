@@ -107,6 +107,7 @@ fn actions(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError>
 fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> Result<(), GenerateError> {
     let name = definition.name.rust();
     out.push('\n');
+    // A type without a comment of its author is documented by its name, since the lints ask for a text.
     let title = [format!("`{}`.", definition.name)];
     let head = if definition.docs.is_empty() {
         &title[..]
@@ -114,6 +115,7 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
         &definition.docs[..]
     };
     docs(out, "    ", head);
+    // Arrays beyond this size have no `Default` in Rust, and fields with a default need its value.
     let plain_default = definition.fields.iter().all(|field| {
         field.default.is_none() && !matches!(field.kind.array, Array::Fixed(size) if size > LARGEST_PLAIN_ARRAY)
     });
@@ -122,6 +124,7 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
         out,
         "    #[derive(Clone, Debug, {default}PartialEq, Serialize, Deserialize)]\n    pub struct {name} {{"
     );
+    // IDL has no empty struct. rosidl adds this member, so that the bytes agree only with it.
     if definition.fields.is_empty() {
         docs(
             out,
@@ -132,6 +135,7 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
     }
     for field in &definition.fields {
         docs(out, "        ", &field.docs);
+        // serde knows fixed arrays up to 32 elements; longer ones have their own functions.
         if matches!(field.kind.array, Array::Fixed(size) if size > LARGEST_PLAIN_ARRAY) {
             out.push_str("        #[serde(with = \"crate::large_array\")]\n");
         }
@@ -150,6 +154,7 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
         let _ = write!(out, "\n    impl {name} {{\n");
         for constant in &definition.constants {
             docs(out, "        ", &constant.docs);
+            // A constant string cannot be owned.
             let kind = match constant.kind {
                 Primitive::String { .. } => "&'static str".to_owned(),
                 other => primitive(other).to_owned(),
@@ -163,6 +168,7 @@ fn message(out: &mut String, definition: &Definition, catalogue: &Catalogue) -> 
         }
         out.push_str("    }\n");
     }
+    // The names go in as literals: nothing is looked up while the twin runs.
     let _ = write!(
         out,
         concat!(

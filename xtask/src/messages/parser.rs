@@ -70,6 +70,8 @@ fn split_comment(line: &str) -> (&str, Option<&str>) {
 
 /// Adds the constant or field that `code` declares.
 fn member(definition: &mut Definition, code: &str, docs: Vec<String>) -> Result<(), String> {
+    // Type, name and value are separated step by step, because a default may
+    // have spaces and a constant needs none around its `=`.
     let (kind, rest) = code
         .split_once(char::is_whitespace)
         .ok_or_else(|| format!("`{code}` has a type but no name"))?;
@@ -80,12 +82,14 @@ fn member(definition: &mut Definition, code: &str, docs: Vec<String>) -> Result<
         .unwrap_or(rest.len());
     let (name, after) = rest.split_at(name_end);
     let after = after.trim_start();
+    // Two members of one name would not compile in Rust.
     if definition.fields.iter().any(|field| field.name == name)
         || definition.constants.iter().any(|constant| constant.name == name)
     {
         return Err(format!("`{name}` is declared twice"));
     }
     if let Some(value) = after.strip_prefix('=') {
+        // ROS 2 has no constants of arrays or messages.
         let (Base::Primitive(kind), Array::Single) = (&kind.base, kind.array) else {
             return Err(format!("constant `{name}` must be of a single built-in type"));
         };
@@ -102,6 +106,7 @@ fn member(definition: &mut Definition, code: &str, docs: Vec<String>) -> Result<
         });
         return Ok(());
     }
+    // The rules for names are those of rosidl, which would refuse the file only in the user's workspace.
     if !is_field_name(name) {
         return Err(format!(
             "field `{name}`: use small letters, digits and single underscores, a letter first"
@@ -233,6 +238,7 @@ fn split_list(text: &str) -> Vec<&str> {
 
 /// The literal of a built-in type.
 fn scalar(kind: Primitive, text: &str) -> Result<Value, String> {
+    // 128 bits hold the ranges of all integer types, so that one comparison serves all.
     let (low, high): (i128, i128) = match kind {
         Primitive::Bool => {
             return match text {
@@ -241,6 +247,7 @@ fn scalar(kind: Primitive, text: &str) -> Result<Value, String> {
                 _ => Err(format!("`{text}` is not true or false")),
             };
         }
+        // ROS 2 accepts no infinity as a literal, and a NaN as default would never be equal to itself.
         Primitive::Float32 | Primitive::Float64 => {
             return match text.parse::<f64>() {
                 Ok(number) if number.is_finite() => Ok(Value::Float(number)),
@@ -249,6 +256,7 @@ fn scalar(kind: Primitive, text: &str) -> Result<Value, String> {
         }
         Primitive::String { bound } => {
             let text = unquote(text);
+            // The bound of a string counts bytes.
             return match bound {
                 Some(most) if text.len() as u64 > most => {
                     Err(format!("`{text}` has {} bytes, the string at most {most}", text.len()))
@@ -265,6 +273,7 @@ fn scalar(kind: Primitive, text: &str) -> Result<Value, String> {
         Primitive::Int64 => (i64::MIN.into(), i64::MAX.into()),
         Primitive::Uint64 => (0, u64::MAX.into()),
     };
+    // rosidl accepts hexadecimal numbers for constants.
     let number = match text.strip_prefix("0x") {
         Some(digits) => i128::from_str_radix(digits, 16).ok(),
         None => text.parse().ok(),

@@ -241,7 +241,7 @@ impl Broker {
             ConnectionError::Tls(error) => format!("TLS failed: {error}"),
             ConnectionError::NetworkTimeout => "no answer in time".to_owned(),
             ConnectionError::FlushTimeout => "the broker takes no data".to_owned(),
-            // A ping goes out after each keep-alive without traffic, and the answer may take as long again.
+            // A ping is sent after each keep-alive without traffic, and the answer may take as long again.
             ConnectionError::MqttState(StateError::AwaitPingResp) => {
                 format!("no sign of life from the broker for {} s", 2 * KEEP_ALIVE_S)
             }

@@ -113,7 +113,7 @@ impl Users {
                 return Err(wrong(number, "there are more than 1000 users"));
             }
         }
-        // A file without users is surely a mistake, because without the option nobody could write either.
+        // A file without users is surely a mistake, because without the option no client could write either.
         if users.is_empty() {
             return Err(wrong(0, "there is no user"));
         }

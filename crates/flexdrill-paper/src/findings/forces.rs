@@ -71,7 +71,7 @@ pub(super) fn findings(record: &Record) -> Vec<Finding> {
         n_to_kn(inner.force),
         19.97,
     ));
-    // The place of the largest force is a finding of its own: a right number at a wrong place would not agree.
+    // The location of the largest force is a separate finding: a right number at a wrong location would not agree.
     all.push(place(
         text("inner_place", "14a", "at 88 degrees, the lowermost section", PLACE),
         degrees(&inner),

@@ -96,6 +96,7 @@ type Known = (
 pub(crate) fn all(a: &Locations, b: &Locations) -> Vec<Along> {
     let (kn, nm) = (("kN", n_to_kn(1.0)), ("N m", 1.0));
     let (deg, share) = (("deg", rad_to_deg(1.0)), ("%", 100.0));
+    // Mean values are judged, largest ones only shown: two chaotic runs differ in every peak.
     let known: [Known; 12] = [
         (
             "normal force, pipe on guide, largest",
@@ -183,6 +184,7 @@ pub(crate) fn all(a: &Locations, b: &Locations) -> Vec<Along> {
         ),
     ];
     known
+        // The envelope of both runs is formed by the same function; a difference is that of the runs.
         .into_iter()
         .map(|(name, unit, judged, envelope, of)| {
             let curve = |locations: &Locations| {
@@ -197,6 +199,7 @@ pub(crate) fn all(a: &Locations, b: &Locations) -> Vec<Along> {
                 name,
                 unit,
                 judged,
+                // The worst difference gives the page its place to look at.
                 worst: worst(&curves.a, &curves.b),
                 curves,
             }

@@ -118,6 +118,7 @@ pub(crate) fn all(a: &Summary, b: &Summary) -> Vec<Quantity> {
 }
 
 fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
+    // Each quantity has the size below which a difference is noise.
     let speed = unit("r/min", rad_per_s_to_rpm(1.0), SPEED);
     let force = unit("kN", n_to_kn(1.0), FORCE);
     let torque = unit("N m", 1.0, TORQUE);
@@ -125,6 +126,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
     let advance = unit("m/h", m_per_s_to_m_per_h(1.0), 1e-6);
     let pressure = unit("MPa", pa_to_mpa(1.0), 1e3);
     let mut all = Vec::new();
+    // One function gives the history in both summaries, so that no pair can be mixed up.
     let mut add = |name: &str, unit: Unit, of: fn(&Summary) -> &History| {
         all.push(Known {
             name: name.to_owned(),
@@ -132,6 +134,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
             histories: [of(a), of(b)],
         });
     };
+    // From the inputs to the bit: a reader looks for the first quantity that differs, which causes the others.
     add("rotary speed, received", speed, |s| &s.drive.received.rotary_speed);
     add("rotary speed, accepted", speed, |s| &s.drive.accepted.rotary_speed);
     add("rotary speed of the bit", speed, |s| &s.drive.bit.rotary_speed);
@@ -154,6 +157,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
     );
     add("depth of cut", unit("mm/turn", 1e3, 1e-6), |s| &s.transfer.depth_of_cut);
     add(ADVANCE, advance, |s| &s.transfer.rate_of_penetration);
+    // The groups are the same in both, as they are built by one function, so that zipping pairs equals.
     let groups = [
         (&a.transfer.torque, &b.transfer.torque, "", torque),
         (&a.transfer.friction, &b.transfer.friction, "torque: ", torque),

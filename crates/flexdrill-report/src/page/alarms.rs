@@ -16,12 +16,15 @@ const ROWS: usize = 60;
 pub(super) fn section(summary: &Summary) -> Markup {
     let incidents = &summary.incidents;
     let mut groups: Vec<_> = incidents.groups().collect();
+    // The worst first, then those that ask for an action, then the frequent ones.
     groups.sort_by_key(|group| std::cmp::Reverse((group.priority, group.acts, group.times)));
     let listed = listed(incidents.list());
+    // What is not shown is counted: those of the list that were cut, and those that the list had no room for.
     let left_out = incidents.list().len() - listed.len() + incidents.more() as usize;
     html! {
         section {
             h2 { "Alarms and incidents" }
+            // No messages about alarms is another statement than no alarm.
             @if !summary.has_alarms() {
                 p { "The bag has no messages about alarms." }
             } @else if groups.is_empty() {
@@ -46,6 +49,8 @@ pub(super) fn section(summary: &Summary) -> Markup {
                         th.n { "at (s)" } th.n { "for" }
                         @if !summary.log_rows.is_empty() { th { "rows of the log" } }
                         th { "priority" } th { "alarm" }
+                        // Worst moments are in the list of alarms. An old recording has
+                        // events only, and the head of the column says so.
                         @if incidents.has_lists() {
                             th { "where, at the worst moment" } th { "evidence at the worst moment" } th.n { "worst at (s)" }
                         } @else {
@@ -57,6 +62,7 @@ pub(super) fn section(summary: &Summary) -> Markup {
                 }
                 @if left_out > 0 { p { "And " (left_out) " more, of no higher priority." } }
             }
+            // The figures are those that the twin itself reported last.
             @if let Some(list) = &incidents.newest {
                 p.note {
                     @if list.annunciations_per_hour.is_finite() {

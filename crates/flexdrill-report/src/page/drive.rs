@@ -47,6 +47,7 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
     let drive = &summary.drive;
     let (rpm, kn) = (rad_per_s_to_rpm(1.0), n_to_kn(1.0));
     let newest = summary.health.newest.as_ref();
+    // Means are compared with each other, so they are over the time in which all quantities are known.
     let window = drive.common_window();
     let figure = drawn(
         plots::inputs(summary),
@@ -63,16 +64,19 @@ pub(super) fn inputs(summary: &Summary) -> Result<Markup, ReportError> {
                     (row("weight on bit, received", "kN", &drive.received.weight_on_bit, kn, window))
                     (row("weight on bit, accepted", "kN", &drive.accepted.weight_on_bit, kn, window))
                     (row("weight on bit, at the bit", "kN", &drive.bit.weight_on_bit, kn, window))
+                    // Optional inputs have a row only where they were used.
                     (optional("rate of penetration", "m/h", &drive.rate_of_penetration, m_per_s_to_m_per_h(1.0)))
                     (optional("standpipe pressure", "MPa", &drive.standpipe_pressure, pa_to_mpa(1.0)))
                 }
             }
+            // The window is stated, or a reader would take the means for those of the whole recording.
             @if let Some([from, to]) = window {
                 p {
                     "Means are over time, from " (number(from)) " to " (number(to)) " s, in which all of these are known. \
                      Least and largest values are those of the whole recording."
                 }
             }
+            // The status has the state of every input; a recording without it has the worst of all only.
             @if !summary.health.inputs.is_empty() {
                 table {
                     thead { tr { th { "input" } th { "state, share of the time" } th { "driven by" } th.n { "refused" } } }

@@ -19,6 +19,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
         "As reported by the twin, each value over the last second.",
     )?;
     Ok(html! {
+        // The order is that of the questions: is the model right, was it on time, was anything lost.
         section {
             h2 { "Health" }
             @match &health.newest {
@@ -58,6 +59,8 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                             @if !status.dds_restart_cause.is_empty() { "; the last: " (status.dds_restart_cause) }
                         } }
                         tr { th { "messages lost" } td { (lost(status)) } }
+                        // Only where it happened; every other row is always there, so
+                        // that its absence means an old recording.
                         @if status.clock_set_by != 0.0 {
                             tr { th { "system clock set by" } td { (number(status.clock_set_by)) " s" } }
                         }

@@ -22,6 +22,7 @@ fn joint_name(summary: &Summary, depth: f64) -> String {
 /// The section about the largest forces and moments, whirl, and the orbits.
 pub(super) fn worst(summary: &Summary) -> Result<Markup, ReportError> {
     let locations = &summary.locations;
+    // The fewest samples per turn of all orbits decide what the caption may promise.
     let turns = plots::worst_orbits(summary)
         .iter()
         .map(plots::OrbitOf::samples_per_turn)
@@ -50,6 +51,7 @@ pub(super) fn worst(summary: &Summary) -> Result<Markup, ReportError> {
             table {
                 thead { tr { th { "what" } th.n { "value" } th { "unit" } th.n { "at (s)" } th { "where" } th {} } }
                 tbody {
+                    // Several stations per layer, because the largest forces of a whirling tool wander.
                     @for (layer, name) in ["force, pipe on guide", "force, guide on wall"].into_iter().enumerate() {
                         @for station in locations.worst_stations(layer) {
                             @if let Some(peak) = locations.peak[layer].at(station) {
@@ -69,6 +71,7 @@ pub(super) fn worst(summary: &Summary) -> Result<Markup, ReportError> {
                         ("shear force through a joint", "kN", 1e-3, &locations.shear_force),
                         ("torque through a joint", "N m", 1.0, &locations.torque),
                     ] {
+                        // One joint per quantity here; the envelopes show the others.
                         @for joint in envelope.largest(&locations.joint_depth, 0.0, 1) {
                             @if let Some(at) = envelope.at(joint) {
                                 tr {
@@ -80,6 +83,7 @@ pub(super) fn worst(summary: &Summary) -> Result<Markup, ReportError> {
                             }
                         }
                     }
+                    // Shock has its own rows, because it is an impulse and no force.
                     @for (layer, name) in ["shock, pipe on guide", "shock, guide on wall"].into_iter().enumerate() {
                         @for station in locations.shock[layer].largest(&locations.station_depth, 0.0, 1) {
                             @if let Some(at) = locations.shock[layer].at(station) {

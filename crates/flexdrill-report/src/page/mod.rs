@@ -120,12 +120,14 @@ fn tiles(summary: &Summary) -> Markup {
         Some((locations.peak[layer].at(station)?.max, locations.station_depth[station]))
     };
     html! {
+        // Alarms first, then what may explain their absence, then forces, torque and trust.
         div.tiles {
             @if let Some(group) = &worst {
                 div.tile.(priority_class(group.priority)) {
                     b { (words::alarm_priority(group.priority).to_uppercase()) } (capital(&group.worst.name))
                     small { (times(group.times)) ", " (duration(seconds(group.duration))) " in all" }
                 }
+                // A question mark and not "none": nothing is known without messages.
             } @else if !summary.has_alarms() {
                 div.tile.unknown { b { "?" } "no alarms in the bag" }
             } @else {
@@ -145,6 +147,7 @@ fn tiles(summary: &Summary) -> Markup {
                     }
                 }
             }
+            // Both means are over the same time, or their ratio could exceed one.
             @if let Some([top, bit]) = drive.transfer.means() {
                 div.tile {
                     b { (percent(bit / top)) } "of the torque at the uppermost joint reaches the bit"
@@ -154,6 +157,7 @@ fn tiles(summary: &Summary) -> Markup {
             @if let Some(index) = drive.stick_slip.range() {
                 div.tile { b { (number(index.max)) } "largest stick-slip index" small { "1: the bit stands" } }
             }
+            // The share of good quality comes last, as it qualifies all the tiles before.
             @match summary.trust() {
                 Some((share, class)) => div.tile.(class) {
                     b { (percent(share)) } "of the time the model is good" small { "see Health" }

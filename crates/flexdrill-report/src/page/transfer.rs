@@ -49,10 +49,12 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
         "Means over the window of the twin. Places from the surface to the bit; a place that the tool does not have is left \
          out.",
     )?;
+    // A quantity that the tool does not have counts as zero in the sum.
     let means = |group: &Group| -> f64 {
         let of = |history: &History| history.range().map_or(0.0, |range| range.mean);
         group.quantities.iter().map(|quantity| of(&quantity.history)).sum()
     };
+    // Both tables relate to the power put in, so that their shares can be compared.
     let put_in = means(&transfer.put_in);
     Ok(html! {
         section {

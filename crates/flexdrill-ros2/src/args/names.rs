@@ -216,9 +216,11 @@ pub(super) fn read_rule(text: &str, into: &mut Remapping) -> Result<(), ArgsErro
         why: why.to_owned(),
     };
     let (left, to) = text.split_once(":=").ok_or_else(|| wrong("there is no ':=' in it"))?;
+    // An empty name would remap everything or nothing.
     if to.is_empty() || left.is_empty() {
         return Err(wrong("a side of ':=' is empty"));
     }
+    // The scheme comes before the node's prefix, whose colon is the first one after it.
     let (scheme, left) = if let Some(rest) = left.strip_prefix("rostopic://") {
         (Scheme::Topic, rest)
     } else if let Some(rest) = left.strip_prefix("rosservice://") {
@@ -233,12 +235,14 @@ pub(super) fn read_rule(text: &str, into: &mut Remapping) -> Result<(), ArgsErro
     if let Some(node) = &node {
         check_token(node).map_err(|why| wrong(&format!("node prefix '{node}': {why}")))?;
     }
+    // A rule with a wildcard that was taken literally would silently not apply.
     if from.contains('*') || to.contains('\\') {
         return Err(wrong(
             "wildcards in remapping are not supported; write one rule per name",
         ));
     }
     match from {
+        // Special names set the node's identity and are no rules on topics.
         "__node" | "__name" => {
             check_token(to).map_err(|problem| wrong(&problem.to_string()))?;
             into.node_names.push((node, to.to_owned()));
@@ -250,6 +254,7 @@ pub(super) fn read_rule(text: &str, into: &mut Remapping) -> Result<(), ArgsErro
             into.namespaces.push((node, normal_namespace(to)?));
         }
         _ => {
+            // Both sides are expanded with any node, only to find invalid names at the start and not at the first use.
             let probe = NodeIdentity {
                 namespace: "/".into(),
                 name: "node".into(),

@@ -90,12 +90,14 @@ impl Network {
         domain: Option<u16>,
         variable: impl Fn(&str) -> Option<String>,
     ) -> Result<(Self, Vec<String>), NetworkError> {
+        // An empty variable counts as not set.
         let variable = |name: &str| {
             variable(name)
                 .map(|value| value.trim().to_owned())
                 .filter(|value| !value.is_empty())
         };
         let mut notes = Vec::new();
+        // The option has precedence: it belongs to this call, the variable to the shell.
         let domain_id = match (domain, variable("ROS_DOMAIN_ID")) {
             (Some(domain), _) => checked_domain("--domain", domain.to_string())?,
             (None, Some(text)) => checked_domain("ROS_DOMAIN_ID", text)?,
@@ -106,16 +108,20 @@ impl Network {
         let mut reach = match range.as_deref() {
             None | Some("SUBNET" | "SYSTEM_DEFAULT") => Reach::Subnet,
             Some("LOCALHOST") => Reach::Localhost,
+            // What is not supported comes as near as possible and is said;
+            // silence would make a node unreachable without a reason.
             Some("OFF") => {
                 notes.push("ROS_AUTOMATIC_DISCOVERY_RANGE=OFF is not supported (RustDDS cannot switch discovery off); the node stays on this machine, as with LOCALHOST".into());
                 Reach::Localhost
             }
             Some(other) => return Err(NetworkError::Range(other.to_owned())),
         };
+        // The older variable, kept by ROS 2, is the stricter one and wins.
         if localhost_only {
             reach = Reach::Localhost;
         }
         let mut peers = peers(variable("ROS_STATIC_PEERS").as_deref())?;
+        // A peer on another machine contradicts staying on this one. The stricter setting wins here too.
         if reach == Reach::Localhost && !peers.is_empty() {
             notes.push("ROS_STATIC_PEERS is ignored: the node stays on this machine, and RustDDS cannot open it to some machines only; set ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET, with a firewall".into());
             peers.clear();

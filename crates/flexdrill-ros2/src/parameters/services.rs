@@ -174,11 +174,13 @@ impl Parameters {
 /// Creates the six servers of a node; each is a task to run.
 pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<Parameters>) -> Vec<Task> {
     let node_name = parameters.node_name.clone();
+    // The names are fixed by ROS 2: tools look for exactly these six.
     let mut server = |name: &str, kind: &str| {
         let service = format!("{node_name}/{name}");
         ServiceServer::new(port, &service, &format!("rcl_interfaces/srv/{kind}"), mapping)
     };
     let shared = || Arc::clone(parameters);
+    // Each closure lives as long as its server and needs the store for itself.
     let (get, types, set, atomic, list, describe) = (shared(), shared(), shared(), shared(), shared(), shared());
     vec![
         Box::pin(
@@ -187,6 +189,7 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
                     values: request
                         .names
                         .iter()
+                        // An unknown name is answered with "not set", as rclcpp does, and is no error.
                         .map(|name| store.get(name).cloned().unwrap_or(ParameterValue::NotSet).into())
                         .collect(),
                 })
@@ -205,11 +208,13 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
         ))),
         Box::pin(
             server("set_parameters", "SetParameters").serve(at_once(move |request: SetParametersRequest| {
+                // The requester stands in the log next to the change.
                 let requester = set.requester("set_parameters");
                 SetParametersResponse {
                     results: request
                         .parameter
                         .into_iter()
+                        // One by one: each parameter has its own result, and a refused one leaves the others in force.
                         .map(|parameter| set.answer_set(vec![parameter], &requester))
                         .collect(),
                 }
@@ -218,6 +223,7 @@ pub fn serve(port: &mut PortBuilder, mapping: ServiceMapping, parameters: &Arc<P
         Box::pin(
             server("set_parameters_atomically", "SetParametersAtomically").serve(at_once(
                 move |request: SetParametersRequest| SetParametersAtomicallyResponse {
+                    // All or none, with one result.
                     result: atomic.answer_set(request.parameter, &atomic.requester("set_parameters_atomically")),
                 },
             )),

@@ -43,6 +43,7 @@ impl Map {
     }
 
     fn whole(&self) -> Checked {
+        // A map is read from a file that may come from anywhere; texts are bounded before they are shown.
         for (what, text) in [("program", &self.program), ("title", &self.title)] {
             short(what, text)?;
         }
@@ -50,6 +51,7 @@ impl Map {
             let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
             ensure(is_hash, what, hash.escape_debug(), "64 hexadecimal digits")?;
         }
+        // A limit of one would call every cell clear.
         ensure((0.0..1.0).contains(&self.limit), "limit", self.limit, "0 to below 1")?;
         axis("x", &self.x)?;
         axis("y", &self.y)?;
@@ -70,6 +72,7 @@ impl Map {
             format!("{starts:?}"),
             "`rest`, `running` or both, each once",
         )?;
+        // The number of cells is bounded before they are compared: the product of two axes may be large.
         let expected = self.x.values.len() * self.y.values.len();
         ensure(
             expected <= MOST_CELLS,
@@ -89,6 +92,7 @@ impl Map {
             .iter()
             .flat_map(|y| self.x.values.iter().map(move |x| (*x, *y)));
         let mut runs = 0;
+        // Every cell says where it is. A file with rows in another order would otherwise be read as another map.
         for ((number, cell), at) in self.cells.iter().enumerate().zip(rows) {
             let place = format!("cells.{number}");
             let found = (cell.x, cell.y);
@@ -100,6 +104,7 @@ impl Map {
             )?;
             runs += self.cell_is_whole(&place, cell)?;
         }
+        // The total is compared with its parts: in a file that was changed by hand they differ.
         ensure(
             self.runs == runs,
             "runs",
@@ -143,6 +148,7 @@ impl OfStart {
         short(&at("alarm"), &self.alarm)?;
         short(&at("failure"), &self.failure)?;
         interval(&at("interval"), self.interval)?;
+        // Without a chance zero stands in for the bounds; whether one must be given is checked next.
         let chance = self.chance.unwrap_or(0.0);
         ensure((0.0..=1.0).contains(&chance), at("chance"), chance, "0 to 1")?;
         let known = self.state == State::Known;
@@ -152,6 +158,8 @@ impl OfStart {
             chance,
             "given exactly where the state is known",
         )?;
+        // The verdict follows from chance and limit. A file in which they
+        // differ was changed by hand or made by a faulty program.
         let said = chance > map.limit;
         let judged = match self.state {
             State::Known => self.expected == said,
@@ -164,6 +172,7 @@ impl OfStart {
             self.expected,
             "what the chance and `limit` say, false where unknown or not known",
         )?;
+        // An inferred state needs the certainty by which it was inferred.
         let least = if self.state == State::Inferred { SURE } else { 0.0 };
         let confident = (least..=1.0).contains(&self.confidence);
         ensure(
@@ -184,6 +193,7 @@ impl OfStart {
             self.failed,
             format!("at most {}", self.members),
         )?;
+        // Only states of runs may have members; inferred ones have none.
         let ran = self.members > 0;
         ensure(
             self.state.was_run() || !ran,
@@ -198,6 +208,7 @@ impl OfStart {
             self.state.name(),
             "known exactly where a member ended",
         )?;
+        // Bounded before the loops, so that a large file costs no time.
         let entries = self.alarms.len().max(self.figures.len());
         ensure(
             entries <= MOST_ENTRIES,
@@ -225,6 +236,7 @@ impl OfStart {
                 "0 s or more",
             )?;
         }
+        // Figures are checked for form only: their names belong to the program that made the map.
         for (number, figure) in self.figures.iter().enumerate() {
             let place = at(&format!("figures.{number}"));
             short(&format!("{place}.name"), &figure.name)?;

@@ -96,9 +96,11 @@ impl Record {
     /// When the tool cannot be built or a step fails.
     pub fn run(config: &Config, motion: &Motion, nudge: f64) -> Result<Self, StepErrorFailure> {
         let step = config.solver.time_step;
+        // The run starts under its weight, so that the nudge is the only disturbance.
         let weight = motion.inputs.weight_on_bit;
         let config = config.with_value("inputs.weight_on_bit.initial_kn", n_to_kn(weight))?;
         let mut simulation = Simulation::new(&config.tool(), &config.simulation())?;
+        // Runs of different steps are compared at common instants; an interval is a whole number of steps for each.
         let per_interval = (motion.interval / step).round() as usize;
         let intervals = (motion.duration / motion.interval).round() as usize;
         let whirl_every = (WHIRL_EVERY / motion.interval).round().max(1.0) as usize;
@@ -111,10 +113,13 @@ impl Record {
         let mut snapshot = simulation.new_snapshot();
         let mut ratios = (0.0, 0_u32);
         let mut transfer = Transferred::default();
+        // The first quarter is the run-up; means of transfer reach back by one window, so they count later.
         let first_window = 0.25 * motion.duration + simulation.settings().transfer.window;
         for interval in 0..intervals {
             let run_up = 4 * interval < intervals;
             let mut mean = vec![0.0; gaps];
+            // The nudge shows how far two runs part by chance: a difference
+            // by the step must be larger to mean something.
             let inputs = Inputs {
                 weight_on_bit: weight + if interval == 0 { nudge } else { 0.0 },
                 ..motion.inputs
@@ -123,9 +128,11 @@ impl Record {
                 if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
                     return Err(StepErrorFailure::Step { step, failure });
                 }
+                // Pipe and guide in one list: the forces of the first half are those of the pipe.
                 for (k, mean) in mean.iter_mut().enumerate() {
                     let body = if k < stations { Body::Pipe } else { Body::Guide };
                     let normal = simulation.normal_force(k % stations, body).unwrap_or(f64::NAN);
+                    // Means over the interval, since single impacts of two chaotic runs never coincide.
                     *mean += normal / per_interval as f64;
                     if !run_up {
                         record.rms[k] += normal * normal / (per_interval * (intervals - intervals / 4)) as f64;
@@ -136,6 +143,7 @@ impl Record {
             if !run_up {
                 record.qualities.push(simulation.quality());
             }
+            // The whirl analysis changes slowly, and a snapshot costs more than a step.
             if !run_up && interval % whirl_every == 0 {
                 simulation.snapshot(&mut snapshot, false);
                 for ratio in snapshot.whirl.whirl_ratio.iter().filter(|ratio| ratio.is_finite()) {
@@ -146,6 +154,7 @@ impl Record {
                 }
             }
         }
+        // Sums become means and roots once, at the end.
         [record.torque, record.weight] = transfer.means();
         record.whirl_ratio = ratios.0 / f64::from(ratios.1.max(1));
         record.rms.iter_mut().for_each(|square| *square = square.sqrt());

@@ -58,6 +58,8 @@ impl Child {
     /// # Errors
     /// When the system does not start another process of this program.
     pub(super) fn start(plan: &Plan, life: u64, shared: &Arc<Shared>, report: &StartReport) -> io::Result<Self> {
+        // One end of the pair is the child's standard input: no name in
+        // the file system, and it closes with either process.
         let (socket, theirs) = UnixStream::pair()?;
         // This path leads to the running program also where its file was replaced meanwhile.
         let program = if cfg!(target_os = "linux") {
@@ -75,7 +77,9 @@ impl Child {
             // Ctrl-C in a terminal must reach the node only, which then ends this process in order.
             .process_group(0)
             .spawn()?;
+        // A child that does not read must not hold up the keeper, which supervises it.
         socket.set_write_timeout(Some(WRITE))?;
+        // Counters exist per writer from the beginning, so that a beat can be compared with them.
         let state = Arc::new(ChildState {
             written: Mutex::new(vec![(0, 0); shared.writers.len()]),
             published: Mutex::new(vec![0; shared.writers.len()]),
@@ -88,6 +92,7 @@ impl Child {
             report: report.clone(),
         };
         let from = BufReader::new(socket.try_clone()?);
+        // The thread ends by itself with the socket.
         let thread = std::thread::Builder::new()
             .name("from dds".into())
             .spawn(move || reader.run(from))?;
@@ -99,6 +104,7 @@ impl Child {
             state,
             thread: Some(thread),
         };
+        // The plan is the first frame. The child knows nothing before it.
         child.send(&ToSide::Begin(plan.clone()))?;
         Ok(child)
     }
@@ -247,12 +253,14 @@ impl ChildReader {
     fn handle(&self, frame: FromSide) {
         match frame {
             FromSide::Up(prefix) => {
+                // Participant and heartbeat are known before the outbox opens: from then on silence counts.
                 *self.state.up.lock().unwrap_or_else(PoisonError::into_inner) = Some(prefix);
                 self.state.beat.store(monotonic::now(), Ordering::Release);
                 {
                     let mut health = self.shared.health();
                     (health.is_up, health.participant) = (true, Some(prefix));
                 }
+                // Only for this life of the process: frames of an earlier one may be on their way.
                 self.shared.outbox.open(self.life);
                 // The receiver may have given up waiting.
                 let _ = self.report.0.send(Ok(()));
@@ -270,7 +278,9 @@ impl ChildReader {
                 sent,
                 body,
             } => {
+                // The child's numbers are not trusted further than their range.
                 let index = usize::from(service);
+                // Requests are judged before they wait, so that repeated and outdated ones take no place in the inbox.
                 if let Some(judged) = self.shared.judge(index, &client, sequence, sent)
                     && let Some(inbox) = self.shared.services.get(index)
                 {
@@ -278,9 +288,11 @@ impl ChildReader {
                     inbox.push(Request::of_a_client(id, client, body, refused, &self.shared.open));
                 }
             }
+            // A reply that was written frees its place in the outbox.
             FromSide::Replied { service, to } => self.shared.outbox.replied(service, to),
             FromSide::Beat(beat) => self.beat(&beat),
             FromSide::Peers(peers) => *self.shared.peers() = peers,
+            // The child does not log by itself: its lines reach `/rosout` through this process.
             FromSide::Log { level, text } => match level {
                 LogLevel::Error => tracing::error!("{text}"),
                 LogLevel::Warning => tracing::warn!("{text}"),

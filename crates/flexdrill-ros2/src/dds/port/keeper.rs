@@ -148,12 +148,14 @@ impl Keeper {
         let began = Instant::now();
         let mut checked = began;
         loop {
+            // The wait is bounded, because the checks below must also run without messages.
             let mut frames = self.shared.outbox.wait(CHECK_INTERVAL);
             let stop = self.shared.stop.load(Ordering::Acquire);
             if stop {
                 // A message between the two lines above, such as the last reply, belongs to the run.
                 frames.extend(self.shared.outbox.wait(Duration::ZERO));
             }
+            // Every frame is sent, or the process is given up: a part of a frame would shift all that follow.
             for frame in &frames {
                 match child.send(frame) {
                     Ok(()) => {}
@@ -165,10 +167,12 @@ impl Keeper {
                 return End::Requested;
             }
             let now = Instant::now();
+            // If this thread itself was away, for example while the machine slept, the child's silence proves nothing.
             if now.duration_since(checked) > OWN_DELAY {
                 child.restart_silence();
             }
             checked = now;
+            // Ended, clock, silence: in the order of how certain the cause is.
             if child.has_ended() {
                 return End::Failed("its process has ended".to_owned());
             }
@@ -179,6 +183,7 @@ impl Keeper {
                      clock of the start"
                 ));
             }
+            // A process that has not come up has no heartbeat, and has its own limit.
             if child.up().is_some() {
                 if child.is_silent() {
                     return End::Failed(silent(child));

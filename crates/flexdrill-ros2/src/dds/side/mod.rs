@@ -109,6 +109,8 @@ fn run() -> Result<(), SideError> {
 }
 
 fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<(), SideError> {
+    // Everything is built before `Up` is sent: the node then publishes,
+    // and an endpoint that is missing would lose messages.
     let participant = plan.network.start()?;
     let mut graph = NodeGraph::new(&participant, plan).map_err(|why| SideError::Node {
         node: format!("{}/{}", plan.namespace.trim_end_matches('/'), plan.node),
@@ -120,6 +122,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     }
     let mut servers = Vec::new();
     for service in &plan.services {
+        // Errors name the topic or service: the node only sees this text.
         let failed = |why| SideError::Service {
             service: service.name.clone(),
             why,
@@ -134,19 +137,23 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         };
         writers.push(TopicWriter::new(&mut graph, writer.clone()).map_err(failed)?);
     }
+    // The book of peers is a subscription too, and needs the graph before it is announced.
     let book = PeerBook::new(&mut graph, &participant, plan).map_err(|why| SideError::Topic {
         topic: graph::DISCOVERY_TOPIC.to_owned(),
         why,
     })?;
+    // The graph is announced once, complete. Tools then see the node with all its endpoints.
     graph.announce();
     let book = Arc::new(Mutex::new(book));
     let pulse = Pulse::new(&participant).map_err(|why| SideError::Unhealthy(format!("the pulse: {why}")))?;
+    // Static peers forward our announcements, which they recognise by this prefix.
     let own = participant_prefix(&participant);
     let static_peers = StaticPeers::start(&plan.network, own, outlet)
         .map_err(|why| SideError::Unhealthy(format!("the peers are not called: {why}")))?;
     let has_peers = static_peers.is_some();
     outlet.send(FromSide::Up(own));
 
+    // Writers are shared by two threads: one publishes what the node sends, the other replaces writers that are stuck.
     let writers = Arc::new(Mutex::new(writers));
     let (answers, answered) = mpsc::channel(REPLIES);
     let end = Arc::new(Notify::new());
@@ -155,6 +162,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         answers,
         end: Arc::clone(&end),
     };
+    // The socket is read by a thread that blocks, so that a large message is never divided among tasks.
     std::thread::Builder::new()
         .name("from the node".into())
         .spawn(move || inlet.run(from))?;
@@ -167,6 +175,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         static_peers,
         outlet: outlet.clone(),
     };
+    // One thread is enough for forwarding; DDS has its own.
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
     let result = runtime.block_on(async {
         let mut forwarding: FuturesUnordered<_> = subscriptions
@@ -175,6 +184,8 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
             .map(|(index, subscription)| forward(index as u16, subscription, outlet))
             .collect();
         let serving = replies::serve(&servers, answered, &book, outlet);
+        // At the end the node closes the socket first. Clients get this
+        // much time for the replies that are on their way.
         let last_replies = async {
             end.notified().await;
             tokio::time::sleep(LAST_REPLIES).await;
@@ -196,6 +207,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
     // The endpoints must be dropped before their participant.
     drop((subscriptions, servers, book));
     drop(participant);
+    // The forwarder sends the participant's farewell to the peers as well, which takes a moment.
     if has_peers {
         static_peers::wait_for_delivery();
     }

@@ -55,6 +55,7 @@ impl PeerBook {
 
     /// The present endpoints; none when they have not changed since the last call.
     pub(super) fn update(&mut self, participant: &DomainParticipant) -> Option<Peers> {
+        // Announcements first: they name the nodes of the endpoints below.
         self.read_announcements();
         let reading = participant.discovered_readers();
         self.note_readers(&reading, Instant::now());
@@ -65,6 +66,7 @@ impl PeerBook {
             .collect();
         // Every node has at least the writer of its announcement.
         self.nodes.retain(|from, _| present.contains(from));
+        // Own endpoints are left out, as a node is no second driver of its inputs.
         let writers = self.read.iter().map(|topic| {
             written
                 .iter()
@@ -85,6 +87,8 @@ impl PeerBook {
                 .filter(|reader| self.is_other(&reader.reader_proxy.remote_reader_guid));
             readers.count() as u32
         });
+        // A namesake is another node of the same name. Earlier DDS processes of
+        // this node had it too, and are known by their prefix.
         let namesakes = self.nodes.iter().filter(|(from, nodes)| {
             **from != self.own
                 && !self.former.contains(from)
@@ -95,6 +99,8 @@ impl PeerBook {
             readers: readers.collect(),
             namesakes: namesakes
                 .map(|(from, _)| {
+                    // The identifier has the bytes of a GUID, whose endpoint part
+                    // is empty here: it stands for a participant.
                     let mut id = [0; 16];
                     id[..12].copy_from_slice(from);
                     Peer {
@@ -108,6 +114,7 @@ impl PeerBook {
                 })
                 .collect(),
         };
+        // Only a change is reported, because this runs several times a second.
         if self.reported.as_ref() == Some(&peers) {
             return None;
         }

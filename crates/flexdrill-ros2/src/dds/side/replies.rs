@@ -83,6 +83,7 @@ impl ServiceServer {
         outlet: &Outlet,
     ) -> bool {
         let mut requests = Box::pin(self.requests.as_async_stream());
+        // Clients whose reply found them are known, so that later replies need not wait for discovery.
         let known = RefCell::new(HashSet::new());
         let mut answering = FuturesUnordered::new();
         let mut delivering = FuturesUnordered::new();
@@ -100,6 +101,7 @@ impl ServiceServer {
                         let client = request.writer_guid();
                         outlet.send(FromSide::Request {
                             service,
+                            // The client is looked up when its request arrives, since it may leave before the reply.
                             id,
                             client: book.lock().unwrap_or_else(PoisonError::into_inner).writer(client, &self.participant),
                             sequence: i64::from(request.sequence_number),
@@ -109,9 +111,12 @@ impl ServiceServer {
                     }
                 },
                 answer = answers.recv() => {
+                    // A closed channel means that the node ends: no more answers
+                    // come, and those begun are completed below.
                     let Some(answer) = answer else { break };
                     answering.push(self.answer(answer, &known, outlet));
                 }
+                // A reply was handed to DDS. It counts as delivered only after some time, in which it may be repeated.
                 Some(to) = answering.next() => {
                     replied = Some(tokio::time::Instant::now());
                     delivering.push(async move {
@@ -122,6 +127,7 @@ impl ServiceServer {
                 Some(to) = delivering.next() => outlet.send(FromSide::Replied { service, to }),
             }
         }
+        // Answers that wait for their client's discovery are completed before the end.
         while answering.next().await.is_some() {
             replied = Some(tokio::time::Instant::now());
         }

@@ -164,6 +164,7 @@ struct Announcer {
 
 impl Announcer {
     fn run(mut self) {
+        // The warning comes once; the attempts continue until a port is free.
         let mut is_logged = false;
         let socket = loop {
             // The last port is tried first, because other participants use the first ones.
@@ -183,6 +184,7 @@ impl Announcer {
             }
             std::thread::sleep(RETRY);
         };
+        // The newest announcement is kept, because DDS repeats it more seldom than peers must be called.
         let mut buffer = vec![0; MOST_BYTES];
         let mut announced: Option<Vec<u8>> = None;
         let (mut called, mut due) = (Instant::now(), Instant::now());
@@ -193,7 +195,9 @@ impl Announcer {
             if let Ok(length) = socket.recv(&mut buffer)
                 && announcement::is_from(&buffer[..length], &self.own)
             {
+                // Without the multicast group, or the peer would answer to where it cannot be heard.
                 announced = Some(announcement::without_multicast(&buffer[..length]));
+                // A new announcement is sent soon, but not more often than `PAUSE`: discovery sends several in a row.
                 due = due.min(called + PAUSE);
             }
             let now = Instant::now();
@@ -205,6 +209,7 @@ impl Announcer {
                         self.base,
                         &locked(&self.addresses),
                         |address, error| {
+                            // A peer that fails is logged once, and again only after it has been reached in between.
                             if error.is_none() {
                                 self.failing.remove(&address);
                             } else if let Some(error) = error
