@@ -131,25 +131,31 @@ impl ContactSearch<'_> {
             conditions,
             arms,
         } = self;
+        // The radii and levers are in the columns of the interactions;
+        // positions and velocities are local to the station.
         let station = chain.model.nodes.first(l) + i;
         let advance = conditions.rate_of_penetration;
         let guide = chain.local::<V>(&state.v, l, i, 1);
+        // The residual adds contact forces of marked spans only.
         chain.has_contacts[l] = true;
         if is_closed[0] {
             let pipe = chain.local::<V>(&state.v, l, i, 0);
             let velocity = pipe.minus_product(guide, V::load(&arms[0]));
             let clearance = model.stations[station].inner_clearance;
+            // Bristles compare positions and not velocities: they need the travel since the start of the step.
             if conditions.inner.has_bristles() {
                 let pipe = chain.travel::<V>(state, &interactions.start, l, i, 0);
                 let guide = chain.travel::<V>(state, &interactions.start, l, i, 1);
                 interactions
                     .inner
                     .set_travel(pipe.minus_product(guide, V::load(&arms[0])));
+                // The travel is handed over before the contact, which queues until eight lanes are full.
             }
             let layer = &mut interactions.inner;
             layer.push::<V>(&conditions.inner, station, lateral[0], clearance, velocity);
         }
         if is_closed[1] {
+            // The hole moves past the guide by the advance. Only the velocity along it has that part.
             let mut velocity = guide.times(V::load(&arms[1]));
             if advance != 0.0 {
                 velocity = velocity.plus_product(V::load(&ALONG), V::splat(advance));
@@ -175,6 +181,7 @@ impl ContactSearch<'_> {
             ..
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
+        // Only spans that moved are cleared and summed again; the forces of the others are unchanged to the bit.
         for (contact_forces, (any, moved)) in chain
             .contact_forces
             .iter_mut()
@@ -190,6 +197,8 @@ impl ContactSearch<'_> {
             let [on_pipe, on_guide] = &chain.model.kinds[chain.model.links[l].kind].force[i].0;
             let force = touch.force();
             let [pipe, guide] = &mut chain.contact_forces[l].0;
+            // The residual subtracts what acts: the force of the contact from the
+            // pipe, its opposite at the inner radius from the guide.
             let mut opposite = force;
             opposite.iter_mut().for_each(|x| *x = -*x);
             store(plus_rows::<V>(load(pipe), on_pipe, &opposite), pipe);
@@ -198,6 +207,7 @@ impl ContactSearch<'_> {
                 guide,
             );
         }
+        // Wall contacts follow each other from the top down, so that those of a span are summed once and stored once.
         let mut sum = OnSpan::<V>::new();
         for (station, touch) in interactions.outer.among(moved) {
             let (l, i) = chain.model.nodes.stations[station];
@@ -207,6 +217,7 @@ impl ContactSearch<'_> {
             let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
+        // Taking the first span again writes the sum of the last one.
         sum.take_from(&mut chain.contact_forces, 0);
         chain.add_mud_forces::<V>();
     }
@@ -291,10 +302,12 @@ impl ContactSearch<'_> {
     /// clearances, then the velocity of those that touch only.
     #[inline(always)]
     fn search<V: Vector>(&mut self) {
+        // Squares are compared, because the root of each distance would cost more than the search.
         let outer_squared = self.model.outer_clearance * self.model.outer_clearance;
         self.search_top::<V>(outer_squared);
         let (nodes, _) = self.state.q.as_chunks();
         let state = self.state;
+        // The first station has no span above and was searched alone.
         for l in 0..self.chain.model.links.len() {
             if !self.chain.active.spans[l] {
                 continue;
@@ -316,6 +329,7 @@ impl ContactSearch<'_> {
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
             let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
             let mut closed = inner | outer;
+            // Mud near a wall acts whether or not the gap is closed, so that a span with mud always has forces.
             if link.mud.is_some() {
                 let (v, a) = (relative::<V>(kind, &state.v, l), relative::<V>(kind, &state.a, l));
                 let place = [[y, z], guide];
@@ -330,6 +344,7 @@ impl ContactSearch<'_> {
                 }
                 self.chain.has_contacts[l] = true;
             }
+            // A span without a closed gap ends here: its velocities are not needed.
             if closed == 0 {
                 continue;
             }

@@ -314,9 +314,11 @@ impl Kernel for BalanceJoints<'_> {
         for (g, ((group, (places, nodes)), (spins, multipliers))) in
             groups.iter_mut().zip(places).zip(of_groups).enumerate()
         {
+            // A group of eight joints is linearised if any of its nodes is affected; the other lanes cost nothing.
             if !nodes.iter().any(|&k| chain.active.affected[k]) {
                 continue;
             }
+            // Rotations and rates are gathered to one lane per joint, so that the law runs over eight joints at once.
             let (q, rate) = rotations(places, state);
             group.linearise::<V>(&q, &rate, &pin_lanes(&state.pin_moments, 8 * g));
             // What has no multiplier acts on the rotations as it is, on the spin below too.
@@ -328,6 +330,8 @@ impl Kernel for BalanceJoints<'_> {
                 }
             }
             let stop = group.shut_stop();
+            // With play the row is a contact and no constraint: its moment is in
+            // the residual, and its torque stands for the multiplier.
             if group.has_play() {
                 for (lane, (&k, multipliers)) in nodes.iter().zip(multipliers).enumerate() {
                     if !chain.active.affected[k] {
@@ -342,6 +346,8 @@ impl Kernel for BalanceJoints<'_> {
                 }
                 continue;
             }
+            // Two rows, of a revolute joint: each joint chooses the tilt
+            // that depends best, so these are done one by one.
             let [row] = group.rows() else {
                 for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {
                     if chain.active.affected[k] {
@@ -350,6 +356,8 @@ impl Kernel for BalanceJoints<'_> {
                         dependents.linearise_two(gradients, scale, chain.model.rows[k].as_ref());
                         *lambda = dependents.multipliers(residual, scale);
                         dependents.project(residual);
+                        // The values of the rows take the places of the dependent
+                        // moments, which are in balance by construction.
                         residual[FIRST_ROW] = scale * group.rows()[0].value[lane];
                         residual[SECOND_ROW] = scale * group.rows()[1].value[lane];
                     }
@@ -365,12 +373,14 @@ impl Kernel for BalanceJoints<'_> {
                     *out = Eight::load(gradient) * moment;
                 }
             }
+            // The moment on the spin below is read before the loop that replaces it by the row's value.
             let mut on_spin = Lane::default();
             for (on_spin, &k) in on_spin.iter_mut().zip(nodes) {
                 *on_spin = residual[k][FIRST_ROW];
             }
             let inverse = Eight::of(1.0).over(Eight::load(&row.gradient[3]));
             let lambda = zero - (Eight::load(&on_spin) + stops[3]) * inverse;
+            // The spin below is left out: its moment has become the multiplier, and its place holds the row.
             let (mut moments, mut of_rows) = ([Lane::default(); 5], Lane::default());
             for (out, (by, k)) in moments.iter_mut().zip(spins.by.iter_mut().zip([0, 1, 2, 4, 5])) {
                 let gradient = Eight::load(&row.gradient[k]);
@@ -379,6 +389,7 @@ impl Kernel for BalanceJoints<'_> {
             }
             inverse.store(&mut spins.by_row);
             (Eight::<V>::load(&row.value) * Eight::of(scale)).store(&mut of_rows);
+            // Scattered back to the nodes only here; everything before stayed in registers.
             let mut lambdas = Lane::default();
             lambda.store(&mut lambdas);
             for (lane, (&k, lambda)) in nodes.iter().zip(multipliers).enumerate() {

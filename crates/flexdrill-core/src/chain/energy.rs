@@ -74,21 +74,25 @@ impl Chain {
         conditions: &Conditions,
         interactions: &Interactions,
     ) {
+        // Only there are stations slaved to supports, whose reactions no residual has.
         if !model.description.guide_fixed {
             return;
         }
         let inside = |at: &&HeldNode| self.model.places.held[at.held.start].is_none();
+        // The weight begins the sum: without contacts and mud the support carries nothing else.
         for at in model.held_nodes.iter().filter(inside) {
             for index in at.held.clone() {
                 point.reactions[index] = -model.weight[model.held[index]];
             }
             if let Some(mud) = &model.mud {
                 let station = &model.stations[at.station];
+                // The pipe moves in its link's frame; the mud pushes in that of the station.
                 let moving = |values: &[f64]| station.pipe_to_station * self.pipe_translation(values, at.station);
                 let (v, a) = (moving(&state.v), moving(&state.a));
                 let MudLump { mass, drag } = mud.stations[at.station];
                 for index in at.held.clone() {
                     let k = model.held[index] - at.node;
+                    // Mud acts across the hole only.
                     if matches!(k, 1 | 2) {
                         let inert = mass.coupling * (a[k] + conditions.rayleigh.alpha * v[k]);
                         point.reactions[index] += inert + drag.coupling * v[k];
@@ -102,6 +106,8 @@ impl Chain {
                 }
             }
         }
+        // Signs as in the residual: the guide has the opposite of the inner
+        // layer's forces, and those of the wall themselves.
         let layers = [(&interactions.inner, 1.0), (&interactions.outer, -1.0)];
         for ((layer, sign), radius) in layers.into_iter().zip(model.guide_radii) {
             for (station, touch) in layer.iter() {
@@ -109,6 +115,7 @@ impl Chain {
                 let Ok(first) = model.held.binary_search(&guide) else {
                     continue;
                 };
+                // Where the chain has the node, its reaction comes from the residual.
                 if self.model.places.held[first].is_none() {
                     let reactions = &mut point.reactions[first..first + 6];
                     for (reaction, force) in reactions.iter_mut().zip(at_radius(&touch.force(), radius)) {
@@ -163,6 +170,7 @@ impl Kernel for SpanEnergies<'_> {
         } = self;
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let zero = [V::splat(0.0); 2];
+        // Pipe and guide are summed in two halves of vectors, and added across the lanes once, at the end.
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
         let (mut shortened, mut lifted) = (0.0, 0.0);
         let ((rates, _), (rates2, _)) = (state.v.as_chunks(), state.a.as_chunks());
@@ -174,6 +182,7 @@ impl Kernel for SpanEnergies<'_> {
                 let mut moving = product::<V>(&kind.mass[body], &at_v);
                 let mut inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
                 let mut dragged = zero;
+                // Mud couples both pipes: the momentum of one depends on the velocity of the other.
                 if let Some(mud) = &kind.mud {
                     let there = at_ends(rates, l, 1 - body);
                     let across = &mud.mass_across[body];
@@ -188,10 +197,13 @@ impl Kernel for SpanEnergies<'_> {
                         inert[half] = inert[half].plus(of_mud[1][half]);
                         dragged[half] = of_mud[2][half].plus(of_mud[3][half]);
                     }
+                    // The work of the viscosity is audited apart from the damping of the steel.
                     let mut on = [0.0; 16];
                     store(dragged, &mut on);
                     add(&mut point.mud, ends(l, body), &on);
                 }
+                // Forces of geometric stiffness per axial force; the lane that
+                // holds the axial force itself is masked out.
                 let mut geometric_forces: [V; 2] = load(&chain.geometric_forces[l][body]);
                 geometric_forces[0] = geometric_forces[0].times(V::load(&FORCES));
                 let in_use = if body == 0 {
@@ -230,6 +242,8 @@ impl Kernel for SpanEnergies<'_> {
                 for half in 0..2 {
                     foreseen[half] = foreseen[half].minus_product(v[half], geometric_forces[half].times(beyond));
                     let slopes = geometric_forces[half];
+                    // Forces per axial force become forces by the one in use; what that
+                    // differs from the present one works as foresight.
                     geometric_forces[half] = slopes.times(tension_in_use);
                     damped[half] = moving[half].times(alpha).plus_product(stiff[half], beta);
                     let mut bent = linear[half].minus(damped[half].plus(inert[half]));
@@ -246,12 +260,15 @@ impl Kernel for SpanEnergies<'_> {
                             .plus_product(V::load(&halves[half]), V::splat(stretch.damped_shortening));
                     }
                 }
+                // The energy of the shortening is no product of force and displacement, so it comes from the law.
                 if let Some(stretch) = stretch {
                     shortened += stretch.energy;
                     lifted += stretch.shortening * link.on_strain;
                 }
                 if body == 0 {
                     let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
+                    // A joint carries what the span below needs at its top,
+                    // contacts included, less weight and pressure there.
                     for (i, top) in point.joints.on_top[l].iter_mut().enumerate() {
                         let contact_forces = if chain.has_contacts[l] {
                             chain.contact_forces[l][0][i]
@@ -274,11 +291,13 @@ impl Kernel for SpanEnergies<'_> {
                 store(inert, &mut forces.inertia[body]);
             }
         }
+        // Quadratic forms: half of displacement times force, and of velocity times momentum.
         point.kinetic = 0.5 * sum(kinetic);
         point.geometric_energy = 0.5 * sum(geometric);
         point.foresight = sum(foreseen);
         point.lifted_by_pressure = lifted;
         let linear = 0.5 * sum(elastic) + point.geometric_energy;
+        // Without shortening the sums are those of the linear span, to the bit.
         if chain.stretches.is_empty() {
             linear
         } else {

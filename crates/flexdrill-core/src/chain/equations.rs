@@ -81,7 +81,10 @@ impl ChainEquations<'_> {
         let Some(operator) = chain.operator(at.factors, at.conditions) else {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
+        // In double the whole tool is solved: a window needs the columns of
+        // an earlier sweep, which single precision has made.
         chain.active.set_whole();
+        // What changes in each iteration is added to the step-constant part.
         let contacts_and_masses = &mut chain.additions;
         let crossing = chain.operators[operator].crossing.as_ref();
         contacts_and_masses.linearise(
@@ -106,13 +109,18 @@ impl ChainEquations<'_> {
                 factors: at.factors,
             });
         }
+        // Slots that are closed stiffen the guide, which only this iteration knows.
         let stiffness = at.factors.stiffness;
         add_slots(&mut chain.additions, &chain.active, &chain.closed_slots, stiffness);
+        // The tangent of steps has no geometric stiffness. The chain of the
+        // start has it, as its long steps do not converge without.
         if chain.has_geometric_stiffness() {
+            // With shortening the pipe's part is in its own tangent.
             let of_pipe = if chain.stretches.is_empty() { 1.0 } else { 0.0 };
             let (to, active) = (&mut chain.additions, &chain.active);
             add_geometric(to, &chain.model, active, state, [stiffness, of_pipe]);
         }
+        // Dependent rotations follow from the joint's rows as the last residual has linearised them.
         chain.set_spins(model.moment_scale);
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
@@ -120,6 +128,7 @@ impl ChainEquations<'_> {
             at.factors,
             lambda,
             |_| true,
+            // The tangents of joints stay in the sweep, because only the block of one node has them.
             |joint, tangent| {
                 for (l, column) in blocks[of_joints[joint]].iter_mut().enumerate() {
                     for (k, x) in column.iter_mut().enumerate() {
@@ -141,9 +150,11 @@ impl ChainEquations<'_> {
             interactions,
             stopwatch,
         } = self;
+        // Without an operator for these factors nothing was prepared, and the double solution reports that as an error.
         let Some(operator) = chain.operator(at.factors, at.conditions) else {
             return false;
         };
+        // The sums are formed in the precision of the solution, which is half the memory to move.
         let contacts_and_masses = &mut chain.single_additions;
         let crossing = chain.operators[operator].crossing_single.as_ref();
         contacts_and_masses.linearise(
@@ -178,6 +189,7 @@ impl ChainEquations<'_> {
         chain.set_spins(model.moment_scale);
         let (sweep, of_joints) = (&mut chain.single_sweep, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
+        // Outside the window the columns of the earlier sweep remain valid.
         let is_active = |joint: usize| chain.active.nodes[of_joints[joint]];
         interactions
             .joints

@@ -93,6 +93,7 @@ pub(super) fn constant_forces(
     links: &mut [Link],
     unknowns: usize,
 ) -> ConstantForces {
+    // Without a preload there is no vector, by which later loops skip it.
     let mut out = ConstantForces {
         weight: vec![0.0; unknowns],
         preload: vec![0.0; if model.preloads().next().is_some() { unknowns } else { 0 }],
@@ -100,6 +101,7 @@ pub(super) fn constant_forces(
     for (l, link) in links.iter_mut().enumerate() {
         let (first, per) = (nodes.first(l), nodes.elements(l));
         for body in 0..2 {
+            // The forces are summed over the elements of the span first, and then condensed once.
             let mut weight = DVector::<f64>::zeros(6 * (per + 1));
             let mut preload = None;
             for e in 0..per {
@@ -116,6 +118,7 @@ pub(super) fn constant_forces(
                     part += of_element.force;
                 }
             }
+            // The slaving condenses forces on inner stations to the ends, as it condenses displacements.
             let kind = &kinds[link.kind];
             let on_ends = kind.slaved[body].tr_mul(&weight);
             let [top, bottom] = ends(l, body);
@@ -125,6 +128,7 @@ pub(super) fn constant_forces(
                     out.preload[top + i] += on_ends[i];
                     out.preload[bottom + i] += on_ends[6 + i];
                 }
+                // The deflection between the ends comes from all forces inside, the preload's included.
                 weight += preload;
             }
             let by_weight = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
@@ -132,6 +136,7 @@ pub(super) fn constant_forces(
                 let at = local_lateral(model, first + i, body) * by_weight.rows(6 * (i - 1), 6);
                 (link.by_weight[body][i - 1], link.by_weight[body][8 + i - 1]) = (at[0], at[1]);
             }
+            // Kept, because the force of the joint above is found without it.
             if body == 0 {
                 link.weight_on_top = [on_ends[0], on_ends[1], on_ends[2]];
             }

@@ -212,18 +212,22 @@ impl Chain {
         single_corrections: u32,
         instructions: Instructions,
     ) -> Self {
+        // Numbering and places first: everything below is given by places in the chain.
         let numbering = Numbering::of(model, &points);
         let place = |unknown: usize| numbering::place(model, &points, unknown);
         let places = model.places.renumbered(place, |unknown| numbering.place(unknown));
         let nodes = points.list.len();
         let (kinds, mut links) = links::links(model, &points, spans);
+        // The slowest span bounds the step from below, for all spans alike.
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
         let spans = links.len();
         // Each span is one element then.
         let slots: Vec<Slots> = model.slots().map(|(_, slots, _)| *slots).collect();
+        // The drive holds the spin above and below, so that its joint's row cannot turn the node.
         let mut driven: Vec<usize> = places.driven.into_iter().collect();
         driven.extend(places.driven.map(|spin| spin + FIRST_ROW));
         let held = numbering.held(model, places.driven);
+        // A factor per row, so that held rows are zeroed by a product and not by a branch.
         let mut rows = vec![None; nodes];
         for &unknown in &held {
             rows[unknown / NODE].get_or_insert([1.0; NODE])[unknown % NODE] = 0.0;
@@ -233,6 +237,7 @@ impl Chain {
         let moving_force = tolerances.moving_force(model);
         let moving_moment = moving_force * tolerances.moving_moment;
         let joint_rows = Joint::constraints(&model.description.joint);
+        // A tool in motion is judged by larger limits than one at rest; rows of constraints have their own in both.
         let limits = |force: f64, moment: f64| {
             let mut limits = vec![moment; unknowns];
             for (node, at) in limits.chunks_exact_mut(NODE).zip(&points.list) {
@@ -243,6 +248,7 @@ impl Chain {
                     Some(_) if joint_rows > 0 => node[FIRST_ROW] = rows,
                     // With play the spin below has an equation of its own.
                     Some(_) => {}
+                    // No joint: the three rotations below follow by definition and have no equation to violate.
                     None => node[6..9].fill(f64::INFINITY),
                 }
                 node[SECOND_ROW] = if at.joint.is_some() && joint_rows > 1 {
@@ -254,19 +260,23 @@ impl Chain {
             if let Some(tie) = places.tie {
                 limits[tie] = tolerances.constraint * model.force_scale;
             }
+            // Reactions of supports are not out of balance, whatever their size.
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
+        // Pressure and weight are constant forces per span. They are condensed once, with the spans' own matrices.
         let pressure = {
             let ends = [places.pipe_end, places.guide_end];
             links::pressure_forces(model, &points, &kinds, &mut links, unknowns, ends)
         };
         let ConstantForces { weight, preload } = links::constant_forces(model, &points, &kinds, &mut links, unknowns);
+        // The residual subtracts one vector; the audit needs both apart.
         let mut constant = weight.clone();
         constant
             .iter_mut()
             .zip(&preload)
             .for_each(|(sum, couple)| *sum += couple);
+        // All arrays have their final size: nothing allocates while the tool runs.
         Self {
             operators: Vec::new(),
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
@@ -318,6 +328,7 @@ impl Chain {
                 constant,
                 pressure,
                 rows,
+                // The tie's multiplier is a force: it has no velocity to predict.
                 moving: (0..unknowns)
                     .map(|unknown| if unknown % NODE == TIE { 0.0 } else { 1.0 })
                     .collect(),

@@ -264,6 +264,7 @@ impl Kernel for Show<'_> {
             forces,
             full,
         } = self;
+        // What is no unknown is the same in both numberings.
         full.pin_moments.copy_from_slice(&chain.pin_moments);
         (full.scheme_step, full.time, full.drive_angle) = (chain.scheme_step, chain.time, chain.drive_angle);
         full.bristles.copy_from_slice(&chain.bristles);
@@ -272,6 +273,7 @@ impl Kernel for Show<'_> {
             (&chain.v, &mut full.v),
             (&chain.a, &mut full.a),
         ] {
+            // Nodes first: joint stations have a second pipe node, which follows from the first by Eq. 12.
             for (k, node) in from.as_chunks::<NODE>().0.iter().enumerate() {
                 let station = &model.stations[by.model.nodes.list[k].station];
                 let u = Vector3::new(node[U], node[U + 1], node[U + 2]);
@@ -282,6 +284,7 @@ impl Kernel for Show<'_> {
                 to[station.guide..station.guide + 6].copy_from_slice(&node[GUIDE..GUIDE + 6]);
                 if let Some(joint) = station.joint {
                     let at = &model.joints[joint];
+                    // The displacement below is that above, turned into the frame of the link below.
                     let below = at.lower.tr_mul(&(at.upper * u));
                     for i in 0..3 {
                         to[station.pipe_below + i] = below[i];
@@ -289,6 +292,7 @@ impl Kernel for Show<'_> {
                     }
                 }
             }
+            // Inner stations follow by the slaving. Their velocities and accelerations follow alike, as it is constant.
             for (l, link) in by.model.links.iter().enumerate() {
                 let inner = &by.model.kinds[link.kind].inner;
                 for body in 0..2 {
@@ -300,6 +304,7 @@ impl Kernel for Show<'_> {
                     }
                     for (i, columns) in inner.iter().enumerate() {
                         let columns = &columns[body];
+                        // Two sums instead of one halve the chain of dependent products.
                         let (mut even, mut odd) = (V::splat(0.0), V::splat(0.0));
                         for j in 0..6 {
                             even = even.plus_product(V::load(&columns[j]), x[j]);
@@ -314,6 +319,7 @@ impl Kernel for Show<'_> {
                 }
             }
         }
+        // Multipliers are needed by observers only: the chain has eliminated them.
         for (span, node) in by.model.nodes.list.iter().enumerate() {
             let Some(joint) = node.joint else { continue };
             let (at, first) = (&model.joints[joint], model.multipliers(joint));
@@ -328,6 +334,7 @@ impl Kernel for Show<'_> {
         if let (Some(tie), Some(place)) = (model.tie, by.model.places.tie) {
             full.q[tie] = chain.q[place];
         }
+        // An axial force of a span holds for each of its elements.
         for l in 0..by.model.links.len() {
             let elements = by.model.nodes.first(l)..by.model.nodes.first(l + 1);
             full.pipe_axial[elements.clone()].fill(chain.pipe_axial[l]);

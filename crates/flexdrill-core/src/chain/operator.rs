@@ -84,6 +84,7 @@ impl<S: Precision> Crossing<S> {
             upper: [[S::ZERO; NODE]; 12],
             lower: [[S::ZERO; NODE]; 12],
         };
+        // Only the columns of the other pipe's motion have entries here.
         let mut couplings = vec![none; across.len()];
         for (coupling, across) in couplings.iter_mut().zip(across) {
             let Some(across) = across else { continue };
@@ -98,6 +99,7 @@ impl<S: Precision> Crossing<S> {
                 }
             }
         }
+        // A node's block has a part of the span above and of the one below, so each span adds to both.
         for (l, link) in chain.model.links.iter().enumerate() {
             let Some(across) = &across[link.kind] else { continue };
             for (body, columns) in across.iter().enumerate() {
@@ -110,6 +112,7 @@ impl<S: Precision> Crossing<S> {
                 }
             }
         }
+        // Rounded at the end: the sum of two spans is formed in double.
         let blocks = blocks
             .iter()
             .map(|block| Aligned(block.map(|column| column.map(S::of))));
@@ -122,6 +125,7 @@ impl<S: Precision> Crossing<S> {
 
 impl Operator {
     pub(super) fn of(chain: &Chain, model: &Model, factors: TangentFactors, conditions: &Conditions) -> Self {
+        // The step turns the linear system into one matrix: stiffness, damping and mass by the factors of the scheme.
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
         let elastic = factors.stiffness + factors.damping * beta;
         let inertial = factors.mass + factors.damping * alpha;
@@ -130,6 +134,7 @@ impl Operator {
             .kinds
             .iter()
             .map(|kind| {
+                // Once per kind of span and not per span: a regular tool has few kinds.
                 Aligned(std::array::from_fn(|body| {
                     std::array::from_fn(|j| {
                         let (k, m) = (&kind.stiffness[body][j], &kind.mass[body][j]);
@@ -138,6 +143,7 @@ impl Operator {
                             let drag = column.iter_mut().zip(&mud.drag[body][j]);
                             drag.for_each(|(x, drag)| *x += factors.damping * drag);
                         }
+                        // The preload has stiffness and no damping: it turns with the guide.
                         match kind.preload.as_ref().filter(|_| body == 1) {
                             Some(preload) => std::array::from_fn(|i| column[i] + factors.stiffness * preload[j][i]),
                             None => column,
@@ -176,6 +182,7 @@ impl Operator {
                 nodes[last][place][TIE] += scale * share;
             }
         }
+        // The coupling of two neighbours, per kind: above by the bottom's motion, below by the top's.
         let couplings = spans
             .iter()
             .map(|bodies| {
@@ -206,6 +213,7 @@ impl Operator {
                 })
             })
             .collect();
+        // Mud across the gap is kept apart: nodes that it crosses need more columns in the elimination.
         let across: Vec<_> = (chain.model.kinds.iter())
             .map(|kind| {
                 let mud = kind.mud.as_ref()?;

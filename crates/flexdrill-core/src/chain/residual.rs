@@ -133,12 +133,14 @@ impl Kernel for Gather<'_> {
                     from_below[l - start] = NodeForces::default();
                     break;
                 }
+                // A node needs both its spans; a span is summed if either of its nodes changes.
                 if !(affected[l] || affected[l + 1]) {
                     continue;
                 }
                 let (linear, geometric) = (&chain.linear[l], &chain.geometric_forces[l]);
                 let contacts = chain.has_contacts[l].then_some(&chain.contact_forces[l]);
                 let [on_pipe, on_guide] = [0, 1].map(|body| contacts.map(|contacts| &contacts[body]));
+                // With shortening the axial force acts along the deflected span, by the law's own force.
                 let pipe: [V; 2] = match chain.stretches.get(l) {
                     None => force_of_span(&linear[0], &geometric[0], state.pipe_axial[l], on_pipe),
                     Some(stretch) => {
@@ -148,6 +150,7 @@ impl Kernel for Gather<'_> {
                     }
                 };
                 let guide: [V; 2] = force_of_span(&linear[1], &geometric[1], state.guide_axial[l], on_guide);
+                // Upper ends act on the node above, lower ends on the node below.
                 from_below[l - start].set(pipe[0], U, guide[0]);
                 from_above[l - start + 1].set(pipe[1], 0, guide[1]);
             }
@@ -267,9 +270,11 @@ impl Spans<'_> {
         let ((q, _), (v, _), (a, _)) = (to.q.as_chunks(), to.v.as_chunks(), to.a.as_chunks());
         let forces = chain.linear.iter_mut().zip(&mut chain.geometric_forces);
         for (l, (link, (linear, geometric_forces))) in chain.model.links.iter().zip(forces).enumerate() {
+            // The sums are the same products as in the step-constant tangent, so that corrections can be added to them.
             let kind = &chain.model.kinds[link.kind];
             for body in 0..2 {
                 let (at, rate) = (at_ends(q, l, body), at_ends(v, l, body));
+                // Rayleigh damping by the combined arguments: K (q + beta v) and M (a + alpha v) are one product each.
                 let (mut strained, mut pushed) = (at, at_ends(a, l, body));
                 for end in 0..2 {
                     for j in 0..6 {
@@ -299,6 +304,7 @@ impl Spans<'_> {
                         force = [force[0].plus(of_mud[0]), force[1].plus(of_mud[1])];
                     }
                 }
+                // Forces per axial force are kept: the axial force changes with every correction, these by a product.
                 store(force, &mut linear[body]);
                 store(product::<V>(&kind.geometric[body], &at), &mut geometric_forces[body]);
             }

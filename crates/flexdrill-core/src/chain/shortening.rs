@@ -79,6 +79,7 @@ impl<S: Precision> Kernel for StretchTangents<'_, S> {
 
     #[inline(always)]
     fn run<V: Vector>(self) {
+        // Windows evaluate only the spans that moved.
         let (rates, _) = self.state.v.as_chunks();
         for (l, stretch) in self.stretches.iter().enumerate() {
             if !self.active.spans[l] {
@@ -86,6 +87,7 @@ impl<S: Precision> Kernel for StretchTangents<'_, S> {
             }
             let kind = &self.chain.kinds[self.chain.links[l].kind];
             let (p, t) = (twelve(&self.slopes[l][0]), twelve(&kind.tension[0]));
+            // The rate of the slope's product enters by the damping of the shortening.
             let mut turning = [0.0; 16];
             store(product::<V>(&kind.geometric[0], &at_ends(rates, l, 0)), &mut turning);
             let r = twelve(&turning);
@@ -94,6 +96,7 @@ impl<S: Precision> Kernel for StretchTangents<'_, S> {
                 beta: self.beta,
                 factors: [self.factors.stiffness, self.factors.damping],
             };
+            // The tangent is full over the twelve unknowns of the pipe: tension couples both ends.
             let mut columns = [[0.0; 12]; 12];
             for (j, column) in columns.iter_mut().enumerate() {
                 let geometric = twelve(&kind.geometric[0][j]);
@@ -104,6 +107,7 @@ impl<S: Precision> Kernel for StretchTangents<'_, S> {
                     *to += S::of(*from);
                 }
             };
+            // The columns of each end are added to its node's block, the mixed ones to the coupling of both.
             let (top, bottom) = (TOP[0], BOTTOM[0]);
             let block = self.to.block(l, Touching::Both);
             for j in 0..6 {

@@ -128,6 +128,8 @@ impl Kernel for Elimination<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) -> Result<(), (usize, f64)> {
         let nodes = self.rows.len();
+        // The carry is what the eliminated part of the tool does to the next
+        // node: stiffness, coupling and right-hand side in 13 columns.
         let mut carry = [[0.0; NODE]; COLUMNS];
         let mut lower = [[0.0; NODE]; 12];
         for k in 0..nodes {
@@ -142,6 +144,7 @@ impl Kernel for Elimination<'_> {
             if k > 0 {
                 subtract_carry::<V>(&mut block, &mut right, &carry);
             }
+            // The last node has no node below: one column suffices.
             let last = k + 1 == nodes;
             let mut columns = [[0.0; NODE]; COLUMNS];
             let touching = if last {
@@ -150,8 +153,10 @@ impl Kernel for Elimination<'_> {
                 self.coupling::<V>(k, &mut columns, &mut lower)
             };
             let coupling = &mut columns[..12];
+            // Folded before the elimination: a dependent rotation's own row then gives its value from the solution.
             let chain = self.dependents[k].eliminate(&mut block, coupling, Double::<V>(load(&right)), rows, true);
             store(chain.0, &mut right);
+            // Held unknowns: row and column are cut, and a one on the diagonal keeps the block regular.
             if let Some(rows) = &self.rows[k] {
                 for (i, column) in block.iter_mut().enumerate() {
                     keep(column, rows);
@@ -174,6 +179,8 @@ impl Kernel for Elimination<'_> {
             let crossed = touching == Touching::Both;
             let active = |row: usize| if row < GUIDE && !crossed { 6 } else { 12 };
             sixteen::<V, COLUMNS>(&mut block, &mut columns, active).map_err(|pivot| (k, pivot))?;
+            // The product with the lower coupling forms the carry. Without a
+            // contact between the pipes their parts do not mix.
             for (carry, column) in carry.iter_mut().zip(&columns) {
                 let (mut pipe, mut guide) = ([V::splat(0.0); 2], [V::splat(0.0); 2]);
                 if crossed {
@@ -193,10 +200,12 @@ impl Kernel for Elimination<'_> {
             }
             self.sweep.columns[k] = columns;
         }
+        // Upwards: each node's solution follows from that of the node below.
         let (values, _) = self.values.as_chunks_mut::<NODE>();
         for k in (0..nodes - 1).rev() {
             let columns = &self.sweep.columns[k];
             let below = values[k + 1];
+            // Two sums instead of one halve the chain of dependent products.
             let (mut even, mut odd) = (load::<V>(&columns[12]), [V::splat(0.0); 2]);
             for c in 0..6 {
                 even = plus_column(even, &columns[2 * c], V::splat(-below[BOTTOM[2 * c]]));
@@ -204,6 +213,7 @@ impl Kernel for Elimination<'_> {
             }
             store([even[0].plus(odd[0]), even[1].plus(odd[1])], &mut values[k]);
         }
+        // Rotations below a node without a joint are those above.
         for (values, node) in values.iter_mut().zip(self.nodes) {
             pass(values, *node);
         }

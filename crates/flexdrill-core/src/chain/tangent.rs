@@ -182,6 +182,8 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
     fn run<V: Vector>(self) {
         let mut guide_sum = GuideSum::<S>::new();
         let layers = [(&self.interactions.inner, true), (&self.interactions.outer, false)];
+        // Contacts of pipe and guide fill the whole node; those of the wall
+        // only the guide's part, which is summed per span.
         for (layer, inner) in layers {
             let (nodes, spans) = (&self.chain.nodes, &self.active.spans);
             let stations = &nodes.stations;
@@ -194,11 +196,13 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
                     rows: if inner { &on_nodes.inner } else { &on_nodes.outer },
                 };
                 let tangent = touch.tangent(self.factors.stiffness, self.factors.damping);
+                // A wall contact at a node acts on that node alone, and need not be spread over the span.
                 if inner {
                     contact.add::<V, true>(self.to, &tangent);
                 } else if contact.at[0] || contact.at[1] {
                     contact.add::<V, false>(self.to, &tangent);
                 } else {
+                    // Stations come from the top down, so a change of the span ends its sum.
                     if guide_sum.span != l {
                         guide_sum.add_to_nodes::<V>(self.to);
                         guide_sum.span = l;
@@ -208,6 +212,7 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
             }
         }
         guide_sum.add_to_nodes::<V>(self.to);
+        // Mud near walls after the contacts, since it has the same columns and no friction.
         for (l, motions) in self.mud.iter().enumerate() {
             let link = &self.chain.links[l];
             let Some(near) = link.mud.as_ref().filter(|_| self.active.spans[l]) else {
@@ -215,6 +220,7 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
             };
             let elements = self.chain.nodes.elements(l);
             let on_nodes = &S::on_nodes(&self.chain.kinds[link.kind].on_nodes);
+            // The station at the top of a span belongs to the span above, so that none counts twice.
             for i in 1..=elements {
                 for (layer, (near, motion)) in near.iter().zip(motions).enumerate() {
                     let Some(tangent) = near.lane(i - 1).tangent(&motion.lane(i - 1), &self.factors) else {

@@ -158,6 +158,7 @@ impl<E: Equations> Kernel for Step<'_, E> {
             (to.v[driven], to.a[driven]) = scheme.rates(h, drive_angle - from.q[driven], from, driven);
         }
 
+        // The same factors relate displacement, velocity and acceleration in every correction of the step.
         let mut at = Iteration::first(conditions, scheme.factors(h));
         loop {
             equations.residual(to, &at);
@@ -193,11 +194,13 @@ impl<E: Equations> Kernel for Step<'_, E> {
                     }
                 };
             }
+            // After the residual is judged, so that the last correction counts if it has converged.
             if at.corrections == most_iterations {
                 let unknown = worst_unknown(residuals, weights);
                 return rejected(FailureCause::NotConverged, residuals[unknown], unknown);
             }
             let solved = equations.solve(to, &at);
+            // Counted before the error is returned: the work was done and belongs to the cost of the step.
             at.corrections += 1;
             if let Err(singular) = solved {
                 let failure = StepFailure {

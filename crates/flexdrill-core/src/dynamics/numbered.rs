@@ -31,6 +31,7 @@ impl Numbered<'_> {
         wanted: impl Fn(usize) -> bool,
     ) {
         let Self { model, places, .. } = *self;
+        // The tie holds both ends together along the hole: its multiplier is a force between them.
         if let Some(tie) = places.tie.filter(|&tie| wanted(tie)) {
             let scale = model.force_scale;
             let mut apart = 0.0;
@@ -40,6 +41,7 @@ impl Numbered<'_> {
             }
             residual[tie] = scale * apart;
         }
+        // The string acts as an impedance with an arriving wave: its force depends on the end's velocity at once.
         for (unknown, [impedance, arriving, stiffness]) in self.top_ends(conditions) {
             if wanted(unknown) {
                 let force = impedance * (2.0 * arriving - state.v[unknown]) - stiffness * state.q[unknown];
@@ -53,6 +55,7 @@ impl Numbered<'_> {
                 residual[unknown] += share * force;
             }
         }
+        // Pressure scales one vector of forces, because its distribution along the tool is fixed.
         if !self.pressure.is_empty() {
             let at_top = model.pressure_at_top(conditions);
             for (unknown, force) in self.pressure.iter().enumerate() {
@@ -61,6 +64,7 @@ impl Numbered<'_> {
                 }
             }
         }
+        // The rock is evaluated only with the node of the bit, which a window may leave out.
         let spin = places.bit_spin;
         if wanted(spin) {
             // Both are in the last node.
@@ -76,6 +80,7 @@ impl Numbered<'_> {
             residual[places.guide_end] += bit.weight;
             residual[spin] += bit.torque;
         }
+        // Loads come last and have no tangent: they depend on time alone.
         for (load, &unknown) in model.loads.iter().zip(&places.loads) {
             if wanted(unknown) {
                 residual[unknown] -= load.load.history.at(conditions.time);

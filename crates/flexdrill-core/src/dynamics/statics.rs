@@ -126,6 +126,7 @@ impl Stepper {
         };
         let mut chain = self.chain_over_stations();
         let mut state = self.as_given(&mut chain, inputs, 0.0)?;
+        // A guide that was slid in lies against friction at its limit along the hole, and keeps that as its history.
         let slid_in = self.model().description.slid_in;
         if slid_in {
             // Along the guide, against the advance.
@@ -134,6 +135,7 @@ impl Stepper {
                 .iter_mut()
                 .for_each(|[_, wall]| *wall = [0.0, -BEYOND_ANY_LIMIT]);
         }
+        // Friction that vanishes at rest would slow the approach and change nothing of the end.
         let conditions = settling(self.held(self.conditions(0.0, inputs)), slid_in);
         let most_iterations = self.tolerances().max_iterations;
         let mut equations = self.equations_of(&mut chain);
@@ -142,9 +144,11 @@ impl Stepper {
         let mut speed = f64::INFINITY;
         let mut at_largest = 0;
         let mut steps = 0;
+        // The first steps are small: the tool falls into its contacts, and a large step would pass through them.
         while steps < MOST_STEPS {
             steps += 1;
             let stride = Stride {
+                // With gamma 1 the scheme damps strongly: only the rest matters, and not the motion that leads to it.
                 scheme: Scheme::newmark(1.0),
                 h,
                 foresight: 0.0,
@@ -159,9 +163,12 @@ impl Stepper {
                 Ok(iterations) => {
                     std::mem::swap(&mut state, &mut trial);
                     speed = state.v.iter().fold(0.0, |worst: f64, v| worst.max(v.abs()));
+                    // Few corrections mean that the next step may be larger.
                     if iterations <= 4 {
                         h = (h * 1.5).min(STEPS[1]);
                     }
+                    // At the largest step a speed below the limit is rest; three
+                    // of them exclude a turning point of a swing.
                     if speed < REST && h == STEPS[1] {
                         at_largest += 1;
                         if at_largest >= 3 {
@@ -170,6 +177,8 @@ impl Stepper {
                     }
                 }
                 Err(Rejected { failure, .. }) => {
+                    // A failed step is tried again at a quarter; below the
+                    // smallest the tool has no rest that these steps find.
                     h *= 0.25;
                     if h < 1e-7 {
                         return Err(StartError::Step(failure));
@@ -187,6 +196,7 @@ impl Stepper {
         if slid_in {
             equations.interactions.keep_bristles(&mut state);
         }
+        // The remaining velocities are set to zero, and what they leave out of balance is corrected below.
         let mut rest = state;
         rest.v.fill(0.0);
         rest.a.fill(0.0);

@@ -139,6 +139,7 @@ pub struct Mud {
 impl Mud {
     /// Of a tool whose elements have these lengths (m), top to bottom.
     pub fn of(mud: &MudDescription, d: &ToolDescription, lengths: impl Iterator<Item = f64>) -> Self {
+        // Properties by section of a link, since all links are alike.
         let per_link: Vec<MudLump> = d.pipe_sections.iter().map(|pipe| per_length(mud, d, pipe)).collect();
         let half_lengths: Vec<f64> = lengths.map(|length| 0.5 * length).collect();
         let halves: Vec<MudLump> = half_lengths
@@ -152,11 +153,13 @@ impl Mud {
                 }
             })
             .collect();
+        // Near walls only where it is asked for: the linear mud is cheaper and part of the constant matrices.
         let mut near_wall: Vec<[NearWall; 2]> = Vec::new();
         if mud.added_mass == AddedMass::Eccentric || mud.film == MudFilm::Squeeze {
             let of_sections: Vec<[NearWall; 2]> = d.pipe_sections.iter().map(|pipe| beyond(mud, d, pipe)).collect();
             near_wall = vec![[NearWall::default(); 2]; halves.len() + 1];
             for (e, half) in half_lengths.iter().enumerate() {
+                // The first station has none: stations are evaluated inside their spans and at their lower ends.
                 for station in near_wall[e..e + 2].iter_mut().skip(usize::from(e == 0)) {
                     for (to, of) in station.iter_mut().zip(&of_sections[e % d.elements_per_link]) {
                         to.mass += half * of.mass;
@@ -167,6 +170,7 @@ impl Mud {
                 }
             }
         }
+        // Each station has half of the element above and half of that below, the lumping of a mass to its nodes.
         let mut stations = vec![MudLump::default(); halves.len() + 1];
         for (e, half) in halves.iter().enumerate() {
             for station in &mut stations[e..e + 2] {

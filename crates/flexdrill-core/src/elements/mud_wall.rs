@@ -156,23 +156,30 @@ impl NearWall {
     #[inline]
     pub fn tangent(&self, at: &Motion, factors: &TangentFactors) -> Option<[[f64; 2]; 2]> {
         let Motion { d, v, a } = *at;
+        // A body in the centre has no direction away from it: the floor avoids
+        // a quotient of zeros, and below NEAR nothing is added.
         let away = (d[0] * d[0] + d[1] * d[1]).max(LEAST);
         let eccentricity = away * self.per_square;
         if eccentricity < NEAR || (self.mass == 0.0 && self.film == 0.0) {
             return None;
         }
+        // Closer than MOST rough surfaces touch, and the eccentricity is held.
         let (u, inside) = if eccentricity < MOST {
             (eccentricity, 1.0)
         } else {
             (MOST, 0.0)
         };
         let (closing, speed) = (d[0] * v[0] + d[1] * v[1], v[0] * v[0] + v[1] * v[1]);
+        // u, s and what follows are eps^2, s, phi and the coefficients at the head of this file.
         let s = (1.0 - u).sqrt();
         let sum = 1.0 + s;
         // By u: d u / d d = 2 d / w^2.
         let by_square = 2.0 * self.per_square;
+        // Where the eccentricity is held, its derivative is zero.
         let by = by_square * inside;
         let growth = 1.0 / (s * sum * sum);
+        // Beyond the bound phi levels out over BEYOND: a slope that ended at
+        // once would leave states for which no step has a solution.
         let beyond = (eccentricity - MOST).clamp(0.0, BEYOND);
         let slope = by_square * growth * (1.0 - beyond / BEYOND);
         let bent = if beyond == 0.0 {
@@ -182,12 +189,16 @@ impl NearWall {
         } else {
             0.0
         };
+        // The film's two coefficients, across and towards the wall, less
+        // their values in the centre, which the linear mud has.
         let (around, towards) = (2.0 / ((2.0 + u) * s) - 1.0, 1.0 / (s * s * s) - 1.0);
         let around_by = 1.0 / ((2.0 + u) * s * s * s) - 2.0 / ((2.0 + u) * (2.0 + u) * s);
         let towards_by = 1.5 / (s * s * s * s * s);
+        // The film's tensor is isotropic across plus an excess along the direction of the wall.
         let along = (towards - around) / away;
         let along_by = (towards_by - around_by) * by / away - 2.0 * along / away;
         let excess = (1.0 - s) / sum + growth * beyond * (1.0 - 0.5 * beyond / BEYOND);
+        // Column by column of the motion, with the factors of the scheme: mass, damping and stiffness in one matrix.
         let mut out = [[0.0; 2]; 2];
         for (column, out) in out.iter_mut().enumerate() {
             let other = |k: usize| f64::from(u8::from(k == column));

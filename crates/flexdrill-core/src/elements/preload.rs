@@ -69,9 +69,11 @@ impl Preload {
     /// Of an element of bending stiffness `bending` (N m2) and length `length` (m, the chord's) between two node frames
     /// that are turned by `turn` (rad) against each other, positive where the path builds.
     pub fn of(free: FreeCurvature, bending: f64, length: f64, turn: f64) -> Self {
+        // Half the turn on each side of the chord: the node frames stand symmetrically to it.
         let (path, cos) = (path_curvature(length, turn), libm::cos(0.5 * turn));
         let along = free.curvature * libm::cos(free.phase);
         let across = free.curvature * libm::sin(free.phase);
+        // The excess of the path's curvature over the free one bends the guide in the plane of the well.
         let (excess, turned) = (bending * (path - along), path * length);
 
         let mut force = ElementVector::zeros();
@@ -80,11 +82,13 @@ impl Preload {
                 force[at] += value;
             }
         };
+        // The couple at the ends is constant along the element, so it acts at the nodes only.
         add_force(PHI_Y, [excess, -excess]);
         let (sideways, half) = (bending * across, 0.5 * bending * across * turned);
         add_force(PHI_Z, [-sideways, sideways]);
         add_force(PSI, [-half, -half]);
 
+        // A preload turns with the guide: its second variation is a stiffness, which may be negative.
         let mut stiffness = ElementMatrix::zeros();
         // The second derivatives of factor x a x b, for two linear forms over the nodes.
         let mut add = |factor: f64, (at, a): ([usize; 2], [f64; 2]), (by, b): ([usize; 2], [f64; 2])| {
@@ -95,7 +99,9 @@ impl Preload {
                 }
             }
         };
+        // Means and differences of the two nodes are the modes in which the energy is written.
         let (mean, change) = ([0.5, 0.5], [-1.0, 1.0]);
+        // The terms of dU at the head of this file.
         add(excess * cos, (PHI_Z, change), (PSI, mean));
         add(-0.5 * excess * turned, (PSI, mean), (PSI, mean));
         add(-0.5 * excess * turned, (PHI_Z, mean), (PHI_Z, mean));

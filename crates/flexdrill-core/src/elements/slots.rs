@@ -75,12 +75,15 @@ impl Slots {
             path,
             free,
         } = *self;
+        // Slots are evaluated at the mean rotation, one point per element.
         let mean = |i: usize| 0.5 * (q[i] + q[3 + i]);
         let (psi, y, z) = (mean(0), mean(1), mean(2));
         let [mut a, mut b] = change_of_curvature(path, free, length, psi, [q[4] - q[1], q[5] - q[2]]);
+        // Second order in the tilts: the curvature is that of the turned section.
         a -= 0.5 * path * z * z;
         b += 0.5 * path * y * z;
         let k = libm::hypot(a, b);
+        // NaN is no closure; the step is rejected by its residual.
         if k <= close_at || k.is_nan() {
             return None;
         }
@@ -93,6 +96,7 @@ impl Slots {
             libm::sincos(psi + free.phase)
         };
         let per_length = 1.0 / length;
+        // Each curvature depends on the mean rotations and on the difference of the tilts.
         let by = |of_psi: f64, of_y: [f64; 2], of_z: [f64; 2]| [of_psi, of_y[0], of_z[0], of_psi, of_y[1], of_z[1]];
         let half = 0.5 * path;
         let a_by = by(
@@ -105,9 +109,11 @@ impl Slots {
             [0.5 * half * z, 0.5 * half * z],
             [0.5 * half * y - per_length, 0.5 * half * y + per_length],
         );
+        // The size of the curvature and its direction: the law acts along the size and carries the direction.
         let (along_a, along_b) = (a / k, b / k);
         let size: Rotations = std::array::from_fn(|i| along_a * a_by[i] + along_b * b_by[i]);
         let turn: Rotations = std::array::from_fn(|i| along_a * b_by[i] - along_b * a_by[i]);
+        // The additional moment begins at zero where the slots close, so that the force has no jump.
         let moment = stiffening * beyond * length;
         Some(Closed {
             energy: 0.5 * moment * beyond,

@@ -60,14 +60,17 @@ impl Model {
                 self.held.extend(directions.map(|&direction| node + direction as usize));
             }
         }
+        // A fixed guide holds all its unknowns at every station.
         if d.guide_fixed {
             for s in 0..self.stations.len() {
                 let node = self.stations[s].guide;
                 self.held.extend(node..node + 6);
             }
         }
+        // Supports may overlap; each unknown is held once.
         self.held.sort_unstable();
         self.held.dedup();
+        // The drive prescribes its spin: as a support it would be held at zero.
         if let Some(driven) = self.driven {
             self.held.retain(|&unknown| unknown != driven);
         }
@@ -83,6 +86,7 @@ impl Model {
         for mass in &d.masses {
             for unknown in self.nodes("masses", mass.location, mass.body, false)? {
                 let station = &self.stations[self.layout.station_of(unknown)];
+                // Gravity in the frame of the body's node, where its eccentricity is given.
                 let frame = match mass.body {
                     Body::Guide => station.frame,
                     Body::Pipe => station.frame * station.pipe_to_station,
@@ -101,6 +105,7 @@ impl Model {
                 });
             }
         }
+        // The inertia of the bit acts against its spin; it has no weight here.
         if d.bit.inertia > 0.0 {
             self.masses.push(ResolvedMass {
                 unknown: self.stations[self.last()].pipe_above,

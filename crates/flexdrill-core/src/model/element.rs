@@ -60,11 +60,13 @@ impl GuideElement {
     /// The element between two stations. Gamma of Eq. 8 rotates their frames into the chord's; the matrices follow by
     /// Eq. 9.
     pub(super) fn new(d: &ToolDescription, above: &Station, below: &Station) -> Self {
+        // The chord between the stations is the element's axis; frames of the nodes are tangents of the path.
         let span = below.position - above.position;
         let beam = Beam {
             section: SectionProperties::of(d.guide_section, d.material, d.guide_bending_factor),
             length: span.norm(),
         };
+        // Both node frames are turned against the chord, by Eq. 8.
         let frame = frame_along(span.normalize());
         let rotation = [above.frame, below.frame].map(|node| frame.transpose() * node);
         let mut gamma = ElementMatrix::zeros();
@@ -72,6 +74,7 @@ impl GuideElement {
             gamma.fixed_view_mut::<3, 3>(6 * n, 6 * n).copy_from(r);
             gamma.fixed_view_mut::<3, 3>(6 * n + 3, 6 * n + 3).copy_from(r);
         }
+        // The turn is the curvature of the path, which bends the chord's geometric stiffness.
         let turn = below.inclination - above.inclination;
         let curvature = chord_curvature(beam.length, turn);
         let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
@@ -84,6 +87,7 @@ impl GuideElement {
             preload: d
                 .guide_free_curvature
                 .map(|free| Preload::of(free, beam.section.bending, beam.length, turn)),
+            // Closed slots add to the stiffness of the slotted guide up to that of the whole tube.
             slots: d.guide_slots_close_at.map(|close_at| {
                 let path = path_curvature(beam.length, turn);
                 let whole = SectionProperties::of(d.guide_section, d.material, 1.0);

@@ -94,15 +94,18 @@ impl Model {
     /// # Errors
     /// See [`ToolDescription::validate`].
     pub fn new(description: &ToolDescription) -> Result<Self, ValidationError> {
+        // A description that is not valid would fail below, with an error that names no field.
         description.validate()?;
         let d = description;
         let per_link = d.elements_per_link;
         let last = d.links * per_link;
 
+        // The tie is an additional multiplier in the last station, which then has the size of a joint's.
         let tied = d.wob_path == WobPath::Shared;
         let is_joint = |station: usize| station > 0 && station < last && station.is_multiple_of(per_link);
         let layout = Layout::new((0..=last).map(|s| is_joint(s) || (s == last && tied)));
 
+        // The bore gives the frames of all stations; elements and joints are built in them.
         let bore = Bore::new(d);
         let stations: Vec<Station> = (0..=last)
             .map(|s| bore.station(d, s, is_joint(s), layout.offset(s)))
@@ -118,6 +121,7 @@ impl Model {
             .map(|k| Joint::new(&d.joint, k - 1, bore.link_frames[k - 1], bore.link_frames[k]))
             .collect::<Vec<_>>();
 
+        // Rows that no joint uses keep the blocks of one size, and are held by a one.
         let mut padding = Vec::new();
         let rows = 3 + Joint::constraints(&d.joint);
         for &s in &joint_stations {
@@ -139,6 +143,7 @@ impl Model {
             .iter()
             .map(|e| e.beam.section.bending / e.beam.length)
             .fold(0.0, f64::max);
+        // Supports, loads and masses refer to the finished numbering, so they are attached below.
         let mut model = Self {
             joints,
             joint_stations,
@@ -170,6 +175,7 @@ impl Model {
             stations,
             description: description.clone(),
         };
+        // In this order: the total weight is that of elements and attached masses, and places need the supports.
         model.add_weight();
         model.attach(description)?;
         model.total_weight = model.total_weight();

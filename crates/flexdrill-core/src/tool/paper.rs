@@ -32,6 +32,7 @@ impl ToolDescription {
             inner_diameter: 0.032,
         };
         let elements_per_link = 5;
+        // Printed by the paper: the well, five elements per link, eta and the bit. Everything else is assumed.
         Self {
             well: WellDescription {
                 start_inclination: 0.0,
@@ -57,6 +58,7 @@ impl ToolDescription {
             joint: JointDescription::new(JointKind::Universal, deg_to_rad(6.0)),
             shortening: Shortening::None,
             rayleigh: Rayleigh { alpha: 2.0, beta: 1e-4 },
+            // Contact stiffness and friction are assumed; `config/default.yaml` has the reasons.
             inner: GapDescription::new(1e7, 0.2),
             outer: GapDescription::new(2e7, 0.3),
             wall_friction_factors: WallFrictionFactors::ONE,

@@ -18,11 +18,13 @@ type Checked = Result<(), ValidationError>;
 
 impl ToolDescription {
     pub(super) fn validate_rig(&self) -> Checked {
+        // Each law has its own numbers; combinations with hoist and string follow.
         match &self.rock {
             RockLaw::Paper => {}
             RockLaw::Weakening(weakening) => weakening.validate("rock")?,
             RockLaw::DepthOfCut(cut) => cut.validate()?,
         }
+        // A hoist and a rock that holds the bit need each other: only together do they fix the weight.
         let hoist = self.string.as_ref().and_then(|string| string.hoist);
         let cuts = matches!(self.rock, RockLaw::DepthOfCut(_));
         require(
@@ -36,6 +38,7 @@ impl ToolDescription {
             "DepthOfCut gives the weight on bit as a result, so that the top of the tool must be able to move along the hole; \
              give string.hoist or another law",
         )?;
+        // Without a string nothing above is left to check.
         let Some(string) = &self.string else {
             return Ok(());
         };
@@ -45,6 +48,7 @@ impl ToolDescription {
             "string",
             "the string turns the first link; set drive_top to true or leave the string out",
         )?;
+        // Only the top matters: the hoist carries it, and a support would carry it as well.
         let holds_top = self.supports.iter().any(|support| {
             let at_top = matches!(support.location, Location::Top | Location::All | Location::Station(0));
             at_top && support.directions.contains(&Direction::U)

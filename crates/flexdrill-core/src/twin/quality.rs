@@ -208,8 +208,12 @@ impl QualityWatch {
             // Vibration is over within a block and cancels; loading goes on for several.
             sum.stored += block.stored.abs();
         }
+        // Errors are compared with what is dissipated; the floors keep a tool that rests or is loaded slowly from a
+        // division by nearly nothing.
         let dissipated = sum.dissipated.max(STILL * sum.duration).max(LOADED * sum.stored);
         let (error, numerical) = (sum.error / dissipated, sum.numerical / dissipated);
+        // Numerical damping counts from a part of the error on: less of it only
+        // removes what errors feed in, more damps the motion itself.
         let shares = |factor: f64| {
             [
                 (QualityCause::EnergyError, error, ENERGY_ERROR_BOUNDS),
@@ -224,12 +228,14 @@ impl QualityWatch {
                 ),
             ]
         };
+        // With hysteresis: a level is raised at its bounds and left below them.
         let reached = |factor: f64| {
             let levels = shares(factor).map(|(_, share, bounds)| QualityLevel::of(share, bounds, factor));
             levels.into_iter().max().unwrap_or_default()
         };
         let (raised, held) = (reached(1.0), reached(LEFT_BELOW));
         let level_before = self.quality.level;
+        // Worse counts at once, better only after it has lasted.
         let level = if raised >= level_before || held >= level_before {
             self.better = 0;
             raised.max(level_before)

@@ -77,14 +77,17 @@ impl Simulation {
         solver: SolverKind,
         instructions: Instructions,
     ) -> Result<Self, BuildError> {
+        // The factor scales tolerances only; the number of iterations is a setting.
         let tolerances = Tolerances {
             max_iterations: settings.max_iterations,
             ..Tolerances::default().times(settings.residual_factor)
         };
+        // All checks before the stepper is built, which takes seconds for a long tool.
         tool.validate().map_err(BuildError::Tool)?;
         settings
             .validate(tool.links * tool.elements_per_link)
             .map_err(BuildError::Settings)?;
+        // The string's waves set a bound on the step that only both together show.
         if let Some(string) = &tool.string {
             string.validate_step(settings.time_step).map_err(BuildError::Settings)?;
         }
@@ -100,11 +103,14 @@ impl Simulation {
             },
         )
         .map_err(BuildError::Tool)?;
+        // Under gravity and load the tool needs seconds of model time to
+        // come to rest; the static start finds that directly.
         let start = if tool.static_start {
             stepper.settle(&settings.initial_inputs)?
         } else {
             stepper.start_as_given(&settings.initial_inputs, settings.time_step)?
         };
+        // The observer takes its sizes and depths from the tool as built.
         let observer = Observer::new(&stepper, settings);
         let mut simulation = Self {
             settings: settings.clone(),
@@ -114,8 +120,10 @@ impl Simulation {
             observer,
             step: 0,
             #[cfg(feature = "checkpoints")]
+            // A checkpoint is only accepted by the same tool and settings.
             identity: Identity::of(tool, settings)?,
         };
+        // `reset` brings everything to the start, so that a first run and one after a reset are the same to the bit.
         simulation.reset();
         Ok(simulation)
     }
@@ -149,12 +157,16 @@ impl Simulation {
     /// Advances by one step of [`SimulationSettings::time_step`] towards `inputs`, as fast as the slew limits allow.
     /// When the step fails, or an input is out of [`Inputs::bounds`], nothing changes but the counters.
     pub fn advance(&mut self, inputs: &Inputs) -> StepOutcome {
+        // Checked in every step, because callers may pass any numbers; the
+        // state must not be touched by one that is out of bounds.
         if let Some(kind) = inputs.out_of_bounds() {
             return StepOutcome::Failed(self.stepper.refuse_input(kind, inputs.get(kind)));
         }
         let dt = self.settings.time_step;
+        // The model never sees a jump: inputs approach their targets by the slew limits.
         let (before, settings) = (self.applied.inputs(), &self.settings);
         let slew = settings.weight_on_bit_slew * dt;
+        // A weight that is set at the kick-off is reached there by way of the weight at the bit.
         let weight_set = towards(self.applied.weight_set, inputs.weight_on_bit, slew);
         let after = Inputs {
             rotary_speed: towards(
@@ -174,10 +186,12 @@ impl Simulation {
                 settings.standpipe_pressure_slew * dt,
             ),
         };
+        // Inputs change linearly within the step, so that parts of it have their own share.
         let forcing = Forcing::between(&before, &after);
         self.stepper.stopwatch().start();
         let outcome = self.stepper.advance(dt, &forcing);
         self.stepper.stopwatch().lap(Phase::Other);
+        // Only a step that was taken counts: after a failure all statistics remain those of the last good state.
         if let StepOutcome::Advanced { iterations, .. } = outcome {
             self.step += 1;
             self.applied = Applied {

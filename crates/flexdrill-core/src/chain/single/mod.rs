@@ -141,6 +141,7 @@ impl SingleElimination<'_> {
     /// squares of its multipliers.
     #[inline(always)]
     fn assemble<S: Single>(&mut self, k: usize, last: bool, a: &mut [Column; NODE]) -> (Inverse<S>, S) {
+        // The step-constant block is shared by all nodes alike, and must be copied before anything is added.
         let single = &self.operator.single;
         let zero = S::splat(0.0);
         let mut inverse = Inverse::start();
@@ -380,6 +381,8 @@ impl SingleElimination<'_> {
                 self.carry::<S>(k, &mut carry);
             }
         }
+        // The solutions are judged before they are used: all multipliers,
+        // and the last node for numbers that are not finite.
         let (values, _) = self.values.as_chunks_mut::<NODE>();
         let mut lanes = Aligned([0.0; NODE]);
         squares.store(&mut lanes);
@@ -388,6 +391,7 @@ impl SingleElimination<'_> {
         if !(lanes.iter().all(|square| *square < LARGEST_SQUARE) && last.iter().all(|x| x.is_finite())) {
             return None;
         }
+        // Upwards, as in double, with the rounded columns.
         let mut next = S::load(last);
         store_solution(next, &mut values[window.last], self.nodes[window.last]);
         for k in (window.first..window.last).rev() {

@@ -167,6 +167,7 @@ impl EnergyPoint {
     }
 
     /// Takes another point's values without allocating.
+    // Arrays first: slices of the same length are copied without allocating, which `clone` would.
     pub fn copy_from(&mut self, other: &Self) {
         self.friction.copy_from_slice(&other.friction);
         self.geometric.copy_from_slice(&other.geometric);
@@ -181,6 +182,7 @@ impl EnergyPoint {
         self.reactions.copy_from_slice(&other.reactions);
         self.joint_friction.copy_from_slice(&other.joint_friction);
         self.joint_moments.copy_from_slice(&other.joint_moments);
+        // By a pattern, because `*other` as a whole would take its arrays.
         let Self {
             stored,
             kinetic,
@@ -250,6 +252,7 @@ impl EnergyPoint {
         residual: &[f64],
     ) {
         let Numbered { model, places, .. } = *numbered;
+        // Stops and plays store elastic energy and dissipate as contacts do.
         for stop in interactions.joints.stops() {
             stored += stop.energy;
             self.contact_dissipation += stop.dissipation;
@@ -263,6 +266,8 @@ impl EnergyPoint {
             .iter_mut()
             .zip(&mut self.joint_moments)
             .zip(&places.joints);
+        // Each pin's friction acts on the rotations of both its links; its
+        // moments are kept for the work of the joint alone.
         for (((power, kept), joint), (moments, taken)) in of_joints.zip(interactions.joints.frictions()) {
             (*power, *kept) = (taken, moments);
             let rotations = (joint.above..joint.above + 3).chain(joint.below..joint.below + 3);
@@ -270,22 +275,28 @@ impl EnergyPoint {
                 .zip(moments)
                 .for_each(|(place, moment)| self.friction[place] += moment);
         }
+        // Loads depend on time only, and are evaluated at the time of this point.
         for (value, load) in self.loads.iter_mut().zip(&model.loads) {
             *value = load.load.history.at(conditions.time);
         }
+        // At a support the residual is its reaction; a support inside a span has none here, see the chain's energy.
         for (reaction, held) in self.reactions.iter_mut().zip(&places.held) {
             *reaction = held.map_or(0.0, |held| residual[held]);
         }
+        // Bristles of the contacts and of the bit are springs: what they hold is stored, not lost.
         self.bristles =
             interactions.inner.bristle_energy(&conditions.inner) + interactions.outer.bristle_energy(&conditions.outer);
         self.bit_elastic = interactions.bit.elastic;
         self.stored = stored + self.bristles + self.bit_elastic;
+        // The wall moves past the guide by the advance. Without one the
+        // sum must be exactly zero, and not a rounding of it.
         self.feed = if conditions.rate_of_penetration == 0.0 {
             0.0
         } else {
             let along = interactions.outer.iter().map(|(_, touch)| touch.axial);
             -conditions.rate_of_penetration * along.sum::<f64>()
         };
+        // At the driven spin the residual is the drive's torque. A string computes its own.
         let at_the_tool = places.driven.map_or(0.0, |driven| residual[driven]);
         self.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);
         self.bit_torque = interactions.bit.torque;

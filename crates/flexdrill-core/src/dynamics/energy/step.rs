@@ -83,10 +83,12 @@ impl EnergyAudit {
             before: (s0, e0),
             after: (s1, e1),
         } = *ends;
+        // Works by the trapezoid rule over the displacement: exact for forces that are linear in the step.
         let [friction, gravity] = instructions.run(MeanWorks {
             moved,
             forces: [[&e0.friction, &e1.friction], [weight, weight]],
         });
+        // A tool without mud has no such vector, and its audit no term for it.
         if !e0.mud.is_empty() {
             let [work] = instructions.run(MeanWorks {
                 moved,
@@ -114,7 +116,9 @@ impl EnergyAudit {
             geometric_work += nodal[2];
         }
         let (error_before, foresight_before) = (self.error, self.axial_foresight);
+        // All works of scalars use the same mean, so that the balance is one rule.
         let mean = |a: f64, b: f64| 0.5 * (a + b);
+        // Below a string the drive works on the string's top, and hoist and string have their own parts.
         if let Some(driven) = places.driven {
             self.drive += mean(e0.drive_torque, e1.drive_torque) * moved[driven];
         } else if model.description.string.is_some() {
@@ -126,6 +130,7 @@ impl EnergyAudit {
             self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * advanced;
             self.feed += h * mean(e0.advance_power, e1.advance_power);
         }
+        // The weight on bit is an input at the guide's end, or the rock's answer; either works on that displacement.
         self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[places.guide_end];
         // What the twist of a bit that sticks takes it gives back.
         let twisted = e1.bit_elastic - e0.bit_elastic;
@@ -152,8 +157,10 @@ impl EnergyAudit {
                 .map(|(at, (m0, m1))| moved[at] * (m0 + m1));
             self.joint_friction -= 0.5 * work.sum::<f64>();
         }
+        // Powers are integrated over time, forces over displacement: contact damping is known as a power.
         self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
         self.gravity += gravity;
+        // An eccentric mass falls with its node and by its turning.
         for (point, places) in model.masses.iter().zip(&places.masses) {
             let (before, after) = (motion(s0, places), motion(s1, places));
             let (r0, r1) = (
@@ -169,12 +176,14 @@ impl EnergyAudit {
         self.axial_update += (e1.geometric_energy - e0.geometric_energy) - geometric_work;
         self.axial_foresight += h * mean(e0.foresight, e1.foresight);
         self.stored += e1.stored - e0.stored;
+        // All terms are sums since the start, and so is the error.
         let worked_in =
             self.drive + self.weight_on_bit + self.gravity + self.loads + self.feed + self.axial_update + self.pressure;
         let worked_in = worked_in + self.hoist;
         let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;
         let taken = taken + self.string + self.mud;
         self.error = worked_in - taken - self.stored;
+        // The axial force that is foreseen works by intention and is no error of the laws.
         let foresight = self.axial_foresight - foresight_before;
         self.against_laws += (self.error - error_before - foresight).abs();
     }

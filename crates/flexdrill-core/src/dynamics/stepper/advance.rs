@@ -51,6 +51,7 @@ impl Stepper {
     /// Advances by `h` (s) under `forcing`, in the parts of [`Stepper::set_refinement`]. A sub-step that does not converge
     /// is halved and retried; when the smallest one fails, the state stays that before the step.
     pub fn advance(&mut self, h: f64, forcing: &Forcing) -> StepOutcome {
+        // Parts of a step are tangents and operators of their own step sizes, made before they are needed.
         self.prepare(h);
         let whole = WholeStep {
             h,
@@ -60,10 +61,12 @@ impl Stepper {
         };
         let audit_before = self.audit;
         let mut sub_steps = SubSteps::new(self.max_halvings, self.refinement);
+        // With parts, a later one may fail after an earlier one was accepted, so the state before the step is kept.
         if self.refinement > 0 {
             self.keep();
         }
         let mut iterations = 0;
+        // Parts are halved on failure and joined again where the time allows; their order is that of time.
         while let Some(part) = sub_steps.part() {
             match self.sub_step(&whole, part) {
                 Ok(made) => {
@@ -74,6 +77,7 @@ impl Stepper {
                     iterations: made,
                     failure,
                 }) => {
+                    // Corrections of rejected parts count as cost, too.
                     iterations += made;
                     self.counters.rejected += 1;
                     self.counters.last_rejection = Some(failure);
@@ -81,6 +85,8 @@ impl Stepper {
                         // Nothing has changed yet. From here on a later part may fail after an earlier one was taken.
                         self.keep();
                     }
+                    // The smallest part has failed: state and audit return to the
+                    // step's beginning, as if it had not been tried.
                     if !sub_steps.reject() {
                         self.retreat();
                         self.audit = audit_before;
@@ -92,6 +98,7 @@ impl Stepper {
             }
         }
         let deepest = sub_steps.deepest();
+        // Angles are reduced by whole turns after the step, so that their rounding does not grow with the run.
         self.unwind();
         self.view_is_current = false;
         self.inputs = forcing.end();
@@ -126,9 +133,12 @@ impl Stepper {
 
     /// The sub-step between two parts (0 to 1) of a whole step.
     fn sub_step(&mut self, whole: &WholeStep, (from, to): (f64, f64)) -> Result<u32, Rejected> {
+        // Conditions at the end of the part: the scheme is implicit.
         let mut conditions = self.conditions(whole.time + whole.h * to, &whole.forcing.at(to));
         conditions.drive_angle = whole.drive_angle_at(to);
         let step = whole.h * (to - from);
+        // The string is advanced first. Its waves take longer than a step, so
+        // that its answer does not depend on the tool's end of it.
         if let Some(string) = &mut self.string {
             let [speed_0, speed_1] = whole.forcing.rotary_speed;
             let speed = speed_0 + (speed_1 - speed_0) * to;
@@ -141,6 +151,7 @@ impl Stepper {
             );
             apply_string(&mut conditions, &at, self.track.state.drive_angle);
         }
+        // A sub-step has its own foresight: axial forces are extrapolated over it.
         let stride = Stride {
             scheme: self.scheme,
             h: step,
@@ -173,12 +184,15 @@ impl Stepper {
             interactions,
             stopwatch,
         };
+        // On failure nothing of the track has been taken, and the caller halves.
         let iterations = newton::step(&mut equations, &stride, &conditions, from, to)?;
         equations.interactions.keep_bristles(to);
         equations.energy(energy, to, &conditions);
+        // The works of the audit are over these displacements.
         track.measure_displacements();
         let spans = chain.span_works(&track.moved, &track.energy.spans, &track.trial_energy.spans);
         let numbered = chain.model.numbered(model);
+        // From here on the part is accepted: bit and string take over their trial states.
         interactions.bit.accept();
         if let Some(string) = string {
             let (trial, places) = (&track.trial, numbered.places);
@@ -186,6 +200,7 @@ impl Stepper {
             string.accept(trial.v[places.top_spin], [trial.q[top], trial.v[top]]);
             track.trial_energy.add_string(string);
         }
+        // The audit compares the ends of the part with their forces.
         let ends = StepEnds {
             h: step,
             moved: &track.moved,

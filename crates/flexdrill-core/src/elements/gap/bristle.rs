@@ -103,6 +103,7 @@ impl Friction {
             let scaled = [0, 1].map(|k| trial[k] * kept[k] / mu[k]);
             (scaled[0] * scaled[0] + scaled[1] * scaled[1]).sqrt()
         };
+        // Within the ellipse the contact sticks, and the trial force is the force.
         if length([1.0; 2]) <= normal {
             return Self {
                 force: trial,
@@ -127,8 +128,11 @@ impl Friction {
                 .sum();
             lambda += excess * now * now / fall;
         }
+        // Outside, the closest point of the ellipse: the force with the most dissipation.
         let kept = parts(lambda);
         let force = [0, 1].map(|k| trial[k] * kept[k]);
+        // The tangent follows from the condition of the ellipse; along the
+        // gradient it is zero, because the size is fixed there.
         let slope = [0, 1].map(|k| force[k] / square[k]);
         let gradient = [0, 1].map(|k| kept[k] * slope[k]);
         let over = 1.0 / (gradient[0] * slope[0] + gradient[1] * slope[1]);
@@ -170,6 +174,7 @@ impl Bristles {
         touches: &mut Touch<Lane>,
         travel: &[Lane; 8],
     ) {
+        // The tangent is by travel and not by velocity, which the factors of the scheme must know.
         touches.by_travel = true;
         let stiffness = law.bristle_stiffness;
         for (lane, station) in stations.enumerate() {
@@ -178,10 +183,12 @@ impl Bristles {
             let [x, y, z, psi, phi_y, phi_z, ..] = *travel[lane];
             let sliding = Sliding::of(&touch, &[x, y, z, psi, phi_y, phi_z]);
             touch.sliding_by = sliding.by;
+            // The force of the step before, less what the travel stretches the bristles by.
             let trial = [
                 held[0] - stiffness * sliding.around,
                 held[1] - stiffness * sliding.along,
             ];
+            // Without a step nothing slips: the start evaluates forces that are to be held.
             let friction = if self.step > 0.0 {
                 Friction::next_to(trial, law.friction(factors[lane]), touch.normal)
             } else {
@@ -204,6 +211,7 @@ impl Bristles {
                     .into_iter()
                     .zip([around, along].into_iter().zip(friction.by_normal)),
             ) {
+                // The share of the normal force enters with the other sign, as the slope of friction against sliding.
                 (slip.speed, slip.slope, slip.friction) = (speed, slope, -share);
             }
             // Slip is what the travel leaves after the change of the elastic slip.

@@ -193,6 +193,7 @@ impl LayerContacts {
         } else {
             &mut self.touches[waiting[0] / 8]
         };
+        // Press before friction: the normal force is the scale of the friction.
         match law.surface.friction_law {
             FrictionLaw::Separate => {
                 separate::rub(law, &mut touch, sliding, factor);
@@ -205,11 +206,13 @@ impl LayerContacts {
                 touch.coupling.store(&mut lanes.coupling);
                 self.vector_memory.follow(law, stations, &self.factor, lanes);
             }
+            // The bristles work by station, as each has its own memory.
             FrictionLaw::Bristle => {
                 touch.store(lanes);
                 self.bristles.rub(law, stations, &self.factor, lanes, &self.travels);
             }
         }
+        // A partial evaluation has its lanes from anywhere; they return to their slots.
         if self.partial {
             for (lane, &slot) in waiting.iter().enumerate() {
                 self.touches[slot / 8].set_lane(slot % 8, &self.scattered.lane(lane));

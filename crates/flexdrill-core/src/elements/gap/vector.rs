@@ -106,15 +106,18 @@ impl VectorMemory {
         touches: &mut Touch<Lane>,
     ) {
         for (lane, station) in stations.enumerate() {
+            // Each station has its factor of friction, by the interval of the hole.
             let mu = law.friction(factors[lane]);
             let width = width(law, mu);
             let slips = touches.slip.map(|slip| slip.lane(lane));
             let contact = &mut self.contacts[station];
+            // Scaled by the coefficients the ellipse is a circle, and all directions are alike.
             let scaled = [0, 1].map(|k| mu[k] * slips[k].speed);
             let length = (scaled[0] * scaled[0] + scaled[1] * scaled[1]).sqrt();
             let over = 1.0 / (length * length + width * width).sqrt();
             let share = scaled.map(|x| x * over);
             let (mut expected, mut crossed) = (share, false);
+            // Only an evaluation of the same step is a prediction: the memory of an earlier one is of another motion.
             if contact.step == self.step {
                 let moved = [scaled[0] - contact.scaled[0], scaled[1] - contact.scaled[1]];
                 let [a, b, c] = contact.slope;
@@ -122,6 +125,7 @@ impl VectorMemory {
                     contact.share[0] + a * moved[0] + b * moved[1],
                     contact.share[1] + b * moved[0] + c * moved[1],
                 ];
+                // The expected force cannot exceed the circle.
                 let most = (expected[0] * expected[0] + expected[1] * expected[1]).sqrt().max(1.0);
                 expected = expected.map(|x| x / most);
                 // Within the width the law is so nearly linear that Newton's own slope converges.
@@ -135,6 +139,7 @@ impl VectorMemory {
                 -0.5 * over * (by[0] * share[1] + by[1] * share[0]),
                 over * (1.0 - by[1] * share[1]),
             ];
+            // Once a contact has crossed in a step, the secant holds to its end: alternating slopes would circle.
             if crossed {
                 touches.slip[0].slope[lane] = mu[0] * mu[0] * slope[0];
                 touches.coupling[lane] = mu[0] * mu[1] * slope[1];

@@ -44,6 +44,7 @@ impl<M> JointLaw<M> {
         let mut turning = T::of(0.0);
         for (gradient, &rate) in row.gradient.iter().zip(rate) {
             turning = turning.plus_product(T::load(gradient), rate);
+            // From here on in the angle of the joint, whatever the row's own scale.
         }
         let angle = T::load(&row.value) * T::of(scale);
         let rate = turning * T::of(scale);
@@ -51,6 +52,7 @@ impl<M> JointLaw<M> {
         // How far beyond the play, and how fast it goes on.
         let over = angle.map(|g| (g.abs() - half).max(0.0));
         let closing = angle.zip(rate, |g, rate| if g < 0.0 { -rate } else { rate });
+        // Contact pushes and never pulls: with damping it would pull while it opens fast.
         let pushes = |over: f64, closing: f64| over > 0.0 && 1.0 + c * closing > 0.0;
         let torque = over.zip(closing, |over, closing| {
             if pushes(over, closing) {
@@ -59,9 +61,11 @@ impl<M> JointLaw<M> {
                 0.0
             }
         });
+        // The multiplier of the row, in the row's scale.
         torque
             .zip(angle, |torque, g| scale * torque.copysign(g))
             .store(&mut out.multiplier);
+        // Stiffness and damping are the derivatives of the torque, of the row by the row.
         let square = scale * scale * k;
         over.zip(closing, |over, closing| {
             if pushes(over, closing) {

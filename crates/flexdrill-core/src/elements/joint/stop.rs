@@ -63,6 +63,7 @@ impl<M> JointLaw<M> {
     /// which is the usual case, `stop` stays unchanged.
     #[inline(always)]
     pub fn stop<T: Number<Memory = M>>(&self, q: &[T; 6], rate: &[T; 6], stop: &mut Stop<M>) -> bool {
+        // Both shafts are compared in the frame of the upper link.
         let relative = self.relative::<T>();
         let upper = shaft_direction(q[1], q[2]);
         let below = shaft_direction(q[4], q[5]);
@@ -80,8 +81,10 @@ impl<M> JointLaw<M> {
             upper[2] * lower[0] - upper[0] * lower[2],
             upper[0] * lower[1] - upper[1] * lower[0],
         ];
+        // Sine and cosine together: near the limit neither alone gives the angle with all its digits.
         let sine = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).root();
         let over = self.angle_past_limit(sine, cosine);
+        // Lanes whose stop is open have no spring, and their inverse is zero, so that nothing of theirs is stored.
         let (k, c) = (self.stop_stiffness, self.stop_damping);
         let spring = over.map(|over| if over > 0.0 { k * over } else { 0.0 });
         let inverse = sine.zip(over, |sine, over| if over > 0.0 { 1.0 / sine } else { 0.0 });

@@ -84,6 +84,7 @@ impl Bristle {
     /// The torque once a bit of `radius` (m) is at `angle` (rad), a `step` (s) later, with at most the torques `ahead` and `back`
     /// (N m, >= 0). Without a step the torque stays.
     pub(super) fn turned(&self, radius: f64, step: f64, angle: f64, [ahead, back]: [f64; 2]) -> Held {
+        // Without a step the bit neither turns nor relaxes.
         if step <= 0.0 {
             return Held {
                 bristle: *self,
@@ -91,10 +92,12 @@ impl Bristle {
             };
         }
         let stiffness = Self::stiffness(radius);
+        // The damper by Euler's backward rule, its constant over the step.
         let damping = stiffness * RELAXATION / step;
         let twist = angle - self.root;
         let trial = stiffness * twist + damping * (twist - self.twist);
         let by_angle = stiffness + damping;
+        // Ahead the rock resists with cutters and wear flats, back with the wear flats alone.
         let (torque, slips) = if trial > ahead {
             (ahead, 1)
         } else if trial < -back {
@@ -102,6 +105,7 @@ impl Bristle {
         } else {
             (trial, 0)
         };
+        // Within the limits the twist is elastic, root unchanged.
         if slips == 0 {
             return Held {
                 bristle: Self {
@@ -114,6 +118,7 @@ impl Bristle {
                 secant: by_angle,
             };
         }
+        // Slipping, the torque is known. The twist follows from it, and the root moves along.
         let twist = (torque + damping * self.twist) / by_angle;
         Held {
             bristle: Self {
@@ -123,6 +128,8 @@ impl Bristle {
             },
             by_angle: 0.0,
             slips,
+            // The secant instead of a slope of zero: Newton's next
+            // correction would otherwise leave the torque as it is.
             secant: by_angle * (torque / trial).clamp(0.0, 1.0),
         }
     }

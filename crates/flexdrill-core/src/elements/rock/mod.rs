@@ -111,6 +111,7 @@ impl DepthOfCut {
     /// to 1) of the cutters' faces in the rock.
     pub fn answer(&self, radius: f64, depth: f64, angle: f64, groove: &Groove, share: f64) -> Answer {
         let (path, slope) = groove.path(angle);
+        // The faces cut by the depth below the groove; energy per volume times radius is the force of that depth.
         let (blades, cutting) = (f64::from(self.blades), self.specific_energy * radius);
         let cuts = depth > path;
         let depth_of_cut = if cuts { share * blades * (depth - path) } else { 0.0 };
@@ -129,6 +130,7 @@ impl DepthOfCut {
         let bears = compressed > 0.0;
         let flat = if bears { stiffness * compressed } else { 0.0 };
         let flat_slope = if bears && !yields { stiffness } else { 0.0 };
+        // Slopes by depth and angle, the groove's own slope included: the path ahead rises and falls.
         let by_depth = if cuts { share * blades * cutting } else { 0.0 };
         let by_angle = -by_depth * slope;
         // A bit without wear flats stands on its cutters in either sense.
@@ -137,6 +139,7 @@ impl DepthOfCut {
         } else {
             (blades * (depth - path), blades * cutting)
         };
+        // The torque acts at half the radius on average over the face.
         Answer {
             torque: 0.5 * cutting * radius * depth_of_cut,
             torque_by: [0.5 * radius * by_depth, 0.5 * radius * by_angle],

@@ -275,6 +275,7 @@ impl StringLine {
             time: at,
             ..
         } = self;
+        // Everything is computed from the accepted state, so that a part of the step may be tried again.
         *at = time;
         stuck.copy_from_slice(&state.stuck);
         *ends = state.ends;
@@ -283,6 +284,7 @@ impl StringLine {
         let pieces = &description.pieces;
         // Waves that leave the pieces now. They are kept in the row until the ends' waves take their places: what leaves
         // downwards in the place of what comes up next, and the other way round.
+        // Without a hoist the axial wave is left out: the weight is an input.
         let kinds = if description.hoist.is_some() { 2 } else { 1 };
         for (k, (piece, history)) in pieces.iter().zip(&state.histories).enumerate() {
             for (kind, wave) in [piece.torsion, piece.axial].into_iter().enumerate().take(kinds) {
@@ -295,10 +297,12 @@ impl StringLine {
                 row[down(k, kind)] = g;
             }
         }
+        // The drive turns the top of the first piece: it takes the wave that rises and sends one down.
         let torsion = pieces[0].torsion.impedance;
         let rising = row[down(0, 0)];
         ends.drive = description.drive.step(&state.ends.drive, h, speed, rising, torsion);
         row[down(0, 0)] = ends.drive.speed - rising;
+        // The hoist does the same along the string.
         if let Some(hoist) = description.hoist {
             let (stiffness, impedance) = (description.axial_stiffness(), pieces[0].axial.impedance);
             let mut next = hoist.step(&state.ends.hoist, h, stiffness, [weight, rate], state.ends.top);
@@ -306,6 +310,7 @@ impl StringLine {
             ends.hoist = next;
             ends.hoist_work += hoist.work(&state.ends.hoist, &ends.hoist, h);
         }
+        // At each joint of two pieces both waves arrive, and the joint moves as the impedances share them.
         for k in 0..pieces.len() - 1 {
             let (above, below) = (&pieces[k], &pieces[k + 1]);
             let sums = [
@@ -317,13 +322,16 @@ impl StringLine {
                 held(0, [above.torsion.impedance, below.torsion.impedance]),
                 held(1, [above.axial.impedance, below.axial.impedance]),
             ];
+            // The loss acts on the difference to a body that follows, so that a steady motion loses nothing.
             let (drags, taken_along) = ([above.torsion.drag, above.axial.drag], state.following[k]);
             for kind in 0..2 {
                 held[kind] += drags[kind] * taken_along[kind];
             }
+            // Without a hoist nothing moves along the string.
             if kinds == 1 {
                 held[1] = 0.0;
             }
+            // Friction may hold the joint: then its speed is zero in both directions.
             let motion = match above.friction {
                 Some(friction) => {
                     let motion = friction.motion(held, sums, stuck[k]);
@@ -351,8 +359,10 @@ impl StringLine {
             }
         }
         let last = pieces.len() - 1;
+        // Works by the trapezoid rule of powers, like all of the audit's.
         ends.friction += 0.5 * h * (state.ends.powers[0] + ends.powers[0]);
         ends.mud += 0.5 * h * (state.ends.powers[1] + ends.powers[1]);
+        // What arrives at the tool: an impedance and a wave, to which the tool's end adds its own motion.
         StringStep {
             torsion: [pieces[last].torsion.impedance, row[up(last, 0)]],
             axial: description

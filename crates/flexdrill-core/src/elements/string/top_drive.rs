@@ -66,7 +66,9 @@ impl TopDrive {
     /// The drive a step `h` (s) later, by the trapezoid rule: `asked` is the speed asked for (rad/s) and `arriving` the wave
     /// from below (rad/s) at the end of the step, `impedance` that of the string (N m s).
     pub fn step(&self, from: &DriveState, h: f64, asked: f64, arriving: f64, impedance: f64) -> DriveState {
+        // The string answers the drive by its impedance and the wave that has arrived.
         let load_at = |speed: f64| impedance * (speed - 2.0 * arriving);
+        // A rigid drive has the speed that is asked for, whatever the torque.
         let Self::Controlled(controller) = self else {
             let load = load_at(asked);
             return DriveState {
@@ -88,6 +90,7 @@ impl TopDrive {
             let pushed = inertia * from.speed + 0.5 * h * (from.torque - from.load + base + 2.0 * impedance * arriving);
             pushed / (inertia + 0.5 * h * (gain + impedance))
         };
+        // The integral at the end of the step depends on the speed at its end, so both are solved together.
         let half = 0.5 * h * integral;
         let held = integral * from.missing;
         let base = held + half * (from.asked - from.speed + asked) + proportional * asked;
@@ -95,6 +98,7 @@ impl TopDrive {
         let speed = speed_under(base, gain);
         let torque = base - gain * speed;
         let missing = from.missing + 0.5 * h * (from.asked - from.speed + asked - speed);
+        // Within the limit the solution stands.
         if torque.abs() <= torque_limit {
             return DriveState {
                 speed,

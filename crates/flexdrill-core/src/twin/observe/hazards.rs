@@ -8,6 +8,7 @@ use flexdrill_motion::{Hazard, HazardKind, Hazards, LoadLevel, LoadWatch, ToolLo
 impl Observer {
     /// Every hazard at model time `time` (s), with its worst location.
     pub(super) fn hazards(&self, model: &Model, time: f64) -> Hazards {
+        // A location is looked up where a hazard has one; a station out of range has none instead of another's.
         let place = |station: usize, body: Body| {
             model.stations.get(station).map(|at| ToolLocation {
                 station,
@@ -16,7 +17,9 @@ impl Observer {
                 inclination: at.inclination,
             })
         };
+        // Each level is taken once for all its fields.
         let (shock, chaotic) = (self.shock.level(), self.chaotic_whirl.level());
+        // Transfer has no location: it is a property of the whole tool.
         let transfer = |kind: HazardKind, level: TransferLevel| Hazard {
             severity: level.severity,
             value: level.value,
@@ -26,6 +29,7 @@ impl Observer {
             hold: level.hold,
             ..Hazard::calm(kind)
         };
+        // Loads are optional: without a rating the hazard is calm and has no figure.
         let load = |kind: HazardKind, watch: &Option<LoadWatch>, body: Body| {
             let Some(watch) = watch else {
                 return Hazard::calm(kind);
@@ -50,6 +54,7 @@ impl Observer {
             }
         };
         let (joint_load, joint_settings) = (self.joint_load.level(), self.joint_load.settings());
+        // The list is by kind, complete: a kind without a level would be an alarm that can never stand.
         let list = HazardKind::ALL.map(|kind| match kind {
             HazardKind::BackwardWhirl => self.whirl.backward(),
             HazardKind::ForwardWhirl => self.whirl.forward(),
@@ -64,6 +69,7 @@ impl Observer {
                 hold: shock.hold,
                 ..Hazard::calm(kind)
             },
+            // Stick-slip is one motion of the whole string, so that it has no location either.
             HazardKind::StickSlip => {
                 let (severity, (worst, seen)) = (self.stick_slip.severity(), self.stick_slip.worst());
                 Hazard {
@@ -77,6 +83,7 @@ impl Observer {
                     ..Hazard::calm(kind)
                 }
             }
+            // Joints are counted by the watch; the location needs the station.
             HazardKind::JointLoad => Hazard {
                 severity: joint_load.severity,
                 place: model
@@ -108,6 +115,7 @@ impl Observer {
         });
         Hazards {
             list,
+            // The drive's state says whether any of these are judged.
             drive: self.whirl.drive(),
         }
     }

@@ -55,6 +55,7 @@ pub(super) struct Observer {
 impl Observer {
     pub(super) fn new(stepper: &Stepper, settings: &SimulationSettings) -> Self {
         let model = stepper.model();
+        // By default all joints are watched, pipe and guide: whirl is judged where the pipe is supported.
         let watched: Vec<(usize, Body)> = if settings.watched.is_empty() {
             model
                 .joint_stations
@@ -64,6 +65,7 @@ impl Observer {
         } else {
             settings.watched.clone()
         };
+        // The whirl analysis takes every so many steps a sample, as a motion of a few hertz needs no more.
         let decimation = settings.whirl_sample_steps();
         let described = watched
             .iter()
@@ -76,6 +78,7 @@ impl Observer {
             tangential: RootMeanSquare::default(),
             axial: RootMeanSquare::default(),
             lateral: RootMeanSquare::default(),
+            // The windows of stick-slip must be longer than a swing of the string, which its length decides.
             stick_slip: StickSlip::new(for_string(settings.stick_slip, stepper)),
             shock: ShockWatch::new(&settings.shock, stations),
             joint_load: JointLoadWatch::new(&settings.joint_load, model.joints.len()),
@@ -87,6 +90,7 @@ impl Observer {
             transfer: TransferWatch::new(&settings.transfer, hoist_response(stepper)),
             hole_depth: stepper.bit_depth(),
             bit: Means::default(),
+            // A guide as curved as the hole has no preload, whatever the settings say.
             guide_preload: (settings
                 .guide_preload
                 .filter(|_| model.description.guide_free_curvature.is_some()))
@@ -95,8 +99,10 @@ impl Observer {
                 .map(|load| LoadWatch::new(&load, model.pipe.len())),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),
+            // The choice of the step is bounded by what the chain can be refined to.
             quality: QualityWatch::new(settings.step, stepper.finest_refinement()),
             input_trust: 1.0,
+            // One sample per watched station is reused, since nothing may allocate in a step.
             samples: vec![StationSample::default(); watched.len()],
             watched,
             decimation,

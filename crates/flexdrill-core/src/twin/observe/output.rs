@@ -12,6 +12,7 @@ use crate::twin::snapshot::{Bit, ContactLayer, Contacts, Joints, Shape, Snapshot
 impl Observer {
     /// A snapshot with all arrays at their size.
     pub(in crate::twin) fn new_snapshot(&self, model: &Model) -> Snapshot {
+        // All vectors get their size here; filling a snapshot later allocates nothing.
         let joints = || vec![0.0; model.joints.len()];
         let stations = || vec![0.0; model.stations.len()];
         let layer = || ContactLayer {
@@ -23,6 +24,7 @@ impl Observer {
             normal_rms: stations(),
             shock: stations(),
         };
+        // Depths, inclinations and limits never change and are written once.
         let mut out = Snapshot {
             joints: Joints {
                 measured_depth: model.joint_stations.iter().map(|&s| model.stations[s].depth).collect(),
@@ -49,6 +51,7 @@ impl Observer {
                 pipe_guide: layer(),
                 guide_wall: layer(),
             },
+            // The bore is fixed; pipe and guide are offsets in its frames, so that a viewer can exaggerate them.
             shape: Shape {
                 bore: model.stations.iter().map(|s| s.position.into()).collect(),
                 low_side: model
@@ -60,8 +63,10 @@ impl Observer {
                 guide: vec![[0.0; 2]; model.stations.len()],
             },
             reactions: new_reactions(model),
+            // What is left keeps its default until the first fill.
             ..Snapshot::default()
         };
+        // Reports of the analysis have their own arrays, which take their sizes in the same way.
         self.whirl.report(&mut out.whirl);
         self.ageing.write(&mut out.ageing);
         out
@@ -70,8 +75,11 @@ impl Observer {
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(in crate::twin) fn fill(&self, stepper: &Stepper, state: &State, out: &mut Snapshot) {
         let (model, forces) = (stepper.model(), stepper.interactions());
+        // Joints first: their forces come from the elements and the pressure in the pipe.
         fill_joints(model, state, forces, stepper.pressure_at_top(), &mut out.joints);
         let contacts = &mut out.contacts;
+        // Gaps are computed for all stations, also those without contact;
+        // the statistics hold the forces between two snapshots.
         fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
             let station = &model.stations[s];
             gap(inner_lateral(station, state), station.inner_clearance)
@@ -79,22 +87,26 @@ impl Observer {
         fill_layer(&mut contacts.guide_wall, &forces.outer, &self.outer, |s| {
             gap(gap_lateral(model, state, s, Body::Guide), model.outer_clearance)
         });
+        // Shock has its own window and is written over the layer's.
         self.shock.write(0, &mut contacts.pipe_guide.shock);
         self.shock.write(1, &mut contacts.guide_wall.shock);
         out.shock = self.shock.level();
         for (s, station) in model.stations.iter().enumerate() {
+            // Bits of the state are those of Table 2: 1 for the inner contact, 2 for the outer.
             contacts.state[s] = u8::from(forces.inner.get(s).is_some()) + 2 * u8::from(forces.outer.get(s).is_some());
             let guide = translation(&state.q, station.guide);
             let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
             out.shape.pipe[s] = [station.offset.x + pipe.y, station.offset.y + pipe.z];
             out.shape.guide[s] = [guide.y, guide.z];
         }
+        // Torque and weight are the rock's, the speed that of the last node.
         let bottom = &model.stations[model.last()];
         let [torque, rotary_speed, weight_on_bit] = [
             forces.bit.torque,
             state.v[bottom.pipe_above + Direction::Psi as usize],
             forces.bit.weight,
         ];
+        // Before the first interval has a mean, the present values stand for it.
         let means = self.bit.value().unwrap_or([torque, rotary_speed, weight_on_bit]);
         out.bit = Bit {
             torque,
@@ -115,6 +127,7 @@ impl Observer {
         out.transfer = *self.transfer.summary();
         self.whirl.report(&mut out.whirl);
         out.warning = self.whirl.level();
+        // Hazards last, because they rest on everything above.
         out.hazards = self.hazards(model, out.time);
         self.ageing.write(&mut out.ageing);
         out.quality = self.quality();

@@ -19,10 +19,12 @@ impl Observer {
         iterations: u32,
     ) {
         self.last_iterations = iterations;
+        // The quality counts first: it decides how far the levels of this step are trusted.
         if self.quality.push(dt, stepper.audit()) {
             self.update_trust();
         }
         let (model, forces) = (stepper.model(), stepper.interactions());
+        // Drag and power of a layer are summed with its contacts, as the transfer needs both.
         let mut rubbing = [Rubbing::default(); 2];
         for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
             .into_iter()
@@ -40,6 +42,7 @@ impl Observer {
             }
             statistics.advance(dt);
         }
+        // Nothing is judged while the drive stands or speeds up: transients would raise alarms.
         let (time, judged) = (step as f64 * dt, self.whirl.drive() == DriveState::Turning);
         self.shock.advance(time, dt, judged);
         for (joint, stop) in forces.joints.stops().enumerate() {
@@ -47,14 +50,17 @@ impl Observer {
             self.ageing.stop(joint, dt, stop.moment);
         }
         self.joint_load.advance(time, dt, judged);
+        // Chaos is judged by the power of collisions times the share of stations that move chaotically.
         let (taken, share) = (stepper.audit().contact_damping, self.whirl.chaotic_share());
         self.chaotic_whirl.advance(time, dt, taken, share, judged);
 
+        // The transfer takes every step: a ripple of joints would otherwise be sampled.
         let mut sample = transfer_sample(stepper, applied, &rubbing);
         sample.rate_of_penetration = self.hole_deepens(stepper.bit_depth(), applied, dt);
         self.transfer
             .push(time, dt, &sample, &energy_terms(stepper.audit()), judged);
 
+        // The bit's motion comes from the chain, without the cost of a full state.
         let bottom = stepper.bottom_motion();
         let bit = &stepper.interactions().bit;
         self.bit.push(dt, [bit.torque, bottom.spin_rate, bit.weight]);
@@ -65,6 +71,8 @@ impl Observer {
         self.stick_slip
             .push(time, dt, bottom.spin_rate, applied.rotary_speed, judged);
 
+        // Between two samples of the whirl analysis the contacts are
+        // accumulated: impacts are shorter than its interval.
         let share = 1.0 / self.decimation as f64;
         for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
             let touch = match body {
@@ -78,6 +86,7 @@ impl Observer {
                 sample.friction_work += touch.friction_power * dt;
             }
         }
+        // The full state costs more than a step's statistics, so it is made for samples alone.
         if step.is_multiple_of(self.decimation) {
             stepper.refresh_view();
             let (model, state) = (stepper.model(), stepper.view());
@@ -87,6 +96,7 @@ impl Observer {
                 sample.contact_share = sample.contact_share.min(1.0);
             }
             self.whirl.push(time, applied.rotary_speed, &self.samples);
+            // Sums begin again after each sample.
             self.samples.fill(StationSample::default());
             let elapsed = self.decimation as f64 * dt;
             if let Some(watch) = &mut self.guide_preload {
