@@ -321,7 +321,7 @@ impl Kernel for BalanceJoints<'_> {
             // Rotations and rates are gathered to one lane per joint, so that the law runs over eight joints at once.
             let (q, rate) = rotations(places, state);
             group.linearise::<V>(&q, &rate, &pin_lanes(&state.pin_moments, 8 * g));
-            // What has no multiplier acts on the rotations as it is, on the spin below too.
+            // Moments without a multiplier act directly on the rotations, on the spin below too.
             for (lane, &k) in nodes.iter().enumerate() {
                 if let Some(moments) = group.further_moments(lane).filter(|_| chain.active.affected[k]) {
                     for (place, moment) in ROTATIONS.into_iter().zip(moments) {

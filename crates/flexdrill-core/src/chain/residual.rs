@@ -202,8 +202,8 @@ const GROUP: usize = 8;
 struct NodeForces(Aligned<[f64; 24]>);
 
 impl NodeForces {
-    /// Sets the forces on the pipe from place `first` on, and those on the guide. Six lanes of each count. The last two of
-    /// the pipe's would reach into other places: the guide's are written after them, or there are none.
+    /// Stores the forces on the pipe from place `first` on, then those on the guide. Six lanes of each vector hold forces.
+    /// The pipe's other two reach beyond its places: the guide's forces overwrite them, or the span has none there.
     #[inline(always)]
     fn set<V: Vector>(&mut self, pipe: V, first: usize, guide: V) {
         for (forces, place) in [(pipe, first), (guide, GUIDE)] {

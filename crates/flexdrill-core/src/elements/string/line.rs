@@ -282,8 +282,8 @@ impl StringLine {
         ends.powers = [0.0; 2];
         ends.drag = [0.0; 2];
         let pieces = &description.pieces;
-        // Waves that leave the pieces now. They are kept in the row until the ends' waves take their places: what leaves
-        // downwards in the place of what comes up next, and the other way round.
+        // Waves that leave the pieces now. Each is kept in the row in the place of the wave that replaces it below: one
+        // that leaves a piece downwards in that of the next one upwards, and the reverse.
         // Without a hoist the axial wave is left out: the weight is an input.
         let kinds = if description.hoist.is_some() { 2 } else { 1 };
         for (k, (piece, history)) in pieces.iter().zip(&state.histories).enumerate() {
