@@ -13,7 +13,7 @@ extern "C" fn look_at_output() {
 }
 
 /// Run before Rust's runtime, which opens /dev/null in the place of a standard output that is not open, after which the
-/// two cannot be told apart.
+/// two cannot be distinguished.
 #[cfg(target_os = "linux")]
 #[expect(
     unsafe_code,

@@ -222,8 +222,8 @@ impl Runs<'_> {
     }
 
     /// A member's outcome; `None` where it was stopped. It parts from the others before the change: where a motion can
-    /// go on or end, the way decides which, and one way for all would decide for all. A member that fails is against:
-    /// what would have come is unknown.
+    /// continue or end, the change itself decides which, and with a shared path all members would end alike. A member that
+    /// fails speaks against the change, because what would have followed is unknown.
     fn member(&self, trial: &Trial, seed: u64, number: usize, member: u32) -> Option<Outcome> {
         let config = self.start.config();
         let Leading { alarm, standing, .. } = self.leading;

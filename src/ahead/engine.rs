@@ -241,9 +241,9 @@ fn run_ups(start: &Start, goal: &Goal, threads: usize, stop: &AtomicBool) -> Vec
     })
 }
 
-/// Longest way to a candidate that each member takes itself (s). Where a motion can go on or end, the way decides which, and
-/// one way for all members would decide for all (`docs/measurements.md`, chaotic whirl). A longer way is run once: its end is
-/// far from the motion at its beginning.
+/// Longest run-up to a candidate that each member makes itself (s). Where a motion can continue or end, the run-up decides
+/// which: with a shared one, all members would end alike (`docs/measurements.md`, chaotic whirl). A longer run-up is made
+/// once: its end is far from the motion at its beginning.
 const OWN_WAY: f64 = 10.0;
 
 /// Takes tasks until none is left.

@@ -197,7 +197,7 @@ impl<'a> Watched<'a> {
 
     /// Runs for `horizon` (s) and judges it; ends early once `enough` says so of the alarms so far ([`AlarmId::ALL`]).
     pub(super) fn judge(mut self, horizon: f64, enough: impl Fn(&[Called]) -> bool) -> Result<Member, Ended> {
-        // What the state before brings is up within `SETTLING`. It counts only if it lasts or returns.
+        // Alarms caused by the earlier state appear within `SETTLING`. They count only if they last or return.
         self.run.look(&mut self.snapshot);
         let begun = self.snapshot.time;
         let stamp = |snapshot: &Snapshot| span(snapshot.time);
@@ -267,8 +267,7 @@ impl<'a> Watched<'a> {
     }
 }
 
-/// Time (s) within which an alarm that was called for by the motion before stands: the longest delay of an alarm that
-/// the motion calls.
+/// Time (s) within which an alarm caused by the earlier motion stands: the longest on-delay of an alarm of the motion.
 const SETTLING: f64 = 5.0;
 
 /// Damage of the joint that has aged most.

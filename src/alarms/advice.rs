@@ -201,7 +201,7 @@ impl fmt::Display for Tested {
     }
 }
 
-/// Where advice comes from beside the rules.
+/// Where advice comes from in addition to the rules.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Ahead {
     /// What look-aheads do for advice; none where the node does not look ahead for it.

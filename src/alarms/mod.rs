@@ -331,7 +331,7 @@ impl AlarmBook {
         self.system.alarm(id as usize).standing.active()
     }
 
-    /// Drops the events that nobody will read.
+    /// Drops events that have no reader.
     pub fn forget_events(&mut self) {
         self.journal.clear();
     }

@@ -142,7 +142,7 @@ impl WitsBridge {
                 from.line
                     .push(&bytes, time, &mut self.health.counts, |event| read.push(event));
                 for event in read {
-                    // Only whole frames hold a seat. A scanner that connects and sends noise must give way to the rig.
+                    // Only whole frames hold a seat. A scanner that connects and sends noise must yield to the rig.
                     if matches!(event, LineEvent::Frame(..)) {
                         seats.whole_frame(connection);
                     }

@@ -20,7 +20,7 @@ use flexdrill_sweep::spec::evenly;
 
 /// Maps the chance of every alarm over rotary speed and weight on bit, or over another pair of keys.
 ///
-/// Every cell is run from rest and from running; the map says where the two differ. Runs are chosen where they tell most
+/// Every cell is run from rest and from running; the map says where the two differ. Runs are chosen where they show most
 /// of the boundary. Other cells are inferred where the runs around them say with 95 % what they are, and are not known
 /// elsewhere. A map that was interrupted goes on with the same command.
 #[derive(Debug, Args)]

@@ -59,7 +59,7 @@ fn half(map: &Map) -> [f64; 2] {
     })
 }
 
-/// The cells by what they are. Those that are not known are pale and crossed out, so that they are told from clear ones in
+/// The cells by what they are. Those that are not known are pale and crossed out, so that they differ from clear ones in
 /// grey too.
 fn cells(mut panel: Panel, map: &Map, of: impl Fn(&Cell) -> Option<Verdict>) -> Panel {
     let points = |verdict: Verdict| -> Vec<(f64, f64)> {

@@ -179,7 +179,7 @@ impl Advisor {
             .is_some_and(|asked| asked.is_for(&leading, acting))
         {
             exchange.interrupt();
-            // Alarms that come and go do not begin the search anew each time.
+            // Alarms that come and go do not begin the search again each time.
             let before = exchange
                 .asked
                 .take()

@@ -96,7 +96,7 @@ impl WhatIf {
         self.goals.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Changes the goals and tells everybody.
+    /// Changes the goals and notifies all who wait for a change.
     fn change<T>(&self, change: impl FnOnce(&mut Book) -> T) -> T {
         let (result, states) = {
             let mut goals = self.goals();
@@ -493,7 +493,7 @@ impl Answering {
         self.advisor.answer(asked, tested, began.elapsed());
     }
 
-    /// Forecasts the next minute, once that is due at `at`. A forecast that gives way to a goal or a search is made later.
+    /// Forecasts the next minute, once that is due at `at`. A forecast that a goal or a search stops is made later.
     fn forecast(&self, tool: &mut Option<Simulation>, at: &mut Instant) {
         let Some(forecasts) = &self.forecasts else {
             return;

@@ -1,7 +1,7 @@
 //! Points that are done, kept in a folder: a study of hours can be interrupted and continued.
 //!
 //! A point is one file with its result and with what that is a function of: configuration, load, version. A point of
-//! anything else counts as absent and is computed anew.
+//! anything else counts as absent and is computed again.
 
 use std::path::{Path, PathBuf};
 

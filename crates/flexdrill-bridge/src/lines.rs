@@ -92,7 +92,7 @@ pub enum LineState {
         /// Until the next attempt.
         wait: Duration,
     },
-    /// A connection was refused, because there are [`MOST_CONNECTIONS`] that send, or none gives way.
+    /// A connection was refused, because there are [`MOST_CONNECTIONS`] that send, or none yields.
     Refused {
         /// Its other end.
         peer: String,
@@ -204,7 +204,7 @@ async fn redial<S: AsyncRead + AsyncWrite + Unpin, F: Future<Output = io::Result
             Err(error) => error.to_string(),
             Ok(stream) => {
                 connection += 1;
-                // The only connection gives way to none.
+                // The only connection of the line yields to no other.
                 let stays = std::future::pending();
                 let (why, brought) = ends.serve(stream, connection, name, silence, stays).await;
                 if brought {

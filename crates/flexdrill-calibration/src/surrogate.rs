@@ -21,7 +21,7 @@ const PER_INPUT: usize = 8;
 /// Eigenvalues of the mean's normal equations below this part of the largest count as zero.
 const RANK: f64 = 1e-10;
 /// Bounds of the logarithm of a length, in half ranges of the points: shorter ones than the distance of neighbours and
-/// longer ones than a line have cannot be told from their bounds.
+/// longer ones than a line have cannot be distinguished from their bounds.
 const LENGTH: [f64; 2] = [-1.5, 4.0];
 /// Expected logarithm of a length and its standard deviation, which decide where the likelihood is flat: a curve bends
 /// once in the range of the points, give or take a factor of 4.5.

@@ -49,7 +49,7 @@ struct ColumnIndices {
 pub(crate) struct Table {
     /// At least one, in the order of time.
     pub(crate) rows: Vec<Row>,
-    /// First rows of the parts between which the time starts anew.
+    /// First rows of the parts between which the clock restarts.
     pub(crate) parts: Vec<u64>,
     /// Every row of the file with anything in it, as an editor numbers them.
     pub(crate) written: Vec<u64>,

@@ -187,7 +187,7 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
             ""
         };
         // A factor alone does not give the coefficient that was fitted.
-        // A factor alone does not tell the coefficient that was fitted.
+        // A factor alone does not show the coefficient that was fitted.
         let coefficient = if entry.is_factor {
             format!("; {} {:.4}", entry.name, entry.estimate.value)
         } else {

@@ -21,7 +21,7 @@ pub enum HazardKind {
     StickSlip = 3,
     /// The stop of a joint carries more than the joint is rated for.
     JointLoad = 4,
-    /// The pipe is thrown about without direction, and its collisions take many times the power of steady drilling.
+    /// The pipe bounces without direction, and its collisions take many times the power of steady drilling.
     ChaoticWhirl = 5,
     /// Most of the weight slacked off at the surface does not arrive at the bit.
     WeightTransfer = 6,

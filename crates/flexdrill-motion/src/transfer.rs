@@ -436,7 +436,7 @@ impl TransferWatch {
         &self.settings
     }
 
-    /// Forms the summary anew, which is not saved.
+    /// Forms the summary again, since a checkpoint does not hold it.
     pub fn refresh(&mut self) {
         self.summarise();
     }

@@ -111,7 +111,7 @@ pub enum Accepted {
 }
 
 impl<G, R: Clone> Goals<G, R> {
-    /// No goals; `most_waiting` of them may wait beside the one that runs.
+    /// No goals; `most_waiting` of them may wait in addition to the one that runs.
     pub fn new(most_waiting: usize) -> Self {
         Self {
             entries: VecDeque::new(),

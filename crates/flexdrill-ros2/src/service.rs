@@ -256,7 +256,7 @@ impl ServiceServer {
     }
 }
 
-/// A reply as bytes; where they are more than `most`, those of a shorter one, and what was told in it.
+/// A reply as bytes; where they are more than `most`, those of a shorter one, and the message in it.
 fn encoded<Resp: Reply>(response: Resp, most: usize) -> Result<(Vec<u8>, Option<String>), cdr_encoding::Error> {
     let body = to_cdr_body(&response)?;
     if body.len() <= most {

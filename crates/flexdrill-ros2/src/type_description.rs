@@ -77,7 +77,7 @@ impl From<Alone> for IndividualTypeDescription {
     }
 }
 
-/// What is told of a type beside what it is made of.
+/// What is published of a type in addition to what it is made of.
 #[derive(Clone, Copy)]
 struct Known {
     name: &'static str,

@@ -2,7 +2,7 @@
 //!
 //! Every start has processes of its own ([`crate::gauss`]), one per class: a run that failed is a class with its own boundary,
 //! not a gap. Runs are chosen in rounds: next to a failure that stands alone and next to a boundary first, which is what a map
-//! is read for, then where a run tells most of a cell that is not known. Within a round each choice counts as seen for the
+//! is read for, then where a run shows most of a cell that is not known. Within a round each choice counts as seen for the
 //! next, so that a round does not crowd. The choice depends on the results only, not on who computed them or when.
 
 use crate::cover::{Cover, SIDE};
@@ -10,7 +10,7 @@ use crate::gauss::{CLASSES, Process, Shape, Surface};
 use crate::map::{OfStart, SURE};
 use crate::plan::Grid;
 
-/// The shape of the processes is chosen anew after one run more in so many: choosing takes 48 factorisations.
+/// The shape of the processes is chosen again after one run more in so many: choosing takes 48 factorisations.
 const FEW: usize = 5;
 /// Share of cells that may be inferred wrongly when the choice ends, by the process's own confidence.
 pub const WRONG: f64 = 0.02;
@@ -73,7 +73,7 @@ impl Inferred {
         }
     }
 
-    /// How much a run here tells of a boundary.
+    /// How much a run here shows of a boundary.
     fn tells(&self) -> f64 {
         let of = (0..CLASSES).map(|class| self.surface.straddle(class));
         of.fold(f64::NEG_INFINITY, f64::max)
@@ -166,7 +166,7 @@ impl Choice {
         wanted
     }
 
-    /// Of the missing neighbours of failures that stand alone, the one that tells most.
+    /// Of the missing neighbours of failures that stand alone, the one that shows most.
     fn beside_alone(&self, map: &Map) -> Option<Wanted> {
         let beside = self.known.iter().map(|known| {
             let mut beside = vec![false; known.len()];
@@ -179,7 +179,7 @@ impl Choice {
         best(map, |start, cell, _| beside[start][cell])
     }
 
-    /// Of the runs that are missing next to a cell of another class, the one that tells most: a boundary is known when no
+    /// Of the runs that are missing next to a cell of another class, the one that shows most: a boundary is known when no
     /// such run is missing. Without `any`, only the boundary of the clear cells counts.
     fn on_boundary(&self, map: &Map, any: bool) -> Option<Wanted> {
         let classes = self.known.iter().zip(map).map(|(known, cells)| {
@@ -254,7 +254,7 @@ impl Choice {
             .as_ref()
             .map(|process| (process.shape(), kept.map_or(runs, |(_, chosen)| chosen)));
         let known = &self.known[start];
-        // What failed from one start may fail from another: no cell beside it is clear from either.
+        // What failed from one start may fail from another: no cell next to it is clear from either.
         let failed = |cell: usize| self.known.iter().any(|of| of[cell] == Some(Class::Unknown));
         let of_all = known.iter().enumerate();
         let of_all = of_all.map(|(cell, own)| if failed(cell) { Some(Class::Unknown) } else { *own });
@@ -292,7 +292,7 @@ impl Choice {
     }
 }
 
-/// The run that tells most, of those that are `wanted` by start, cell and what is inferred there.
+/// The run that shows most, of those that are `wanted` by start, cell and what is inferred there.
 fn best(map: &Map, wanted: impl Fn(usize, usize, &Inferred) -> bool) -> Option<Wanted> {
     let mut best: Option<(f64, Wanted)> = None;
     for (start, cells) in map.iter().enumerate() {

@@ -6,7 +6,7 @@
 //!   holds a run;
 //! - no run within [`SIDE`] cells of it failed;
 //! - the runs that failed form regions: of the other runs within [`SIDE`] cells of each at least a quarter failed, and a block
-//!   beside it has failed runs only. Where failures are scattered, any cell may be one, and none is inferred clear.
+//!   next to it has failed runs only. Where failures are scattered, any cell may be one, and none is inferred clear.
 //!
 //! From the first two follows: where every failing cell belongs to a block that fails as a whole, or touches one, no failing
 //! cell is inferred clear, whatever the processes say. That block holds a run by the first rule, this run failed, and it is
@@ -51,7 +51,7 @@ impl<'a> Cover<'a> {
         (0..self.known.len()).map(|cell| !scattered && may(cell)).collect()
     }
 
-    /// Runs that failed without another one within [`SIDE`] cells: their neighbours tell whether they belong to a region.
+    /// Runs that failed without another one within [`SIDE`] cells: their neighbours show whether they belong to a region.
     pub fn alone(&self) -> Vec<usize> {
         self.failed().filter(|cell| self.is_alone(*cell)).collect()
     }
@@ -68,7 +68,7 @@ impl<'a> Cover<'a> {
         !self.within(cell).any(|near| near != cell && self.has_failed(near))
     }
 
-    /// Whether enough of the other runs around the cell failed, and a block beside the cell, or with it, has failed runs only.
+    /// Whether enough of the other runs around the cell failed, and a block next to the cell, or with it, has failed runs only.
     /// A quarter is what a run at the corner of a large region has.
     fn is_of_region(&self, cell: usize, blocks: &[Block]) -> bool {
         let others = self

@@ -8,7 +8,7 @@
 use nalgebra::linalg::Cholesky;
 use nalgebra::{DMatrix, DVector, Dyn};
 
-/// Classes that are told apart.
+/// Classes that the process distinguishes.
 pub const CLASSES: usize = 3;
 /// Lengths that are tried, as shares of an axis.
 const LENGTHS: [f64; 4] = [0.2, 0.5, 1.0, 2.0];
@@ -48,7 +48,7 @@ impl Surface {
         normal(self.means[class] / (self.deviation * self.deviation + self.scatter).sqrt())
     }
 
-    /// How much a run here tells of the boundary of a class: positive where the surface may cross zero within its 95 % band
+    /// How much a run here shows of the boundary of a class: positive where the surface may cross zero within its 95 % band
     /// (Bryan et al., Active learning for identifying function threshold boundaries, NIPS 2005).
     pub fn straddle(&self, class: usize) -> f64 {
         1.96 * self.deviation - self.means[class].abs()

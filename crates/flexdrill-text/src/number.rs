@@ -34,7 +34,7 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// A value that is refused for being beyond a bound, with as many digits as tell it from the bound.
+/// A value that is refused for being beyond a bound, with as many digits as distinguish it from the bound.
 pub fn beyond(value: f64, bound: f64) -> String {
     let text = six_digits(value);
     if text == six_digits(bound) && value != bound {

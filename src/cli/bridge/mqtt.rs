@@ -128,7 +128,7 @@ mod with_mqtt {
             let mut running = std::pin::pin!(bridge.run(LinkTimes::default(), stopping));
             tokio::select! {
                 () = shutdown => {
-                    // The broker is told that the bridge is gone.
+                    // The bridge announces its end, so that the broker need not find out by a timeout.
                     stop.send_replace(true);
                     running.await;
                 }

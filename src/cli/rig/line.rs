@@ -18,7 +18,7 @@ use flexdrill_text::printable;
 
 /// Frames that wait for a slow reader.
 const WAITING: usize = 16;
-/// Events that wait to be told.
+/// Events that wait to be logged.
 const EVENTS: usize = 64;
 
 /// A line that is open for as long as this lives.
@@ -31,7 +31,7 @@ pub(super) struct WitsLine {
 }
 
 impl WitsLine {
-    /// Listens at an address and tells who comes. `well` is the name in the headers.
+    /// Listens at an address and reports connections. `well` is the name in the headers.
     ///
     /// # Errors
     /// When the address cannot be listened at.

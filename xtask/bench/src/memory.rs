@@ -7,7 +7,7 @@ use flexdrill_config::Config;
 
 /// Model time between two samples (s).
 const EVERY: f64 = 60.0;
-/// Minutes that the table shows, beside the last.
+/// Minutes that the table shows, in addition to the last.
 const SHOWN: [usize; 8] = [1, 2, 5, 10, 20, 30, 45, 60];
 
 /// Runs for `duration` (s) and samples the resident set; gives the table.

@@ -1,7 +1,7 @@
 //! Results of single runs in a folder, so that a set of many hours can be interrupted and resumed.
 //!
 //! A part is one file with the figures of one run and with what they are a function of: build, configuration, motion.
-//! A part of anything else counts as absent and is written anew.
+//! A part of anything else counts as absent and is written again.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! `--cases step-error`: the configured step against an eighth of it, beside its speed.
+//! `--cases step-error`: the configured step against an eighth of it, with its speed.
 
 use flexdrill_bench::cases::{Case, hard};
 use flexdrill_bench::table::Table;

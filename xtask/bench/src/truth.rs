@@ -87,7 +87,7 @@ impl Mean {
         let squares: f64 = values.iter().map(|x| (x - value).powi(2)).sum();
         Self {
             value,
-            // One run has no scatter to tell.
+            // One run shows no scatter.
             error: (squares / (n - 1.0).max(1.0) / n).sqrt(),
         }
     }

@@ -1,4 +1,4 @@
-//! The connections of a listening line, and which of them gives way to a new one.
+//! The connections of a listening line, and which of them yields to a new one.
 
 use std::collections::BTreeMap;
 use std::net::IpAddr;
@@ -9,7 +9,7 @@ use tokio::sync::Notify;
 
 /// Most connections that a listening line keeps at a time: sources of one rig.
 pub const MOST_CONNECTIONS: usize = 8;
-/// A connection without a whole frame for so long may have to give way. Rigs send one a second, slow ones every few
+/// A connection without a whole frame for so long may have to yield. Rigs send one a second, slow ones every few
 /// seconds.
 const QUIET: Duration = Duration::from_secs(10);
 
@@ -66,7 +66,7 @@ impl Seats {
     }
 }
 
-/// The connection that gives way: without a frame in the last [`QUIET`], of the host with most such connections, and there
+/// The connection that yields: without a frame in the last [`QUIET`], of the host with most such connections, and there
 /// the one that has been open longest. A host that opens many does not drive out the only one of another.
 fn quietest(all: &BTreeMap<u64, Seat>, now: Instant) -> Option<u64> {
     let is_quiet = |seat: &Seat| seat.frame.is_none_or(|frame| now.duration_since(frame) > QUIET);

@@ -184,7 +184,7 @@ pub async fn run<S: Source>(
     }
 }
 
-/// Completes when an end is asked for, or when nobody can ask any more.
+/// Completes when an end is asked for, or when no one is left who could ask for it.
 async fn stopped(stop: &mut watch::Receiver<bool>) {
     // An error means that the sender is gone.
     let _ = stop.wait_for(|stop| *stop).await;

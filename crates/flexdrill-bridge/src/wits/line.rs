@@ -11,7 +11,7 @@ pub enum LineEvent {
     Discarded(Discarded),
 }
 
-/// Reads one connection. The sequence of every record begins anew with it.
+/// Reads one connection. The sequence of every record begins with it.
 #[derive(Debug)]
 pub struct Line {
     frames: FrameReader,

@@ -1,7 +1,7 @@
 //! The sequence number of a record (item 04): whether frames were lost, repeated or came late.
 
 /// Most records that can be missing on one connection: somewhat more than one per second for a day. A larger step is a
-/// defect of the number, or a source that counts anew.
+/// defect of the number, or a source that counts from its start again.
 const MOST_MISSING: u64 = 100_000;
 
 /// What a record's sequence number says, compared with those before it on the same connection.
@@ -20,12 +20,12 @@ pub enum Sequence {
         /// How many.
         missing: u64,
     },
-    /// Ahead of the last by more than can be missing: the number is wrong, or the source counts anew.
+    /// Ahead of the last by more than can be missing: the number is wrong, or the source counts from its start again.
     Jump {
         /// The largest number before it.
         newest: u64,
     },
-    /// Less than the last: it comes late, or the source counts anew.
+    /// Less than the last: it comes late, or the source counts from its start again.
     OutOfOrder {
         /// The largest number before it.
         newest: u64,
@@ -43,7 +43,7 @@ impl Sequence {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SequenceWatch {
     newest: Option<u64>,
-    /// The last number that was out of order or jumped: a source that counts anew continues from there.
+    /// The last number that was out of order or jumped: a source that counts from its start again continues from there.
     anew: Option<u64>,
 }
 
