@@ -19,7 +19,7 @@ pub enum WindowError {
          `flexdrill map --rpm A:B --wob A:B` makes it"
     )]
     Axes {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// Key of its first axis.
         x: String,
@@ -32,7 +32,7 @@ pub enum WindowError {
          motion {own:.8}: make the map again from it with `flexdrill map`, or remove the key"
     )]
     OtherTool {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// Title of its configuration.
         title: String,

@@ -153,7 +153,6 @@ fn describe(hazard: &Hazard, priority: Priority, law: Law) -> Finding {
     }
 }
 
-/// The rule for a hazard.
 pub(super) fn rule(kind: HazardKind, table: &AdviceTable) -> Advice {
     match kind {
         HazardKind::BackwardWhirl => table.backward_whirl,

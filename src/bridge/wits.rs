@@ -36,7 +36,6 @@ pub struct WitsBridge {
     health: LineHealth,
 }
 
-/// One connection.
 struct Connection {
     line: Line,
     peer: String,

@@ -47,16 +47,13 @@ impl Sample {
 pub(super) struct MeasuredSample {
     /// ns since 1970; of a field log without dates, since its first row.
     pub(super) time: i64,
-    /// The values.
     pub(super) message: RigMeasured,
 }
 
 /// What a source has, each part in the order of time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Samples {
-    /// The inputs.
     pub(super) inputs: Vec<Sample>,
-    /// The measured values.
     pub(super) measured: Vec<MeasuredSample>,
     /// The rows of a field log by their times, as sources of messages: see [`crate::report::row_source`].
     pub(super) rows: Vec<(i64, String)>,
@@ -67,7 +64,6 @@ pub(super) struct Samples {
 pub(super) struct FromRig {
     /// The inputs (time in ns since 1970).
     pub(super) inputs: Vec<(i64, RigInputs)>,
-    /// The measured values.
     pub(super) measured: Vec<MeasuredSample>,
 }
 

@@ -24,7 +24,6 @@ pub struct VerifyArgs {
     record: Option<PathBuf>,
 }
 
-/// What is run.
 struct Work {
     name: &'static str,
     shows: &'static str,

@@ -98,7 +98,6 @@ pub(super) fn figure(value: f64, decimals: usize) -> String {
     figure_in(value, decimals, "")
 }
 
-/// A figure with its unit.
 pub(super) fn figure_in(value: f64, decimals: usize, unit: &str) -> String {
     let space = if unit.is_empty() { "" } else { " " };
     if value.is_finite() {

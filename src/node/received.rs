@@ -10,7 +10,6 @@ use flexdrill_messages::{RigInputs, RigMeasured};
 
 /// Most samples that wait for the recording.
 const CAPACITY: usize = 1024;
-/// The topics of the samples.
 const TOPICS: [&TopicInfo; 6] = [
     &topics::ROTARY_SPEED_RPM,
     &topics::WEIGHT_ON_BIT_KN,

@@ -33,7 +33,6 @@ const DURATION_INTERVAL: Duration = Duration::from_millis(20);
 /// The result of the build, as the solver's thread reports it.
 pub(super) type Built = oneshot::Receiver<Result<(), BuildError>>;
 
-/// A node that runs.
 pub(super) struct RunningNode {
     pub(super) port: Port,
     pub(super) tasks: JoinSet<()>,

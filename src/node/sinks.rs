@@ -47,7 +47,6 @@ pub(super) struct Sinks<'a> {
 }
 
 impl Sinks<'_> {
-    /// Writes a message.
     pub(super) fn write(&self, Encoded { topic, stamp, cdr }: Encoded<'_>) {
         if let Some(recording) = self.recording {
             recording.record(topic, stamp, cdr);

@@ -55,9 +55,9 @@ const FIRST_SIGNS_FOR: Duration = Duration::from_secs(4);
 const KEPT_REFUSALS: usize = 32;
 /// Longest wait for a goal before advice is looked for.
 const IDLE: Duration = Duration::from_millis(200);
-/// Seed of the look-aheads for advice.
+/// Fixed, so that the same state gives the same advice.
 const ADVICE_SEED: u64 = 1;
-/// Seed of the forecasts.
+/// Fixed, so that the same state gives the same forecast.
 const FORECAST_SEED: u64 = 1;
 /// From the beginning of a forecast to that of the next.
 const FORECAST_INTERVAL: Duration = Duration::from_secs(30);

@@ -5,7 +5,6 @@ use flexdrill_core::units::n_to_kn;
 use super::{Plan, Row};
 use flexdrill_text::counted;
 
-/// Columns of the table.
 const COLUMNS: &str = "length_m,links,friction,rotates,state,weight_at_kickoff_kn,weight_at_bit_kn,\
                        weight_at_bit_range_kn,torque_at_kickoff_nm,torque_at_bit_nm,torque_at_bit_range_nm,\
                        soft_weight_at_bit_kn,soft_torque_at_kickoff_nm,soft_torque_at_bit_nm,guide_buckles_at_m,\

@@ -317,7 +317,7 @@ fn test_modules(path: &Path, text: &str) -> Vec<PathBuf> {
 /// The crate, or the room of `src/`, that a file belongs to.
 fn room(file: &str) -> String {
     match file.split('/').collect::<Vec<_>>()[..] {
-        ["src", room, ..] => format!("src/{}", room.trim_end_matches(".rs")),
+        ["src", room, ..] => format!("src/{room}"),
         ["crates", name, ..] => name.to_owned(),
         ["xtask", "src", ..] => "xtask".to_owned(),
         ["xtask", name, ..] => format!("xtask/{name}"),

@@ -28,35 +28,35 @@ pub enum Refusal {
     /// Shelving requires a reason.
     #[error("reason is empty: give a reason for shelving {alarm}, which the journal keeps")]
     NoReason {
-        /// The alarm.
+        /// Its identifier, as in the request.
         alarm: &'static str,
     },
     /// There is nothing to acknowledge.
     #[error("{alarm} is {}: there is nothing to acknowledge", state.name())]
     NothingToAcknowledge {
-        /// The alarm.
+        /// Its identifier, as in the request.
         alarm: &'static str,
-        /// Its state.
+        /// Its present state, which the request does not fit.
         state: State,
     },
     /// The alarm is not shelved.
     #[error("{alarm} is {}: it is not shelved", state.name())]
     NotShelved {
-        /// The alarm.
+        /// Its identifier, as in the request.
         alarm: &'static str,
-        /// Its state.
+        /// Its present state, which the request does not fit.
         state: State,
     },
     /// The configuration has switched it off.
     #[error("{alarm} is out of service: it is switched off in the configuration")]
     OutOfService {
-        /// The alarm.
+        /// Its identifier, as in the request.
         alarm: &'static str,
     },
     /// The duration is outside its bounds.
     #[error("duration = {asked} s; the duration for shelving {alarm} must be above 0 s and at most {most} s")]
     Duration {
-        /// The alarm.
+        /// Its identifier, as in the request.
         alarm: &'static str,
         /// The requested duration (s).
         asked: f64,

@@ -189,7 +189,6 @@ pub fn open(path: &Path) -> Result<Bag, BagError> {
     Ok(bag)
 }
 
-/// The files of the bag at `path`.
 fn files(path: &Path) -> Result<Vec<PathBuf>, BagError> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);

@@ -13,13 +13,13 @@ use crate::{BagError, Losses, Topic};
 pub struct Recording {
     /// The MCAP file; the first, when there are several.
     pub path: PathBuf,
-    /// Messages in it.
+    /// Messages in all files together.
     pub messages: u64,
     /// Messages per topic, in the order of the topics.
     pub per_topic: Vec<u64>,
-    /// Messages missing in it.
+    /// Messages that arrived and are in none of the files.
     pub lost: u64,
-    /// Messages in it that the disk may have lost.
+    /// Messages in files that the disk failed to sync: written, and perhaps lost.
     pub doubtful: u64,
     /// Lost and doubtful messages by cause.
     pub losses: Losses,

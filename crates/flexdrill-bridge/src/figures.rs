@@ -190,7 +190,7 @@ pub enum FiguresError {
     Unreadable {
         /// The topic.
         topic: &'static str,
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
     },
 }

@@ -82,12 +82,12 @@ pub enum LineState {
         connection: u64,
         /// When (ns since 1970).
         time: i64,
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
     },
     /// No connection; another attempt follows.
     Waiting {
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
         /// Until the next attempt.
         wait: Duration,

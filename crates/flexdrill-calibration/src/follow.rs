@@ -87,7 +87,7 @@ pub struct Follow {
     settings: FollowSettings,
     /// Factor and tare.
     state: [f64; 2],
-    /// Their covariance.
+    /// Covariance of factor and tare: it grows with time and shrinks with each sample that counts.
     covariance: [[f64; 2]; 2],
 }
 

@@ -125,134 +125,96 @@ fn near_the_configuration(numbers: &[super::NumberKey]) -> Vec<HardBound> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HardBounds(Vec<HardBound>);
 
+#[derive(Clone, Copy)]
 enum Side {
     Low,
     High,
 }
 use Side::{High, Low};
 
+/// A key of an input, the side on which it is bounded, and the hard limit with its value.
+type Row = (&'static str, Side, &'static str, f64);
+
+/// A watch that is looser than this would not notice a silent input in time, whichever input it is.
+fn of_every_input(limits: &HardLimits) -> [Row; 3] {
+    [
+        ("slow_age", High, "max_age", limits.max_age),
+        ("max_age", High, "max_age", limits.max_age),
+        ("hold_before_safe", High, "hold_before_safe", limits.hold_before_safe),
+    ]
+}
+
+/// The ramp to the safe value has both sides: too fast it is a blow on the tool, too slow it never arrives.
+fn of_rotary_speed(limits: &HardLimits) -> Vec<Row> {
+    let fastest = |key| (key, High, "slew_rpm_per_s", limits.slew_rpm_per_s);
+    let slowest = limits.slowest_ramp_rpm_per_s;
+    vec![
+        ("min_rpm", Low, "min_rpm", limits.min_rpm),
+        ("max_rpm", High, "max_rpm", limits.max_rpm),
+        ("safe_rpm", High, "safe_rpm", limits.safe_rpm),
+        fastest("slew_rpm_per_s"),
+        fastest("downhole_slew_rpm_per_s"),
+        fastest("safe_ramp_rpm_per_s"),
+        ("safe_ramp_rpm_per_s", Low, "slowest_ramp_rpm_per_s", slowest),
+    ]
+}
+
+/// As of the speed, but without a limit from below.
+fn of_weight_on_bit(limits: &HardLimits) -> Vec<Row> {
+    let fastest = |key| (key, High, "slew_kn_per_s", limits.slew_kn_per_s);
+    let slowest = limits.slowest_ramp_kn_per_s;
+    vec![
+        ("max_kn", High, "max_kn", limits.max_kn),
+        ("safe_kn", High, "safe_kn", limits.safe_kn),
+        ("tare_error_kn", High, "tare_error_kn", limits.tare_error_kn),
+        fastest("slew_kn_per_s"),
+        fastest("safe_ramp_kn_per_s"),
+        ("safe_ramp_kn_per_s", Low, "slowest_ramp_kn_per_s", slowest),
+    ]
+}
+
+fn of_rate_of_penetration(limits: &HardLimits) -> Vec<Row> {
+    vec![
+        ("min_m_per_h", Low, "min_m_per_h", limits.min_m_per_h),
+        ("max_m_per_h", High, "max_m_per_h", limits.max_m_per_h),
+        (
+            "slew_m_per_h_per_s",
+            High,
+            "slew_m_per_h_per_s",
+            limits.slew_m_per_h_per_s,
+        ),
+    ]
+}
+
+fn of_standpipe_pressure(limits: &HardLimits) -> Vec<Row> {
+    vec![
+        ("min_mpa", Low, "min_mpa", limits.min_mpa),
+        ("max_mpa", High, "max_mpa", limits.max_mpa),
+        ("tare_error_mpa", High, "tare_error_mpa", limits.tare_error_mpa),
+        ("slew_mpa_per_s", High, "slew_mpa_per_s", limits.slew_mpa_per_s),
+    ]
+}
+
 impl HardBounds {
     /// Those of the configuration that a run begins with.
     pub fn of(config: &Config) -> Self {
         let limits = &config.inputs.hard_limits;
-        let (speed, weight) = ("inputs.rotary_speed", "inputs.weight_on_bit");
-        let (advance, pressure) = ("inputs.rate_of_penetration", "inputs.standpipe_pressure");
-        let mut rows: Vec<(String, Side, &str, f64)> = Vec::new();
-        for (group, key, side, limit, value) in [
-            (speed, "min_rpm", Low, "min_rpm", limits.min_rpm),
-            (speed, "max_rpm", High, "max_rpm", limits.max_rpm),
-            (speed, "safe_rpm", High, "safe_rpm", limits.safe_rpm),
-            (speed, "slew_rpm_per_s", High, "slew_rpm_per_s", limits.slew_rpm_per_s),
-            (
-                speed,
-                "downhole_slew_rpm_per_s",
-                High,
-                "slew_rpm_per_s",
-                limits.slew_rpm_per_s,
-            ),
-            (
-                speed,
-                "safe_ramp_rpm_per_s",
-                High,
-                "slew_rpm_per_s",
-                limits.slew_rpm_per_s,
-            ),
-            (
-                speed,
-                "safe_ramp_rpm_per_s",
-                Low,
-                "slowest_ramp_rpm_per_s",
-                limits.slowest_ramp_rpm_per_s,
-            ),
-            (weight, "max_kn", High, "max_kn", limits.max_kn),
-            (weight, "safe_kn", High, "safe_kn", limits.safe_kn),
-            (weight, "tare_error_kn", High, "tare_error_kn", limits.tare_error_kn),
-            (weight, "slew_kn_per_s", High, "slew_kn_per_s", limits.slew_kn_per_s),
-            (
-                weight,
-                "safe_ramp_kn_per_s",
-                High,
-                "slew_kn_per_s",
-                limits.slew_kn_per_s,
-            ),
-            (
-                weight,
-                "safe_ramp_kn_per_s",
-                Low,
-                "slowest_ramp_kn_per_s",
-                limits.slowest_ramp_kn_per_s,
-            ),
-            (advance, "min_m_per_h", Low, "min_m_per_h", limits.min_m_per_h),
-            (advance, "max_m_per_h", High, "max_m_per_h", limits.max_m_per_h),
-            (
-                advance,
-                "slew_m_per_h_per_s",
-                High,
-                "slew_m_per_h_per_s",
-                limits.slew_m_per_h_per_s,
-            ),
-            (pressure, "min_mpa", Low, "min_mpa", limits.min_mpa),
-            (pressure, "max_mpa", High, "max_mpa", limits.max_mpa),
-            (
-                pressure,
-                "tare_error_mpa",
-                High,
-                "tare_error_mpa",
-                limits.tare_error_mpa,
-            ),
-            (
-                pressure,
-                "slew_mpa_per_s",
-                High,
-                "slew_mpa_per_s",
-                limits.slew_mpa_per_s,
-            ),
-            (advance, "slow_age", High, "max_age", limits.max_age),
-            (advance, "max_age", High, "max_age", limits.max_age),
-            (pressure, "slow_age", High, "max_age", limits.max_age),
-            (pressure, "max_age", High, "max_age", limits.max_age),
-            (
-                advance,
-                "hold_before_safe",
-                High,
-                "hold_before_safe",
-                limits.hold_before_safe,
-            ),
-            (
-                pressure,
-                "hold_before_safe",
-                High,
-                "hold_before_safe",
-                limits.hold_before_safe,
-            ),
-            (speed, "slow_age", High, "max_age", limits.max_age),
-            (speed, "max_age", High, "max_age", limits.max_age),
-            (weight, "slow_age", High, "max_age", limits.max_age),
-            (weight, "max_age", High, "max_age", limits.max_age),
-            (
-                speed,
-                "hold_before_safe",
-                High,
-                "hold_before_safe",
-                limits.hold_before_safe,
-            ),
-            (
-                weight,
-                "hold_before_safe",
-                High,
-                "hold_before_safe",
-                limits.hold_before_safe,
-            ),
-        ] {
-            rows.push((format!("{group}.{key}"), side, limit, value));
-        }
-        // What the configuration may set is known by its keys. A limit on a
-        // key that is not live has no effect and costs nothing.
+        let groups = [
+            ("inputs.rotary_speed", of_rotary_speed(limits)),
+            ("inputs.weight_on_bit", of_weight_on_bit(limits)),
+            ("inputs.rate_of_penetration", of_rate_of_penetration(limits)),
+            ("inputs.standpipe_pressure", of_standpipe_pressure(limits)),
+        ];
+        let rows = groups.into_iter().flat_map(|(group, own)| {
+            let keys = own.into_iter().chain(of_every_input(limits));
+            keys.map(move |(key, side, limit, value)| (format!("{group}.{key}"), side, limit, value))
+        });
+        // Numbers that the configuration does not have are left out: a limit needs the value that it bounds.
         let numbers = config.numbers();
         let rates = numbers.iter().filter(|number| number.key.starts_with("outputs.rates."));
-        rows.extend(rates.map(|number| (number.key.clone(), High, "rate", limits.rate)));
-        // A value of the configuration beyond its hard limit is the limit itself: the file is the operator's decision,
-        // and a parameter may come from any client.
+        let rates = rates.map(|number| (number.key.clone(), High, "rate", limits.rate));
+        // A value of the configuration beyond its hard limit is the limit itself: the file is the operator's decision, and
+        // a parameter may come from any client.
         let bound = |(key, side, limit, value): (String, Side, &str, f64)| {
             let own = numbers.iter().find(|number| number.key == key)?;
             let (low, high) = match side {
@@ -268,7 +230,7 @@ impl HardBounds {
             })
         };
         let near = near_the_configuration(&numbers);
-        Self(rows.into_iter().filter_map(bound).chain(near).collect())
+        Self(rows.chain(rates).filter_map(bound).chain(near).collect())
     }
 
     /// Whether a configuration that parameters have changed keeps them.

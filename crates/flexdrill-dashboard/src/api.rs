@@ -68,7 +68,6 @@ pub(crate) struct SharedAnswers {
     wrong_tokens: WrongTokens,
 }
 
-/// A bag that is played.
 pub(crate) struct PlayedBag {
     pub name: String,
     /// ns since 1970.

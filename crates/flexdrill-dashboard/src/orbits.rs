@@ -27,7 +27,6 @@ const ANOTHER_RUN: i64 = 2_000_000_000;
 /// Largest value of a position's two bytes.
 const FULL: f32 = i16::MAX as f32;
 
-/// The open window.
 #[derive(Debug, Default)]
 struct OpenWindow {
     /// Number of the period since 1970.
@@ -38,7 +37,6 @@ struct OpenWindow {
     positions: Vec<f32>,
 }
 
-/// A finished window.
 #[derive(Debug)]
 struct OrbitWindow {
     times: Vec<i64>,

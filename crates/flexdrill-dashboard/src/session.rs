@@ -113,7 +113,6 @@ impl Session {
     }
 }
 
-/// A station of the tool.
 struct Station {
     /// Measured depth (m).
     depth: f64,

@@ -59,7 +59,7 @@ pub enum FieldLogError {
     DuplicateColumn {
         /// Name of the log.
         file: String,
-        /// The column.
+        /// Its name, as the mapping has it.
         column: String,
         /// Key of the mapping.
         key: String,
@@ -73,7 +73,7 @@ pub enum FieldLogError {
     MissingColumn {
         /// Name of the log.
         file: String,
-        /// The column.
+        /// Its name, as the mapping has it.
         column: String,
         /// Key of the mapping.
         key: String,

@@ -116,7 +116,6 @@ pub fn read_bytes(
 /// Largest log that is read (bytes): two months at 1 Hz with thirty columns. It is held in memory.
 const LARGEST: u64 = 1 << 30;
 
-/// The bytes of a log.
 fn content_of(path: &Path, name: &str) -> Result<Vec<u8>, FieldLogError> {
     let failed = |reason: std::io::Error| FieldLogError::Read {
         path: path.to_path_buf(),
@@ -137,7 +136,6 @@ fn content_of(path: &Path, name: &str) -> Result<Vec<u8>, FieldLogError> {
     Ok(content)
 }
 
-/// The sources of a report.
 struct ReportSource<'a> {
     file: &'a str,
     mapping: &'a Mapping,

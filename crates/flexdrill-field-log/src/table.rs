@@ -60,7 +60,6 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// The measured values of a row.
     pub(crate) fn measured_of(&self, row: &Row) -> &[f64] {
         let count = self.measured_kinds.len();
         self.measured
@@ -261,7 +260,6 @@ impl LineReader {
         }
     }
 
-    /// The fields of a line.
     fn read(&mut self, line: &[u8]) -> csv::ByteRecord {
         self.parser.reset();
         // Neither buffer needs more entries than the line has bytes, plus one for its end.

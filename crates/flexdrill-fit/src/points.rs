@@ -191,13 +191,13 @@ pub enum PointsError {
         "{file}: its points are of another configuration, version, seed or prior; name another folder with --out, or remove it"
     )]
     Other {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
     },
     /// A line cannot be read.
     #[error("{file}, line {line}: not a point; remove the line or the file")]
     Line {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// The line, from 1.
         line: usize,

@@ -66,7 +66,6 @@ pub fn range(bag: &Bag, path: &Path) -> Result<(u64, u64), LiveError> {
     Ok((time(start), time(end).max(time(start) + 1)))
 }
 
-/// State of the playback.
 struct Playback {
     playing: bool,
     speed: f32,

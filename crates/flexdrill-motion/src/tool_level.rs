@@ -119,7 +119,6 @@ impl Lead {
     }
 }
 
-/// The kind of whirl of a hazard.
 fn whirl_of(kind: HazardKind) -> WhirlKind {
     match kind {
         HazardKind::ForwardWhirl => WhirlKind::Forward,

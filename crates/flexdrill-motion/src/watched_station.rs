@@ -73,7 +73,6 @@ impl StationSample {
     }
 }
 
-/// State of a watched station.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct StationWatch {
     pub(super) station: WatchedStation,
@@ -282,7 +281,6 @@ impl StationWatch {
         }
     }
 
-    /// Level of one kind of whirl.
     pub(super) fn level_of(&self, kind: WhirlKind) -> Severity {
         match kind {
             WhirlKind::Backward => self.backward.level(),

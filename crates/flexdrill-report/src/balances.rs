@@ -158,7 +158,6 @@ impl<const N: usize> Recent<N> {
     }
 }
 
-/// All balances of a recording.
 #[derive(Debug)]
 pub(crate) struct Balances {
     forces: Balance,
@@ -223,7 +222,6 @@ impl Balances {
         self.tool = Some(Tool::of(config));
     }
 
-    /// All balances.
     pub(crate) fn all(&self) -> [&Balance; 6] {
         [
             &self.forces,

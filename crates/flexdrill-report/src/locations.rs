@@ -339,7 +339,6 @@ impl Locations {
         (orbit.points.len() > 1).then_some((joint, orbit))
     }
 
-    /// The joint nearest to a depth.
     pub(crate) fn nearest_joint(&self, depth: f64) -> Option<usize> {
         nearest(&self.joint_depth, depth)
     }

@@ -352,7 +352,6 @@ pub(crate) fn named_orbits(summary: &Summary, name: &'static str) -> Option<Figu
     figure(name, 3, 350, panels)
 }
 
-/// Pace of the model.
 pub(crate) fn pace(summary: &Summary) -> Option<Figure> {
     let axis = Axis::of(summary);
     let health = &summary.health;

@@ -207,7 +207,6 @@ impl Player {
         &self.initial_rates
     }
 
-    /// The present configuration.
     pub(super) fn config(&self) -> &Config {
         &self.config
     }

@@ -57,7 +57,6 @@ pub(super) fn is_ours(bag: &Bag) -> bool {
 }
 
 impl Script {
-    /// Reads a recording.
     pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
         let mut bag = bag::open(path)?;
         let wanted = [

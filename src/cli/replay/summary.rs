@@ -227,7 +227,6 @@ impl Tally {
         }
     }
 
-    /// Counts a step.
     pub(super) fn step(&mut self, iterations: u32, halvings: u32) {
         self.steps += 1;
         self.iterations += u64::from(iterations);
@@ -395,7 +394,6 @@ fn bit_location(snapshot: &Snapshot) -> ToolLocation {
     )
 }
 
-/// The location of the shock.
 fn shock_location(snapshot: &Snapshot) -> ToolLocation {
     let body = if snapshot.shock.layer == 0 {
         Body::Pipe

@@ -33,7 +33,6 @@ pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
     Ok(key.kind != KeyEventKind::Release && quit)
 }
 
-/// Draws the board as it is at `now`.
 pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
     // A third of the lines beyond 24 goes to the alarms, at most ten lines.
     let spare = frame.area().height.saturating_sub(24) / 3;

@@ -336,7 +336,6 @@ fn nested(name: &str, of: TypeName) -> Field {
     plain(name, kind)
 }
 
-/// A definition of these fields.
 fn made_of(name: TypeName, fields: Vec<Field>, text: &str, source: Source) -> Definition {
     Definition {
         name,

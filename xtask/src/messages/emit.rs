@@ -53,7 +53,6 @@ pub(super) fn source(catalogue: &Catalogue) -> Result<String, GenerateError> {
     Ok(out)
 }
 
-/// The table of all services.
 fn services(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError> {
     out.push_str("\n/// Every service, sorted by name.\npub const SERVICES: &[ServiceInfo] = &[\n");
     for service in catalogue.services() {
@@ -81,7 +80,6 @@ fn services(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError
     Ok(())
 }
 
-/// The table of all actions.
 fn actions(out: &mut String, catalogue: &Catalogue) -> Result<(), GenerateError> {
     out.push_str("\n/// Every action, sorted by name.\npub const ACTIONS: &[ActionInfo] = &[\n");
     for action in catalogue.actions() {

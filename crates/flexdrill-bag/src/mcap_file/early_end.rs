@@ -10,7 +10,6 @@ use mcap::records::op;
 use super::RECORD_HEAD;
 use super::records::{Fields, records};
 
-/// Content of the file.
 pub(crate) struct Content {
     /// End of the last whole chunk (bytes).
     pub length: u64,

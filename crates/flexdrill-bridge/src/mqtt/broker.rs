@@ -71,13 +71,13 @@ pub enum BrokerError {
         "the certificates of the authorities cannot be used: {why}; a PEM file begins with -----BEGIN CERTIFICATE-----"
     )]
     Authority {
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
     },
     /// The system's authorities cannot be read.
     #[error("the system's certificates cannot be read: {why}; install the package ca-certificates or name a file")]
     SystemCertificates {
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
     },
 }
@@ -177,7 +177,6 @@ impl Broker {
         }
     }
 
-    /// The options of a connection.
     pub(super) fn options(
         &self,
         client_id: &str,

@@ -9,7 +9,6 @@ use serde_json::{Map, Value, json};
 
 use crate::{Figure, Quantity, TwinFigures};
 
-/// A value with its unit.
 fn quantity(value: f64, unit: &str) -> Value {
     json!({"value": value, "unit": unit_name(unit)})
 }

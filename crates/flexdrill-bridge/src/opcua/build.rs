@@ -30,7 +30,6 @@ const WRITABLE: [(Quantity, Unit); 4] = [
     (Quantity::Measured(MeasuredKind::StandpipePressure), Unit::Megapascal),
 ];
 
-/// The id of a node by its path.
 pub(super) fn id(namespace: u16, path: &[&str]) -> NodeId {
     NodeId::new(namespace, path.join("/"))
 }
@@ -84,7 +83,6 @@ pub(super) fn build(
     }
 }
 
-/// Makes nodes.
 pub(super) struct Nodes<'a> {
     pub(super) space: &'a mut AddressSpace,
     pub(super) namespace: u16,

@@ -64,7 +64,7 @@ pub enum RigEvent {
     NotFollowed {
         /// Its id in the mapping.
         node: String,
-        /// Why.
+        /// The reason, in words for a log.
         status: StatusCode,
     },
     /// A value came.
@@ -75,12 +75,12 @@ pub enum RigEvent {
     Closed {
         /// Its number.
         connection: u64,
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
     },
     /// No connection; another attempt follows.
     Waiting {
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
         /// Until the next attempt.
         wait: Duration,

@@ -22,7 +22,7 @@ pub enum KeysError {
     Folder {
         /// The folder or file.
         path: PathBuf,
-        /// Why.
+        /// The reason, in words for a log.
         source: io::Error,
     },
     /// The certificate could not be made.
@@ -30,7 +30,7 @@ pub enum KeysError {
     Certificate {
         /// The folder.
         path: PathBuf,
-        /// Why.
+        /// The reason, in words for a log.
         why: String,
     },
 }

@@ -31,7 +31,6 @@ pub(super) struct Target {
     pub(super) unit: Unit,
 }
 
-/// The twin's nodes.
 pub(super) struct TwinNodes {
     pub(super) namespaces: Vec<NamespaceMetadata>,
     pub(super) targets: HashMap<NodeId, Target>,

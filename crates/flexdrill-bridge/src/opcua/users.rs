@@ -19,7 +19,7 @@ use super::event::ServerEvent;
 const PENALTY: Duration = Duration::from_secs(1);
 /// Wrong passwords that are answered at a time; more are refused at once, so that waiting costs no memory.
 const MOST_WAITING: usize = 8;
-/// Most users.
+/// Most users of a file: more are a mistake, or a file made to exhaust memory.
 const MOST_USERS: usize = 1000;
 /// Fewest characters of a password.
 const SHORTEST_PASSWORD: usize = 8;
@@ -32,7 +32,7 @@ pub enum UsersError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason, in words for a log.
         source: io::Error,
     },
     /// Others may read it.

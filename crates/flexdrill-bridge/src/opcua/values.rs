@@ -294,7 +294,6 @@ impl Collector {
     }
 }
 
-/// The number in a value.
 fn number(value: &Variant) -> Option<f64> {
     let number = match value {
         Variant::SByte(value) => f64::from(*value),

@@ -35,7 +35,7 @@ pub enum CaptureError {
     File {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason, in words for a log.
         reason: io::Error,
     },
     /// The file is damaged from there on.

@@ -43,7 +43,7 @@ impl DiscardReason {
 /// Bytes that belong to no frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Discarded {
-    /// Why.
+    /// The reason, in words for a log.
     pub reason: DiscardReason,
     /// How many.
     pub bytes: u64,

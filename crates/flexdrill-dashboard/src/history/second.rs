@@ -3,7 +3,6 @@
 use super::columns::{COLUMNS, Column, Layout, Reduction};
 use flexdrill_messages::WhirlWarning;
 
-/// The open frame.
 #[derive(Debug, Clone)]
 pub(super) struct OpenFrame {
     /// Number of the period since 1970.

@@ -6,7 +6,6 @@ use super::text::number;
 use crate::balances::Balance;
 use crate::reading::Summary;
 
-/// The section.
 pub(super) fn section(summary: &Summary) -> Markup {
     let all = summary.balances.all();
     let (judged, left): (Vec<&Balance>, Vec<&Balance>) = all.into_iter().partition(|of| of.judged > 0);

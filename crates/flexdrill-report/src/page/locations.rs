@@ -105,7 +105,6 @@ pub(super) fn worst(summary: &Summary) -> Result<Markup, ReportError> {
     })
 }
 
-/// Whirl by station.
 fn whirl(summary: &Summary) -> Markup {
     let worst = summary.locations.worst_whirl();
     html! {

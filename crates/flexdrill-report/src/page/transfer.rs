@@ -41,7 +41,6 @@ fn power(group: &Group, put_in: f64) -> Markup {
     }
 }
 
-/// The section.
 pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
     let transfer = &summary.transfer;
     let figure = drawn(

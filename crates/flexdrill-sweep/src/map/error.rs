@@ -8,7 +8,7 @@ pub enum MapError {
     /// The file could not be read.
     #[error("{file}: cannot be read: {reason}")]
     Read {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// The system's reason.
         reason: std::io::Error,
@@ -16,13 +16,13 @@ pub enum MapError {
     /// The file is too large.
     #[error("{file}: more than {MOST_BYTES} bytes: no map is that large")]
     Large {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
     },
     /// It is not the JSON of a map.
     #[error("{file}: not a map of flexdrill, or damaged: {reason}")]
     NoMap {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// With line and column.
         reason: String,
@@ -32,7 +32,7 @@ pub enum MapError {
         "{file}: a map of format {found}; this program reads format {FORMAT}: make the map again with this program"
     )]
     Format {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// Its format.
         found: u32,
@@ -40,7 +40,7 @@ pub enum MapError {
     /// It contradicts itself.
     #[error("{file}: damaged: {what} = {value}: must be {bound}")]
     Damaged {
-        /// The file.
+        /// Path of the file, for the message.
         file: String,
         /// Path of the value.
         what: String,

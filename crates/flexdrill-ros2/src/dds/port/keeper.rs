@@ -110,7 +110,6 @@ impl Keeper {
         });
     }
 
-    /// Runs one process to its end.
     fn run_process(&mut self, report: &StartReport) -> End {
         let mut child = match Child::start(&self.plan, self.life, &self.shared, report) {
             Ok(child) => child,

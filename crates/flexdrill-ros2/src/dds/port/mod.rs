@@ -60,7 +60,6 @@ struct Shared {
     health: Mutex<Health>,
     peers: Mutex<Peers>,
     stop: AtomicBool,
-    /// Names of the services.
     service_names: Vec<String>,
     /// Requests over all lives of the process.
     request_filter: Mutex<RequestFilter>,

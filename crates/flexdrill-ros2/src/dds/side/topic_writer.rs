@@ -30,7 +30,6 @@ const WAITING: usize = 16;
 /// Most replaced writers before the process is restarted: each one is announced to every participant.
 pub(super) const MOST_REPLACEMENTS: u32 = 200;
 
-/// Writes one topic.
 pub(super) struct TopicWriter {
     plan: WriterPlan,
     writer: Writer<RawCdr>,

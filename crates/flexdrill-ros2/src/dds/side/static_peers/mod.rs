@@ -46,10 +46,8 @@ const RETRY: Duration = Duration::from_secs(30);
 /// Longest datagram (bytes).
 const MOST_BYTES: usize = 1 << 16;
 
-/// The static peers.
 pub(super) struct StaticPeers {
     addresses: Arc<Mutex<Vec<Ipv4Addr>>>,
-    /// The sockets of their readers.
     readers: Arc<Mutex<Vec<SocketAddr>>>,
 }
 
