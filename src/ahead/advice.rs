@@ -222,7 +222,7 @@ impl Runs<'_> {
     }
 
     /// A member's outcome; `None` where it was stopped. It parts from the others before the change: where a motion can
-    /// continue or end, the change itself decides which, and with a shared path all members would end alike. A member that
+    /// continue or end, the path to the change decides which: with a shared path all members would end alike. A member that
     /// fails speaks against the change, because what would have followed is unknown.
     fn member(&self, trial: &Trial, seed: u64, number: usize, member: u32) -> Option<Outcome> {
         let config = self.start.config();

@@ -250,8 +250,7 @@ async fn act(
     let offered = bearer(&headers);
     if !offered.is_some_and(|token| control.admits(token)) {
         if offered.is_some() {
-            // A wrong token is delayed by its address, which slows guessing. A
-            // missing one comes from every page without control.
+            // A wrong token is logged and delayed, which slows guessing. A missing one comes from every page without control.
             shared.answers.wrong_tokens.refuse(from).await;
         }
         return answer(

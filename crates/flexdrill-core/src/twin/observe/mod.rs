@@ -55,7 +55,7 @@ pub(super) struct Observer {
 impl Observer {
     pub(super) fn new(stepper: &Stepper, settings: &SimulationSettings) -> Self {
         let model = stepper.model();
-        // By default all joints are watched, pipe and guide: whirl is judged where the pipe is supported.
+        // By default pipe and guide at all joints are watched, the stations that every tool has.
         let watched: Vec<(usize, Body)> = if settings.watched.is_empty() {
             model
                 .joint_stations
