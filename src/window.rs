@@ -208,7 +208,7 @@ impl SafeWindow {
             weight_on_bit_kn: self.weights().values.clone(),
             ..Message::default()
         };
-        // The order is that of `flexdrill_msgs/SafeWindow`: weights outside, speeds inside, whichever axis of the map
+        // The order is that of `flexdrill/SafeWindow`: weights outside, speeds inside, whichever axis of the map
         // is which. A viewer takes the arrays without the map's file.
         for weight in 0..message.weight_on_bit_kn.len() {
             for speed in 0..message.rotary_speed_rpm.len() {

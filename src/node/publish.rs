@@ -173,7 +173,7 @@ impl Publisher {
 
     /// Publishes everything that is queued or due. Returns whether the solver had sent something.
     fn poll(&mut self) -> bool {
-        // Stamps need the instant of the first step. Until the solver has fixed it, events wait in their ring.
+        // Stamps need the instant of the first step, so the outputs begin once the solver has fixed it.
         match (self.parts.gauges.start(), &mut self.outputs) {
             (Some(start), None) => self.begin(start),
             (Some(start), Some(outputs)) => outputs.set_start(start),

@@ -105,7 +105,7 @@ impl Pressure {
                 c.number(key, diameter, DIAMETER, "m", DIAMETER_REASON);
             }
         }
-        // There is no safe default: a closed, a sealed and a held end have different signs of the pressure's force.
+        // There is no safe default: on a closed, a sealed and a held end the pressure exerts different forces.
         let Some(end) = self.end else {
             let bound = "closed, sealed or held";
             let reason = "without an end condition a pressure has no effective tension; ask for the tool's drawing";

@@ -181,7 +181,7 @@ impl DrillString {
             "at least one section with model: line",
             "waves need something to travel through",
         );
-        // The bound is on the sum, because its parts share one memory of waves.
+        // The bound is on the sum: it is the length of the well.
         let length: f64 = self.sections.iter().map(|section| section.length).sum();
         c.require(
             length <= LONGEST,

@@ -42,62 +42,81 @@ pub struct TransferSample {
 pub(super) const VALUES: usize = 23;
 
 impl TransferSample {
+    /// All readings in one order, so that sums and means are formed over them alike; [`TransferSample::of`] reverses it.
     pub(super) fn values(&self) -> [f64; VALUES] {
-        let [a, b, c] = self.torque;
-        let [d, e, f] = self.weight;
-        let (g, h, i) = (self.speed, self.feed_power, self.string_torque);
-        let [k, l, m] = self.axial_drag;
-        let [n, o, p] = self.friction_power;
-        let (hook, cut, rate) = (self.hook_load, self.depth_of_cut, self.rate_of_penetration);
-        let (asked, turns, limit) = (self.asked_speed, self.bit_speed, self.drive_at_limit);
-        let (weight, arrives) = (self.asked_weight, self.arrives);
+        let [surface_torque, kickoff_torque, bit_torque] = self.torque;
+        let [surface_weight, kickoff_weight, bit_weight] = self.weight;
+        let [pipe_drag, guide_drag, string_drag] = self.axial_drag;
+        let [inner_power, outer_power, joint_power] = self.friction_power;
         [
-            a, b, c, d, e, f, g, h, i, k, l, m, n, o, p, hook, cut, rate, asked, turns, limit, weight, arrives,
+            surface_torque,
+            kickoff_torque,
+            bit_torque,
+            surface_weight,
+            kickoff_weight,
+            bit_weight,
+            self.speed,
+            self.feed_power,
+            self.string_torque,
+            pipe_drag,
+            guide_drag,
+            string_drag,
+            inner_power,
+            outer_power,
+            joint_power,
+            self.hook_load,
+            self.depth_of_cut,
+            self.rate_of_penetration,
+            self.asked_speed,
+            self.bit_speed,
+            self.drive_at_limit,
+            self.asked_weight,
+            self.arrives,
         ]
     }
 
     pub(super) fn of(
         [
-            a,
-            b,
-            c,
-            d,
-            e,
-            f,
-            g,
-            h,
-            i,
-            k,
-            l,
-            m,
-            n,
-            o,
-            p,
-            hook,
-            cut,
-            rate,
-            asked,
-            turns,
-            limit,
-            weight,
+            surface_torque,
+            kickoff_torque,
+            bit_torque,
+            surface_weight,
+            kickoff_weight,
+            bit_weight,
+            speed,
+            feed_power,
+            string_torque,
+            pipe_drag,
+            guide_drag,
+            string_drag,
+            inner_power,
+            outer_power,
+            joint_power,
+            hook_load,
+            depth_of_cut,
+            rate_of_penetration,
+            asked_speed,
+            bit_speed,
+            drive_at_limit,
+            asked_weight,
             arrives,
         ]: [f64; VALUES],
     ) -> Self {
         Self {
-            torque: [a, b, c],
-            weight: [d, e, f],
-            speed: g,
-            feed_power: h,
-            string_torque: i,
-            axial_drag: [k, l, m],
-            hook_load: hook,
-            depth_of_cut: cut,
-            rate_of_penetration: rate,
-            friction_power: [n, o, p],
-            asked_speed: asked,
-            bit_speed: turns,
-            drive_at_limit: limit,
-            asked_weight: weight,
+            torque: [surface_torque, kickoff_torque, bit_torque],
+            weight: [surface_weight, kickoff_weight, bit_weight],
+            speed,
+            feed_power,
+            string_torque,
+            axial_drag: [pipe_drag, guide_drag, string_drag],
+            hook_load,
+            depth_of_cut,
+            rate_of_penetration,
+            friction_power: [inner_power, outer_power, joint_power],
+            asked_speed,
+            bit_speed,
+            drive_at_limit,
+            asked_weight,
             arrives,
         }
     }

@@ -162,7 +162,7 @@ fn serve(plan: &Plan, from: BufReader<UnixStream>, outlet: &Outlet) -> Result<()
         answers,
         end: Arc::clone(&end),
     };
-    // The socket is read by a thread that blocks, so that a large message is never divided among tasks.
+    // The socket is read by a separate thread, because its reads block.
     std::thread::Builder::new()
         .name("from the node".into())
         .spawn(move || inlet.run(from))?;

@@ -182,7 +182,7 @@ impl Announcer {
             }
             std::thread::sleep(RETRY);
         };
-        // The newest announcement is kept, because DDS repeats it more seldom than peers must be called.
+        // The newest announcement is kept for the calls until the next one arrives.
         let mut buffer = vec![0; MOST_BYTES];
         let mut announced: Option<Vec<u8>> = None;
         let (mut called, mut due) = (Instant::now(), Instant::now());
@@ -195,7 +195,8 @@ impl Announcer {
             {
                 // Without the multicast group, or the peer would answer to where it cannot be heard.
                 announced = Some(announcement::without_multicast(&buffer[..length]));
-                // A new announcement is sent soon, but not more often than `PAUSE`: discovery sends several in a row.
+                // A new announcement is forwarded soon, but not more often than `PAUSE`: the library announces itself
+                // again to each new participant.
                 due = due.min(called + PAUSE);
             }
             let now = Instant::now();
