@@ -19,7 +19,7 @@ pub fn figure(plan: &Plan, rows: &[Row]) -> Figure {
         .from_zero()
         .legend(Legend::Stacked);
     for (rotates, name, color) in [(true, "with rotation", WITH), (false, "without rotation", WITHOUT)] {
-        // A run that failed leaves a gap in the curve: a line across it would claim a value.
+        // A run that failed has no point on the curve; the table names it.
         let known = |row: &Row| Some(n_to_kn(row.found.as_ref().ok()?.weight[1]));
         weight = curve(weight, plan, rows, rotates, (name, color), known);
     }

@@ -169,7 +169,7 @@ impl Point {
                 return Err(format!("the tool has no {missing}"));
             }
             let judged = Judged::of(&windows, load);
-            // The means can be steady by chance before the motion has run up through the whole tool.
+            // Before this time an auto-driller has not arrived at its weight, however slowly the means change.
             if judged.is_steady && simulation.time() >= self.settling() {
                 let [weight_at_top, weight, torque_at_top, torque] = judged.means;
                 let (guide, chain) = forces.onsets(&tool, weight_at_top);

@@ -157,7 +157,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
     );
     add("depth of cut", unit("mm/turn", 1e3, 1e-6), |s| &s.transfer.depth_of_cut);
     add(ADVANCE, advance, |s| &s.transfer.rate_of_penetration);
-    // The groups are the same in both, as they are built by one function, so that zipping pairs equals.
+    // The groups are the same in both runs, as one function builds them, so that equal quantities are paired.
     let groups = [
         (&a.transfer.torque, &b.transfer.torque, "", torque),
         (&a.transfer.friction, &b.transfer.friction, "torque: ", torque),

@@ -59,8 +59,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                             @if !status.dds_restart_cause.is_empty() { "; the last: " (status.dds_restart_cause) }
                         } }
                         tr { th { "messages lost" } td { (lost(status)) } }
-                        // Only where it happened; every other row is always there, so
-                        // that its absence means an old recording.
+                        // Only where the clock was set, which is rare.
                         @if status.clock_set_by != 0.0 {
                             tr { th { "system clock set by" } td { (number(status.clock_set_by)) " s" } }
                         }
