@@ -185,7 +185,7 @@ fn quality_of(quality: &ModelQuality) -> String {
     format!("{}, energy error {share} of what vibration loses{cause}", quality.level)
 }
 
-// Each row is one string, so that the same table prints as text, CSV and in documents.
+// Rows are strings, because each figure has its own unit and digits.
 fn figures_of(measured: &Measured) -> Table {
     let mut table = Table::new(["figure", "value"]);
     let mut row = |figure: &str, value: String| table.row([figure.to_owned(), value]);
