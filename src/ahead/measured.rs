@@ -588,7 +588,7 @@ mod tests {
     }
 
     /// The real tool sticks and slips at 20 r/min and 40 kN. At 10 r/min its alarm ends, since it is not judged below
-    /// 11 r/min, and the bit goes on swinging.
+    /// 11 r/min, and the bit continues to swing.
     #[test]
     fn less_speed_than_the_gate_ends_the_alarm_and_not_the_motion() {
         let config = Config::from_text("coarse.yaml", include_str!("../../config/coarse.yaml"))

@@ -391,7 +391,7 @@ pub(super) struct Demand {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Action {
     pub text: String,
-    /// The alarm whose action comes first; none for an action of its own.
+    /// The alarm whose action comes first; none for an alarm with its own action.
     pub follows: Option<AlarmId>,
 }
 

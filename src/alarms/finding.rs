@@ -30,7 +30,7 @@ pub struct Finding {
     /// What the driller can do: weight, speed, pick up, call the engineer; never a file, a parameter or a mesh. For the
     /// alarms of the tool's motion the book writes it, since they share one advice.
     pub what_to_do: String,
-    /// The alarm that `what_to_do` refers to; none for an action of its own.
+    /// The alarm that `what_to_do` refers to; none for an alarm with its own action.
     pub follows: Option<AlarmId>,
     /// What the engineer can do.
     pub what_the_engineer_can_do: String,

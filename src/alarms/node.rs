@@ -147,7 +147,7 @@ fn input(kind: InputKind, state: &NodeState<'_>, began: f64, first_sample_within
                 match (acts, kind.is_optional(), safe) {
                     (false, ..) => Priority::Low,
                     (true, false, true) => Priority::High,
-                    // Without it the model still follows speed and weight.
+                    // Without it the model continues to follow speed and weight.
                     _ => Priority::Medium,
                 },
                 format!("No good sample on {topic} for {silence:.0} s; {fallback}.{refused}"),

@@ -25,7 +25,7 @@ use flexdrill_fit::unknowns::Unknowns;
 use flexdrill_fit::{Study, StudySettings, study};
 use flexdrill_text::{counted, printable};
 
-/// File of the twin's points, by which an interrupted calibration goes on.
+/// File of the twin's points, by which an interrupted calibration continues.
 const POINTS: &str = "points.csv";
 
 /// Fit friction, the bit's coefficient and the sensors' tares to a field log or a bag with what the rig measured.

@@ -22,7 +22,7 @@ use flexdrill_sweep::spec::evenly;
 ///
 /// Every cell is run from rest and from running; the map says where the two differ. Runs are chosen where they show most
 /// of the boundary. Other cells are inferred where the runs around them say with 95 % what they are, and are not known
-/// elsewhere. A map that was interrupted goes on with the same command.
+/// elsewhere. The same command continues a map that was interrupted.
 #[derive(Debug, Args)]
 pub struct MapArgs {
     /// The configuration (YAML).

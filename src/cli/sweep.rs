@@ -44,7 +44,7 @@ struct PlanArgs {
 /// Computes the points of a directory that have no result yet.
 ///
 /// The command may run any number of times, at the same time, on any machine that shares the directory. A worker that is
-/// lost costs the points that it was computing; the same command goes on.
+/// lost costs the points that it was computing; the same command continues.
 #[derive(Debug, Args)]
 struct WorkArgs {
     /// The directory of a plan.

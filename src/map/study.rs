@@ -102,7 +102,7 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
 }
 
 /// Makes a map in a directory, on `jobs` threads; results that are there are used. Returns nothing when `stop` is set:
-/// then the same call goes on later.
+/// then the same call continues later.
 ///
 /// The same plan and question give the same map, with any number of threads and interruptions.
 ///

@@ -248,7 +248,7 @@ impl Advisor {
         stop(&mut exchange.forecast);
     }
 
-    /// As [`Advisor::interrupt`], for a goal that has come; a turn that is kept goes on.
+    /// As [`Advisor::interrupt`], for a goal that has come; a turn that is kept continues.
     pub fn yield_to_goal(&self) {
         let mut exchange = self.lock();
         if !exchange.kept {

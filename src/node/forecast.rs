@@ -183,7 +183,7 @@ impl ForecastDesk {
                     end: (forecast.first + HORIZON) as f64,
                     targets: issued.targets,
                 };
-                // Its runs took so long on a busy machine, or the rig went on to other values meanwhile.
+                // Its runs took so long on a busy machine, or the rig has set other values meanwhile.
                 if let Some(why) = self.gone(&minute) {
                     message.failure = why;
                     return Some(message);

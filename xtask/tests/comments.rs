@@ -124,7 +124,7 @@ impl Code {
             .collect()
     }
 
-    /// Names of modules that are compiled for tests only and have files of their own.
+    /// Names of modules that are compiled for tests only and have separate files.
     fn modules_of_tests(&self) -> Vec<String> {
         let starts = self.of_tests().into_iter();
         let declared = starts.filter_map(|range| {

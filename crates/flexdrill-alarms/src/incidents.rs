@@ -28,7 +28,7 @@ pub struct Occurrence<'a> {
     pub priority: u8,
     /// The operator who caused the event; empty without one.
     pub operator: &'a str,
-    /// Whether the event has an action of its own, not one that refers to another alarm's.
+    /// Whether the event asks for an action itself, and does not refer to another alarm's.
     pub acts: bool,
 }
 
@@ -62,7 +62,7 @@ pub struct Group<D> {
     pub duration: Time,
     /// The highest priority.
     pub priority: u8,
-    /// Whether `worst` has an action of its own.
+    /// Whether `worst` asks for an action itself.
     pub acts: bool,
     /// The details of the first event of the highest priority, of those with an action of their own where there are any.
     pub worst: D,

@@ -48,7 +48,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Backward whirl, the motion that alarms are for: the pipe is thrown round the guide and rolls where it touches, so that
+/// Backward whirl, the motion that alarms are for: the pipe runs round the guide and rolls where it touches, so that
 /// friction at small slip turns its direction in every collision. What depends on the step is measured on [`CASES`] only,
 /// whose statistics scatter less.
 pub const WHIRLING: Case = Case {

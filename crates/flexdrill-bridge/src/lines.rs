@@ -347,7 +347,7 @@ impl Ends {
                     }
                     continue;
                 }
-                // Nothing will be written any more; the connection is still read.
+                // Nothing will be written any more; the connection is read as before.
                 Err(RecvError::Closed) => std::future::pending().await,
             };
             match tokio::time::timeout(WRITE_TIMEOUT, writer.write_all(&bytes)).await {

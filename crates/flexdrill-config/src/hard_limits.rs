@@ -72,7 +72,7 @@ pub struct HardBound {
 }
 
 /// Groups of thresholds of alarms, and the factor by which a client may raise one above its configured value. Beyond it,
-/// one call would end an alarm whose motion goes on. Thresholds may be lowered: that calls earlier.
+/// one call would end an alarm whose motion continues. Thresholds may be lowered: that calls earlier.
 const THRESHOLDS: ([&str; 3], f64) = (
     ["whirl.backward_cycles.", "whirl.forward_power.", "whirl.lasting_turns."],
     1.25,

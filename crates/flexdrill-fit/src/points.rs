@@ -1,4 +1,4 @@
-//! The twin's results at the points of a design, run on threads and kept in a file, so that an interrupted study goes on
+//! The twin's results at the points of a design, run on threads and kept in a file, so that an interrupted study continues
 //! where it stopped.
 
 use std::collections::BTreeMap;

@@ -11,7 +11,7 @@
 //! - `steering`: parameters, services and inputs for viewers with the token. `token`: that secret. `wrong_tokens`:
 //!   slows down and logs wrong ones.
 //! - `connections`: the connections to the address, bounded in number, time and buffers.
-//! - `server`: hub and gateway on a thread of their own (`flexdrill run --foxglove`) or in an existing runtime.
+//! - `server`: hub and gateway on a separate thread (`flexdrill run --foxglove`) or in an existing runtime.
 //! - `player`: a bag as the source, with play, pause, seek and speed.
 //!
 //! A slow viewer loses its oldest messages and slows nothing else. The announced address is the only listening socket.

@@ -100,7 +100,7 @@ impl Shared {
     }
 }
 
-/// A hub and its gateway on a thread of their own. The publisher, which must not wait, feeds it through a queue.
+/// A hub and its gateway on a separate thread. The publisher, which must not wait, feeds it through a queue.
 pub struct LiveServer {
     shared: Arc<Shared>,
     end: Option<oneshot::Sender<()>>,

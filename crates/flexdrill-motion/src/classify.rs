@@ -237,7 +237,7 @@ pub(super) fn judge(long: &View, short: Option<&View>, gates: &Gates, rotation: 
         };
     }
     // Energy in both directions alike: either chaos, or a pipe that is
-    // thrown round and is whirl only over the long window.
+    // carried round by its impacts and is whirl only over the long window.
     if !gates.is_directed(&view.lines) {
         if gates.is_thrown_round(&long.round) {
             return Verdict {

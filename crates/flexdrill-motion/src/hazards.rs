@@ -11,9 +11,9 @@ use super::episodes::ToolLocation;
 #[serde(rename_all = "snake_case")]
 #[repr(u8)]
 pub enum HazardKind {
-    /// The pipe goes round the guide against the rotation: each link is bent several times per turn.
+    /// The pipe runs round the guide against the rotation: each link is bent several times per turn.
     BackwardWhirl = 0,
-    /// The pipe goes round with the rotation: one side of it rubs.
+    /// The pipe runs round with the rotation: one side of it rubs.
     ForwardWhirl = 1,
     /// Collisions, by their impulse and number.
     Shock = 2,

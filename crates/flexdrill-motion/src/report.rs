@@ -178,6 +178,6 @@ pub struct ShockLevel {
     pub since: f64,
     /// Model time of that impulse (s).
     pub seen: f64,
-    /// Whether impulses still hold the level: the last one counts for the mean interval of the holding impulses.
+    /// Whether impulses hold the level: the last one counts for the mean interval of the holding impulses.
     pub hold: Hold,
 }

@@ -22,7 +22,7 @@ const RATE: f64 = 1000.0;
 /// Steps between two points.
 const EVERY: u64 = 20;
 /// Time before the first error is counted (s): the load starts suddenly, and the deflection that the error is relative
-/// to is still as small as the beam's swing.
+/// to is then as small as the beam's swing.
 const FIRST: f64 = 0.02;
 
 impl Hinge {

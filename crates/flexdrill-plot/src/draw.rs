@@ -56,7 +56,7 @@ pub fn svg(figure: &Figure) -> Result<String, DrawError> {
     svg_of_width(figure, WIDTH)
 }
 
-/// The figure as SVG of another width. Texts keep their size, so that a figure of 480 units is still read on a telephone.
+/// The figure as SVG of another width. Texts keep their size, so that a figure of 480 units can be read on a telephone.
 ///
 /// # Errors
 /// As [`svg`].

@@ -66,7 +66,7 @@ impl Twin {
         Ok(Self::of(config, run))
     }
 
-    /// A run that goes on from a simulation's present state.
+    /// A run that continues from a simulation's present state.
     pub(crate) fn resumed(config: Arc<Config>, simulation: Simulation, inputs: Inputs, refinement: u32) -> Self {
         let run = Run::new(simulation, silent(&config));
         let applied = RunInputs {

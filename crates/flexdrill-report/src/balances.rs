@@ -12,7 +12,7 @@ use flexdrill_config::Config;
 use flexdrill_core::tool::{DepthOfCut, RockLaw};
 use flexdrill_messages::{AppliedInputs, BitState, Reactions, Transfer};
 
-/// Part by which an input may waver and still stays: a rig's weight wavers by 2 %.
+/// Part by which an input may waver and counts as constant: a rig's weight wavers by 2 %.
 const STAYS: f64 = 0.05;
 /// Time that a tool takes to follow an input (s), and the same in response times of the hoist.
 const FOLLOWS: (f64, f64) = (2.0, 8.0);

@@ -1,6 +1,6 @@
 //! Which runs of a map to make next, so that few show where the boundaries are, and what the others are inferred to be.
 //!
-//! Every start has processes of its own ([`crate::gauss`]), one per class: a run that failed is a class with its own boundary,
+//! Every start has separate processes ([`crate::gauss`]), one per class: a run that failed is a class with its own boundary,
 //! not a gap. Runs are chosen in rounds: next to a failure that stands alone and next to a boundary first, which is what a map
 //! is read for, then where a run shows most of a cell that is not known. Within a round each choice counts as seen for the
 //! next, so that a round does not crowd. The choice depends on the results only, not on who computed them or when.

@@ -1,6 +1,6 @@
 //! A Gaussian process over a grid that says which class a run would show, and how sure that is.
 //!
-//! Every class has a process of its own against the others: +1 where a run showed the class, -1 where it showed another one
+//! Every class has a separate process against the others: +1 where a run showed the class, -1 where it showed another one
 //! (least-squares classification: Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, section 6.5). All
 //! have the same covariance and so share one factorisation: Matern 5/2 with a length per axis (eq. 4.17). Lengths and scatter
 //! are chosen from a few by the marginal likelihood (eq. 2.30) of all classes together.

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 /// Least time between two log lines of one cause (s).
 pub const LOG_INTERVAL: f64 = 10.0;
-/// Most causes of a process that have lines of their own; all others share one.
+/// Most causes of a process that have separate lines; all others share one.
 const MOST_CAUSES: usize = 1024;
 
 /// Causes of a process and when it began.

@@ -7,7 +7,7 @@ use flexdrill_core::tool::{Body, Direction, RockLaw, SectionProperties};
 /// The vibration of the start has not died out fully after the run; the closed forms are those of steady motion.
 const STEADY: f64 = 1e-3;
 
-/// The bit goes on vibrating by micrometres: its wear flats then bear less than their full force now and then, and it cuts
+/// The bit continues to vibrate by micrometres: its wear flats then bear less than their full force now and then, and it cuts
 /// deeper for it, by half a per cent of the torque.
 const VIBRATING: f64 = 1e-2;
 

@@ -38,7 +38,7 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
     })
 }
 
-/// Reads the latched topics on a thread of its own. The thread only reads, so nothing waits for its end.
+/// Reads the latched topics on a separate thread. The thread only reads, so nothing waits for its end.
 fn read_states(path: &Path, states: Arc<LatchedStates>) -> anyhow::Result<()> {
     let mut bag = bag::open(path)?;
     bag.select(|topic| topic.qos.iter().any(|qos| qos.transient_local));

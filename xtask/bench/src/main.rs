@@ -207,7 +207,7 @@ fn configurations(args: &Measurements) -> anyhow::Result<Vec<(String, Config)>> 
 /// Runs one set, and gives its section.
 fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> anyhow::Result<String> {
     let (name, config) = &configs[0];
-    // Sets of the rig's tool have another configuration of their own.
+    // Sets of the rig's tool have another configuration.
     let of_the_rig = matches!(
         case,
         Cases::Physics | Cases::RigTruth | Cases::RigQuality | Cases::RigFaults | Cases::RigMap | Cases::Calibration

@@ -243,7 +243,7 @@ fn walk_chunks(path: &Path, file: &File, scan: &mut Scan) -> Result<(), BagError
                 _ => {}
             }
         }
-        // The head of a chunk that was still open has no times.
+        // The head of a chunk that its writer had not closed has no times.
         if let Some((start, end)) = bounds {
             (segment.start, segment.end) = (start, end);
         }

@@ -1,4 +1,4 @@
-//! DDS in a process of its own.
+//! DDS in a separate process.
 //!
 //! A packet from the network, a signal at the wrong moment or a change of the system's clock can end the DDS library. The
 //! program must survive that. Therefore DDS runs in a child process ([`side`]), which handles names, qualities of service

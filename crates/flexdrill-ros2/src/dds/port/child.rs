@@ -232,7 +232,7 @@ fn describe(status: ExitStatus) -> Option<String> {
 #[derive(Clone)]
 pub(super) struct StartReport(pub(super) Sender<Result<(), String>>);
 
-/// Reads the frames of the process, on a thread of its own.
+/// Reads the frames of the process, on a separate thread.
 struct ChildReader {
     life: u64,
     state: Arc<ChildState>,

@@ -37,7 +37,7 @@ const PAUSES: [Duration; 5] = [
 /// Most former participants that are kept.
 const MOST_FORMER: usize = 64;
 
-/// The supervisor of the process, on a thread of its own.
+/// The supervisor of the process, on a separate thread.
 pub(super) struct Keeper {
     plan: Plan,
     shared: Arc<Shared>,
