@@ -17,7 +17,7 @@ use flexdrill_paper::{
 };
 use flexdrill_text::counted;
 
-/// Runs the paper's case and writes its figures 9 to 17 (SVG, PNG, CSV), findings and a report.
+/// Runs the paper's case and writes its figures 9 to 17 (SVG, CSV), findings and a report.
 #[derive(Debug, Args)]
 pub struct PaperArgs {
     /// Folder for the results, created if necessary.

@@ -63,7 +63,7 @@ fn a_run_writes_all_figures_twice_alike() {
     assert!(paper(&second, &["--no-step-check"]).status.success());
     for name in FIGURES {
         let read = |folder: &Path, extension: &str| std::fs::read(folder.join(format!("{name}.{extension}"))).unwrap();
-        for extension in ["svg", "csv", "png"] {
+        for extension in ["svg", "csv"] {
             assert_eq!(read(&first, extension), read(&second, extension), "{name}.{extension}");
         }
         let svg = String::from_utf8(read(&first, "svg")).unwrap();
@@ -73,7 +73,6 @@ fn a_run_writes_all_figures_twice_alike() {
             svg
         );
         check_xml(&svg);
-        assert_eq!(&read(&first, "png")[1..4], b"PNG");
         let mut points = 0;
         let mut table = csv::Reader::from_path(first.join(format!("{name}.csv"))).unwrap();
         for row in table.records() {

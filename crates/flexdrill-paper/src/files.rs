@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::PaperError;
-use super::figures::{Figure, csv, png, svg};
+use super::figures::{Figure, csv, svg};
 use super::findings::Finding;
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), PaperError> {
@@ -13,7 +13,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), PaperError> {
     })
 }
 
-/// Draws figures and writes each as SVG, PNG and CSV; returns them with their drawings.
+/// Draws figures and writes each as SVG and CSV; returns them with their drawings.
 ///
 /// # Errors
 /// When a figure cannot be drawn or a file cannot be written.
@@ -22,12 +22,7 @@ pub fn write_figures(folder: &Path, figures: Vec<Figure>) -> Result<Vec<(Figure,
     for figure in figures {
         let path = |extension: &str| folder.join(format!("{}.{extension}", figure.name));
         let drawing = svg(&figure)?;
-        let bitmap = png(&drawing).ok_or_else(|| PaperError::Write {
-            path: path("png"),
-            reason: "the drawing could not be rendered".to_owned(),
-        })?;
         write(&path("svg"), drawing.as_bytes())?;
-        write(&path("png"), &bitmap)?;
         write(&path("csv"), csv(&figure).as_bytes())?;
         drawn.push((figure, drawing));
     }

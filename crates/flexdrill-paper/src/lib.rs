@@ -8,7 +8,7 @@
 //!   error.
 //! - [`findings()`] turns a record into [`Finding`]s, each with its definition, the paper's number and a [`Verdict`].
 //!   `series` and `motion` hold what it measures with.
-//! - [`hinge`]: the case of Fig. 9. [`figures`]: the drawings, as SVG and PNG, and their data.
+//! - [`hinge`]: the case of Fig. 9. [`figures`]: the drawings, as SVG, and their data.
 //! - [`Report`]: the table of findings with what makes them trustworthy, as Markdown and HTML.
 //! - [`search`]: parameter sets that agree with as many findings as possible.
 

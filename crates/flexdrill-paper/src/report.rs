@@ -31,7 +31,7 @@ struct Table {
 }
 
 impl Report<'_> {
-    /// The report as Markdown, with links to PNG figures in the same folder.
+    /// The report as Markdown, with links to the figures in the same folder.
     pub fn markdown(&self) -> String {
         let mut out = format!("# {}\n\n{}\n", self.heading(), self.summary());
         for (title, text, table) in self.sections() {
@@ -41,7 +41,7 @@ impl Report<'_> {
         for (figure, _) in self.figures {
             let _ = write!(
                 out,
-                "\n### {}\n![{}]({}.png)\n\n{} Data: [{}.csv]({}.csv).\n",
+                "\n### {}\n![{}]({}.svg)\n\n{} Data: [{}.csv]({}.csv).\n",
                 figure.title, figure.title, figure.name, figure.caption, figure.name, figure.name
             );
         }

@@ -15,11 +15,11 @@ use super::panel::{Figure, Legend, Line, Mark, Panel};
 /// Units of the drawing per unit of its stated size.
 pub(crate) const SCALE: u32 = 4;
 /// Stated width of a drawing that fills a page.
-pub(crate) const WIDTH: u32 = 1080;
+const WIDTH: u32 = 1080;
 /// The font, so that figures have the same layout on every machine. `font/README.md` has its source.
-pub(crate) const FONT: &[u8] = include_bytes!("font/Roboto-Regular.ttf");
+const FONT: &[u8] = include_bytes!("font/Roboto-Regular.ttf");
 /// Its name.
-pub(crate) const FONT_FAMILY: &str = "Roboto";
+const FONT_FAMILY: &str = "Roboto";
 
 /// Colours that differ for colour-blind readers too, and in grey (Okabe and Ito, 2008).
 const PALETTE: [RGBColor; 7] = [

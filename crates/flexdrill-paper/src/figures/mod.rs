@@ -4,7 +4,7 @@ mod forces;
 mod shapes;
 mod speeds;
 
-pub use flexdrill_plot::{DrawError, Figure, Legend, Line, Mark, Panel, csv, png, svg};
+pub use flexdrill_plot::{DrawError, Figure, Legend, Line, Mark, Panel, csv, svg};
 
 use super::hinge::Hinge;
 use super::motion::motion;
