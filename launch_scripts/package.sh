@@ -11,7 +11,7 @@ package=$root/target/package
 release=${CARGO_TARGET_DIR:-$root/target}/release
 not_checked() { say "NOT CHECKED: $*"; }
 
-[ "${1:-}" = --no-build ] || build --features opcua
+[ "${1:-}" = --no-build ] || build --features full
 [ -x "$release/flexdrill" ] || fail "$release/flexdrill is not there"
 command -v cargo-deb >/dev/null ||
     cargo install --quiet --locked cargo-deb --version '^3.8' --root "$tools" ||

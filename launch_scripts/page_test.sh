@@ -42,7 +42,8 @@ in_browser() {
     need_packages util-linux iproute2
     [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || need_packages chromium
     flexdrill=${FLEXDRILL_BINARY:-}
-    [ -n "$flexdrill" ] || build
+    # The pictures show a rig that sends WITS.
+    [ -n "$flexdrill" ] || build ${pictures:+--features bridge}
     exec timeout -k 30 "$seconds" "${own_network[@]}" \
         sh -c 'ip link set lo up && exec node "$@"' page "e2e/$script" --flexdrill "$(realpath "$flexdrill")" "$@"
 }

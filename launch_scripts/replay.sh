@@ -14,6 +14,9 @@ case ${1:-} in
     ;;
 *) output=$1 && shift ;;
 esac
-build
+# Bags in SQLite need the feature that compiles SQLite.
+features=()
+if [[ "$input" == *.db3 ]] || compgen -G "$input/*.db3" >/dev/null; then features=(--features sqlite); fi
+build ${features[@]+"${features[@]}"}
 say "replaying $input into $output"
 exec "$flexdrill" replay "$input" --out "$output" "$@"

@@ -23,7 +23,7 @@ if [ -z "${SWEEP_TEST_INSIDE:-}" ]; then
     case "$*" in *parallel*) packages+=(parallel openssh-server openssh-client) ;; esac
     need_packages "${packages[@]}"
     if [ -z "${FLEXDRILL_BINARY:-}" ]; then
-        build
+        build --features sweep
         FLEXDRILL_BINARY=$flexdrill
     fi
     work=${FLEXDRILL_SWEEP_WORK:-$(mktemp -d)}

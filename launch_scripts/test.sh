@@ -32,7 +32,7 @@ say "$("$FLEXDRILL_PYTHON" --version): $("$FLEXDRILL_PYTHON" -m pip list --forma
 say "step 3 of 4: building"
 cd "$root"
 # What criterion asks for would have many packages compiled again, for benches that no test runs.
-packages=(--workspace --exclude flexdrill-benches --features flexdrill/opcua)
+packages=(--workspace --exclude flexdrill-benches --features flexdrill/full)
 timeout "$limit" cargo test "${packages[@]}" --release --locked --no-run || fail "the build failed or took more than $((limit / 60)) minutes"
 
 left=$((limit - SECONDS))

@@ -25,13 +25,17 @@
 
 pub mod ahead;
 pub mod alarms;
+#[cfg(feature = "bridge")]
 pub mod bridge;
+#[cfg(feature = "calibrate")]
 pub mod calibrate;
 pub mod cli;
 pub mod compare;
 pub mod health;
+#[cfg(feature = "sweep")]
 pub mod map;
 pub mod node;
+#[cfg(feature = "sweep")]
 pub mod reach;
 pub mod rig_inputs;
 pub mod window;
@@ -41,6 +45,7 @@ pub use flexdrill_dashboard as dashboard;
 pub use flexdrill_field_log as field_log;
 pub use flexdrill_live as live;
 pub use flexdrill_messages as messages;
+#[cfg(feature = "report")]
 pub use flexdrill_report as report;
 pub use flexdrill_ros2 as ros;
 pub use flexdrill_ros2::dds;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use flexdrill_config::Config;
+use flexdrill_map::{Axis, Cell, Map, MapError, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{Alarm, SafeWindow as Message};
-use flexdrill_sweep::map::{Axis, Cell, Map, MapError, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
 
 /// Why a map is not loaded.
 #[derive(Debug, thiserror::Error)]
@@ -277,7 +277,7 @@ fn beyond(axis: &'static str, values: &[f64], value: f64, unit: &'static str) ->
 mod tests {
     use super::*;
     use flexdrill_alarms::Priority;
-    use flexdrill_sweep::map::{FORMAT, OfStart, Start, State};
+    use flexdrill_map::{FORMAT, OfStart, Start, State};
 
     fn config() -> Config {
         Config::from_text("coarse.yaml", include_str!("../config/coarse.yaml")).unwrap()

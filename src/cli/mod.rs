@@ -1,27 +1,57 @@
 //! The command line, one file per subcommand. Exit codes: 0 done, 1 failed with a reason, 2 wrong use.
 
+#[cfg(not(feature = "full"))]
+mod absent;
+#[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "bridge")]
 mod bridge;
+#[cfg_attr(
+    not(feature = "full"),
+    allow(dead_code, reason = "commands that this build lacks use the rest")
+)]
 mod built_in;
+#[cfg(feature = "calibrate")]
 mod calibrate;
 mod check;
 mod dashboard;
 mod first_start;
+#[cfg(feature = "sweep")]
 mod map;
+#[cfg_attr(
+    not(feature = "full"),
+    allow(dead_code, reason = "commands that this build lacks use the rest")
+)]
 mod numbers;
+#[cfg_attr(
+    not(feature = "full"),
+    allow(dead_code, reason = "commands that this build lacks use the rest")
+)]
 mod output;
+#[cfg(feature = "paper")]
 mod paper;
+#[cfg_attr(
+    not(feature = "full"),
+    allow(dead_code, reason = "commands that this build lacks use the rest")
+)]
 mod progress;
+#[cfg(feature = "sweep")]
 mod reach;
 mod record_name;
 mod recover;
 mod replay;
+#[cfg(feature = "report")]
 mod report;
 mod rig;
 mod run;
 mod shell;
 mod signals;
+#[cfg_attr(
+    not(feature = "full"),
+    allow(dead_code, reason = "commands that this build lacks use the rest")
+)]
 mod source;
+#[cfg(feature = "sweep")]
 mod sweep;
 mod verify;
 mod watch;
@@ -32,6 +62,22 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
+#[cfg(not(feature = "bench"))]
+use self::absent::bench;
+#[cfg(not(feature = "bridge"))]
+use self::absent::bridge;
+#[cfg(not(feature = "calibrate"))]
+use self::absent::calibrate;
+#[cfg(not(feature = "sweep"))]
+use self::absent::map;
+#[cfg(not(feature = "paper"))]
+use self::absent::paper;
+#[cfg(not(feature = "sweep"))]
+use self::absent::reach;
+#[cfg(not(feature = "report"))]
+use self::absent::report;
+#[cfg(not(feature = "sweep"))]
+use self::absent::sweep;
 use crate::cli::output::{tell, tell_text};
 use crate::dds::side;
 use crate::ros::args;
@@ -201,6 +247,8 @@ pub fn main(no_output: bool) -> ExitCode {
     {
         return side::main();
     }
+    #[cfg(feature = "sqlite")]
+    flexdrill_sqlite::read_sqlite();
     let (arguments, ros_args) = split(std::env::args_os().collect());
     if arguments.len() < 2 {
         tell_text!("{}", first_start::WELCOME);

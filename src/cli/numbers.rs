@@ -79,11 +79,6 @@ pub(super) fn rate(text: &str) -> Result<f64, NumberError> {
     number(text, 1e-3, 1e3, "times real time")
 }
 
-/// A count, bounded by what a machine can hold.
-pub(super) fn count() -> clap::builder::RangedU64ValueParser<usize> {
-    clap::builder::RangedU64ValueParser::<usize>::new().range(0..=1_000_000)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

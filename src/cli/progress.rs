@@ -14,8 +14,6 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 enum Unit {
     /// Seconds of model time.
     ModelTime,
-    /// A number of items.
-    Items,
     /// A share, 0 to 1.
     Share,
 }
@@ -58,14 +56,6 @@ impl Progress {
         }
     }
 
-    /// A bar for a number of items.
-    pub(super) fn counted(end: f64) -> Self {
-        Self {
-            unit: Unit::Items,
-            ..Self::new(end)
-        }
-    }
-
     /// Sets the progress, in its unit.
     pub(super) fn at(&mut self, time: f64) {
         let wall = self.began.elapsed().as_secs_f64();
@@ -82,15 +72,6 @@ impl Progress {
                     format!(", about {:.0} s left", (1.0 - time) / speed)
                 };
                 tell!("{:.0} % after {wall:.0} s{left}", 100.0 * time);
-            }
-            return;
-        }
-        if self.unit == Unit::Items {
-            if let Some(bar) = &self.bar {
-                bar.set_position((time * 1e3) as u64);
-                bar.set_message(format!("{time} of {}", self.end));
-            } else {
-                tell!("{time} of {} after {wall:.0} s", self.end);
             }
             return;
         }

@@ -1,11 +1,15 @@
 //! `flexdrill rig`: sends a log's inputs and measured values in real time, as a rig does.
 
+#[cfg(feature = "bridge")]
+mod line;
+#[cfg(not(feature = "bridge"))]
+#[path = "rig/no_line.rs"]
 mod line;
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 
@@ -19,7 +23,6 @@ use crate::messages::builtin_interfaces::Time;
 use crate::node::demonstration_rig::{RIG_NODE_NAME, RigNode};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
-use flexdrill_bridge::{lines, wits};
 use flexdrill_core::inputs::InputKind;
 
 /// Time between two lines of progress.
@@ -89,6 +92,12 @@ pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// The present instant (ns since 1970).
+fn now() -> i64 {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    since.map_or(0, |since| i64::try_from(since.as_nanos()).unwrap_or(i64::MAX))
+}
+
 /// Where the samples are sent.
 enum Destination {
     /// The rig's topics.
@@ -121,11 +130,7 @@ fn topics(args: &RigArgs, ros_args: &RosArgs, samples: &Samples) -> anyhow::Resu
 
 /// The line, and where it is.
 async fn wits(args: &RigArgs, address: SocketAddr) -> anyhow::Result<(Destination, String)> {
-    let mapping = match &args.wits_map {
-        Some(file) => wits::Mapping::load(file)?,
-        None => wits::Mapping::default(),
-    };
-    let line = WitsLine::open(address, &mapping, "demonstration").await?;
+    let line = WitsLine::open(address, args.wits_map.as_deref(), "demonstration").await?;
     let place = format!("whoever connects to {} for WITS level 0", line.address());
     Ok((Destination::Line(line), place))
 }
@@ -158,7 +163,7 @@ impl<'a> Batch<'a> {
 impl Destination {
     /// Sends a batch; how many samples went out.
     fn send(&mut self, batch: &Batch<'_>) -> u64 {
-        let now = lines::now();
+        let now = now();
         match self {
             Self::Topics(node) => {
                 let inputs = InputKind::ALL.into_iter().zip(batch.inputs);

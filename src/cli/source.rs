@@ -1,6 +1,10 @@
 //! Inputs and measured values with times from a bag, a field log or a capture of a WITS line, for `rig` and `replay`.
 
 mod bags;
+#[cfg(feature = "bridge")]
+mod wits;
+#[cfg(not(feature = "bridge"))]
+#[path = "source/no_wits.rs"]
 mod wits;
 
 use std::path::{Path, PathBuf};
@@ -55,7 +59,7 @@ pub(super) struct MeasuredSample {
 pub(super) struct Samples {
     pub(super) inputs: Vec<Sample>,
     pub(super) measured: Vec<MeasuredSample>,
-    /// The rows of a field log by their times, as sources of messages: see [`crate::report::row_source`].
+    /// The rows of a field log by their times, as sources of messages: see [`crate::field_log::row_source`].
     pub(super) rows: Vec<(i64, String)>,
 }
 
@@ -227,7 +231,7 @@ impl SourceArgs {
         let nanoseconds = |seconds: f64| start + (seconds * 1e9).round() as i64;
         let file = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let rows = sequence.rows.iter().map(|row| {
-            let source = crate::report::row_source(row.row, &row.own_time, &file);
+            let source = crate::field_log::row_source(row.row, &row.own_time, &file);
             (nanoseconds(row.time), source)
         });
         let inputs = sequence.inputs.iter().map(|input| Sample {

@@ -248,6 +248,7 @@ fn sqlite_file() {
     let folder = folder();
     let path = folder.path().join("bag.db3");
     let seeds = [true, false].map(|definitions| database(&path, definitions));
+    flexdrill_sqlite::read_sqlite();
     Target {
         name: "sqlite_file",
         seeds: seeds.to_vec(),
@@ -270,6 +271,7 @@ fn sqlite_file() {
 /// Tables whose rows are computed rather than stored: without end, or larger than the file.
 #[test]
 fn sqlite_files_that_compute_their_rows_cost_what_their_size_costs() {
+    flexdrill_sqlite::read_sqlite();
     let folder = folder();
     let path = folder.path().join("bag.db3");
     let endless = "CREATE VIEW messages AS WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n)

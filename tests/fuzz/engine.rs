@@ -111,7 +111,7 @@ impl Target<'_> {
         let path = scratch().join(format!("{}_found", self.name));
         std::fs::write(&path, input).unwrap();
         eprintln!(
-            "{}: an input {what}; again with {origin} cargo test --release --test fuzz {}; once mended, keep {} in {}",
+            "{}: an input {what}; again with {origin} cargo test --release --features full --test fuzz {}; once mended, keep {} in {}",
             self.name,
             self.name,
             path.display(),

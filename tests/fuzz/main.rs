@@ -1,8 +1,9 @@
 //! Whatever the bytes are that others give us, reading them ends: in a value or in an error with words, soon, and in
 //! memory of the size of the input. What is accepted and written again reads as the same.
 //!
-//! Two seconds a target; `FLEXDRILL_FUZZ_SECONDS=3600 cargo test --release --test fuzz -- --nocapture --test-threads 1`
-//! is an hour for each. `FLEXDRILL_FUZZ_SEED=N` begins with execution N, to see one again or to go on behind others.
+//! Two seconds a target;
+//! `FLEXDRILL_FUZZ_SECONDS=3600 cargo test --release --features full --test fuzz -- --nocapture --test-threads 1` is an
+//! hour for each. `FLEXDRILL_FUZZ_SEED=N` begins with execution N, to see one again or to go on behind others.
 //! Inputs are mutations of seeds that are made here and of what stands in `tests/data/fuzz/TARGET`: cases once found.
 
 #![allow(

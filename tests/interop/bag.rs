@@ -51,6 +51,7 @@ fn interop_we_read_foreign_recordings() {
         return;
     };
     assert_eq!(printed.trim(), format!("hash {}", BitState::RIHS01));
+    flexdrill_sqlite::read_sqlite();
     for (path, file) in [("mcap", "mcap.mcap"), ("sqlite", "sqlite.db3")] {
         // The folder and the file in it.
         for path in [folder.path().join(path), folder.path().join(path).join(file)] {

@@ -11,6 +11,7 @@ mod bag_support;
 #[path = "../common/mod.rs"]
 mod common;
 
+#[cfg(feature = "sqlite")]
 mod bag;
 mod fast;
 mod inputs;

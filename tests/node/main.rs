@@ -10,14 +10,17 @@
 mod common;
 
 mod alarms;
+#[cfg(feature = "full")]
 mod bridge;
 mod clock;
+#[cfg(feature = "full")]
 mod command_line;
 mod following;
-#[cfg(feature = "mqtt")]
+#[cfg(feature = "full")]
 mod mqtt;
-#[cfg(feature = "opcua")]
+#[cfg(feature = "full")]
 mod opcua;
 mod recording;
+#[cfg(feature = "full")]
 mod safe_window;
 mod what_if;

@@ -29,6 +29,20 @@ enum Task {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
+    /// Draws a picture of the documents: physics, speed or whirl, and where to.
+    #[command(disable_help_flag = true)]
+    Figure {
+        /// Picture and place; --help lists them.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
+    /// Searches for parameter sets that agree with the paper's findings.
+    #[command(disable_help_flag = true)]
+    Search {
+        /// What the search accepts; --help lists it.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
     /// Writes the synthetic rig log of the demonstration, the same bytes every time.
     DemoLog {
         /// Where to.
@@ -48,12 +62,19 @@ fn main() -> anyhow::Result<()> {
             package("flexdrill-pages", &[page])?;
         }
         Task::Bench { arguments } => package("flexdrill-measurements", &arguments)?,
+        Task::Figure { arguments } => study("figure", arguments)?,
+        Task::Search { arguments } => study("search", arguments)?,
         Task::DemoLog { file } => {
             std::fs::write(&file, xtask::demo_log::demo_log()).with_context(|| format!("{}", file.display()))?;
             println!("wrote {}", file.display());
         }
     }
     Ok(())
+}
+
+/// Runs a command of the package of studies.
+fn study(command: &str, arguments: Vec<String>) -> anyhow::Result<()> {
+    package("flexdrill-studies", &[vec![command.to_owned()], arguments].concat())
 }
 
 /// Builds and runs another package of the workshop.

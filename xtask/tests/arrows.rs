@@ -17,7 +17,7 @@ const OWNERS: [(&str, &str); 13] = [
     ("foxglove", "flexdrill-live"),
     ("tokio-tungstenite", "flexdrill-live"),
     ("mcap", "flexdrill-bag"),
-    ("rusqlite", "flexdrill-bag"),
+    ("rusqlite", "flexdrill-sqlite"),
     ("csv-core", "flexdrill-field-log"),
     ("serial2-tokio", "flexdrill-bridge"),
     ("rumqttc", "flexdrill-bridge"),
@@ -35,7 +35,9 @@ fn root() -> PathBuf {
 fn manifests() -> Vec<(String, String)> {
     let crates = std::fs::read_dir(root().join("crates")).unwrap();
     let mut folders: Vec<PathBuf> = crates.map(|entry| entry.unwrap().path()).collect();
-    folders.extend(["", "xtask", "xtask/bench", "xtask/pages", "benches"].map(|folder| root().join(folder)));
+    folders.extend(
+        ["", "xtask", "xtask/bench", "xtask/pages", "xtask/studies", "benches"].map(|folder| root().join(folder)),
+    );
     folders
         .iter()
         .filter_map(|folder| std::fs::read_to_string(folder.join("Cargo.toml")).ok())

@@ -16,13 +16,12 @@ const WRITTEN: &str = "<!-- flexdrill bench";
 /// Folders that are not the repository's own.
 const FOREIGN: [&str; 5] = ["target", ".git", ".venv", ".venv-peers", "node_modules"];
 /// First folders of a path that is meant from the repository's root.
-const ROOTS: [&str; 11] = [
+const ROOTS: [&str; 10] = [
     ".ci",
     "benches",
     "config",
     "crates",
     "docs",
-    "examples",
     "launch_scripts",
     "msg",
     "src",

@@ -1,4 +1,4 @@
-//! `cargo build` and `cargo test` share one compilation of every crate that both need.
+//! `cargo build` and the tests with all features share one compilation of every crate that both need.
 
 #![allow(
     clippy::unwrap_used,
@@ -24,8 +24,9 @@ fn packages(options: &[&str]) -> BTreeSet<String> {
     lines.map(|line| line.replace(" (*)", "")).collect()
 }
 
-/// A test's dependency that asks for another feature of a package would have that package, and all that use it, compiled
-/// once for the program and once more for the tests.
+/// A dependency of a test or of a feature that asks for another feature of a package would have that package, and all that
+/// use it, compiled once for the default build and once more for the tests. The product alone is another with other
+/// features: `launch_scripts/demo.sh` builds the default, `launch_scripts/test.sh` everything.
 #[test]
 fn building_and_testing_resolve_the_same_features() {
     let built = packages(&["--edges", "normal,build"]);
@@ -33,13 +34,46 @@ fn building_and_testing_resolve_the_same_features() {
         "--workspace",
         "--exclude",
         "flexdrill-benches",
+        "--features",
+        "flexdrill/full",
         "--edges",
         "normal,build,dev",
     ]);
-    assert!(built.len() > 300, "{} packages", built.len());
-    let apart: Vec<&String> = built.difference(&tested).collect();
+    assert!(built.len() > 250, "{} packages", built.len());
+    let is_product = |package: &&String| package.starts_with("flexdrill v");
+    let apart: Vec<&String> = built
+        .difference(&tested)
+        .filter(|package| !is_product(package))
+        .collect();
     assert!(
         apart.is_empty(),
-        "the tests' dependencies ask for other features of these packages; give them the same in Cargo.toml: {apart:#?}"
+        "the tests' dependencies or features ask for other features of these packages; give them the same in Cargo.toml: \
+         {apart:#?}"
     );
+}
+
+/// What a demonstration does not need is compiled by no first build.
+#[test]
+fn the_default_build_leaves_out_what_features_bring() {
+    let built = packages(&["--edges", "normal,build"]);
+    let full = packages(&["--edges", "normal,build", "--features", "full"]);
+    let has = |packages: &BTreeSet<String>, name: &str| {
+        let begin = format!("{name} v");
+        packages.iter().any(|package| package.starts_with(&begin))
+    };
+    for name in [
+        "async-opcua",
+        "flexdrill-bench",
+        "flexdrill-bridge",
+        "flexdrill-paper",
+        "flexdrill-plot",
+        "flexdrill-report",
+        "flexdrill-sweep",
+        "libsqlite3-sys",
+        "rumqttc-v4-next",
+        "rustls",
+    ] {
+        assert!(has(&full, name), "{name}: no feature brings it");
+        assert!(!has(&built, name), "{name} is in the default build");
+    }
 }

@@ -170,15 +170,14 @@ pub enum BagError {
         problem: String,
     },
     /// SQLite cannot read the file.
-    #[cfg(feature = "sqlite")]
     #[error("cannot read {path}: {source}", path = path.display())]
     Sqlite {
         /// The file or folder.
         path: PathBuf,
         /// The underlying error.
-        source: rusqlite::Error,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// The file is an SQLite bag, and the crate was built without SQLite.
+    /// The file is an SQLite bag, and the program was built without SQLite.
     #[error(
         "{path} is an SQLite bag, and this build reads no SQLite bags: build flexdrill with --features sqlite, or convert \
          the bag to MCAP with `ros2 bag convert`",

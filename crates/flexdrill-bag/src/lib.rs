@@ -1,4 +1,5 @@
-//! Bags: records to MCAP, reads MCAP and rosbag2's SQLite, and recovers a recording that was interrupted.
+//! Bags: records to MCAP, reads MCAP, and recovers a recording that was interrupted. The crate
+//! `flexdrill-sqlite` reads rosbag2's SQLite.
 //!
 //! This is the only crate that knows these formats. It has no clock, logs only what happens to a recording, and never
 //! touches ROS or the network.
@@ -30,11 +31,9 @@
 //!   rosbag2's `metadata.yaml`.
 //! - `recorder`: a recording that the first error ends. `failover`: one that continues in another file.
 //!   `recording_thread`: the same behind a queue, with its `recording_health` and `losses`.
-//! - `reader`: [`open`], all files of a bag merged in time order. `mcap_file`, `sqlite`: one file each.
+//! - `reader`: [`open`], all files of a bag merged in time order. `raw`: one file, of any storage.
+//!   `mcap_file`: one of MCAP.
 //! - `recover`: copies what can be read into a new bag. `gaps`: finds messages that a recording lost.
-//!
-//! # Features
-//! `sqlite`: reads rosbag2's SQLite files. It compiles SQLite, which takes longer than the rest of the crate.
 
 mod error;
 mod failover;
@@ -52,8 +51,6 @@ mod recording_health;
 mod recording_thread;
 mod recover;
 mod sink;
-#[cfg(feature = "sqlite")]
-mod sqlite;
 mod storage;
 mod tally;
 mod topic;
@@ -61,6 +58,8 @@ mod topic;
 pub use error::BagError;
 pub use gaps::{Gap, Gaps};
 pub use losses::Losses;
+pub use qos::from_yaml as qos_from_yaml;
+pub use raw::{BagFile, OpenSqlite, RawMessage, read_sqlite_with};
 pub use reader::{Bag, BagMessage, Cut, open};
 pub use recorder::{Recorder, Recording};
 pub use recording_health::{Problem, RecordingHealth};

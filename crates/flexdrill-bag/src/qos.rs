@@ -66,7 +66,7 @@ struct Profile {
 }
 
 /// The profiles in a YAML list. Text that cannot be parsed gives none, so that it never prevents reading the bag.
-pub(crate) fn from_yaml(text: &str) -> Vec<Qos> {
+pub fn from_yaml(text: &str) -> Vec<Qos> {
     let profiles: Vec<Profile> = serde_saphyr::from_str(text).unwrap_or_default();
     profiles
         .iter()

@@ -7,9 +7,7 @@ use std::sync::Arc;
 
 use crate::location::METADATA;
 use crate::mcap_file::McapStream;
-use crate::raw::RawMessage;
-#[cfg(feature = "sqlite")]
-use crate::sqlite::SqliteStream;
+use crate::raw::{BagFile, RawMessage, open_sqlite};
 use crate::{BagError, Topic, metadata};
 use flexdrill_messages::{Message, from_cdr};
 
@@ -68,8 +66,7 @@ pub struct Cut {
 
 enum Stream {
     Mcap(Box<McapStream>),
-    #[cfg(feature = "sqlite")]
-    Sqlite(Box<SqliteStream>),
+    Sqlite(Box<dyn BagFile>),
 }
 
 impl Stream {
@@ -81,7 +78,7 @@ impl Stream {
         if magic.starts_with(mcap::MAGIC) {
             Ok(Self::Mcap(Box::new(McapStream::open(path)?)))
         } else if magic == SQLITE_MAGIC {
-            Self::open_sqlite(path)
+            Ok(Self::Sqlite(open_sqlite(path)?))
         } else {
             Err(BagError::NotABag {
                 path: path.to_owned(),
@@ -90,20 +87,9 @@ impl Stream {
         }
     }
 
-    #[cfg(feature = "sqlite")]
-    fn open_sqlite(path: &Path) -> Result<Self, BagError> {
-        Ok(Self::Sqlite(Box::new(SqliteStream::open(path)?)))
-    }
-
-    #[cfg(not(feature = "sqlite"))]
-    fn open_sqlite(path: &Path) -> Result<Self, BagError> {
-        Err(BagError::NoSqlite { path: path.to_owned() })
-    }
-
     fn topics(&self) -> &[Arc<Topic>] {
         match self {
             Self::Mcap(stream) => stream.topics(),
-            #[cfg(feature = "sqlite")]
             Self::Sqlite(stream) => stream.topics(),
         }
     }
@@ -111,7 +97,6 @@ impl Stream {
     fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
         match self {
             Self::Mcap(stream) => stream.next(),
-            #[cfg(feature = "sqlite")]
             Self::Sqlite(stream) => stream.next(),
         }
     }
@@ -119,7 +104,6 @@ impl Stream {
     fn seek(&mut self, time: i64) {
         match self {
             Self::Mcap(stream) => stream.seek(time),
-            #[cfg(feature = "sqlite")]
             Self::Sqlite(stream) => stream.seek(time),
         }
     }
@@ -127,8 +111,7 @@ impl Stream {
     fn messages(&self) -> Option<u64> {
         match self {
             Self::Mcap(stream) => stream.messages(),
-            #[cfg(feature = "sqlite")]
-            Self::Sqlite(stream) => Some(stream.messages()),
+            Self::Sqlite(stream) => stream.messages(),
         }
     }
 
@@ -138,7 +121,6 @@ impl Stream {
                 let time = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
                 (time(start), time(end))
             }),
-            #[cfg(feature = "sqlite")]
             Self::Sqlite(stream) => stream.bounds(),
         }
     }
@@ -167,8 +149,8 @@ pub struct Bag {
 /// Opens an MCAP file, an SQLite file of rosbag2, or a folder with either.
 ///
 /// # Errors
-/// When the path is none of these, or cannot be read; [`BagError::NoSqlite`] for an SQLite file without the feature
-/// `sqlite`.
+/// When the path is none of these, or cannot be read; [`BagError::NoSqlite`] for an SQLite file without
+/// [`read_sqlite_with`](crate::read_sqlite_with).
 pub fn open(path: &Path) -> Result<Bag, BagError> {
     let mut bag = Bag {
         sources: Vec::new(),
@@ -265,7 +247,6 @@ impl Bag {
             let flags: Vec<bool> = source.stream.topics().iter().map(|topic| wanted(topic)).collect();
             match &mut source.stream {
                 Stream::Mcap(stream) => stream.set_wanted(flags),
-                #[cfg(feature = "sqlite")]
                 Stream::Sqlite(stream) => stream.set_wanted(flags),
             }
         }
@@ -298,7 +279,6 @@ impl Bag {
     pub fn cuts(&self) -> impl Iterator<Item = &Cut> {
         self.sources.iter().filter_map(|source| match &source.stream {
             Stream::Mcap(stream) => stream.cut(),
-            #[cfg(feature = "sqlite")]
             Stream::Sqlite(_) => None,
         })
     }
@@ -356,7 +336,7 @@ impl Iterator for Bag {
     }
 }
 
-#[cfg(all(test, not(feature = "sqlite")))]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -21,6 +21,7 @@
 mod condition;
 mod error;
 mod hookload;
+mod log_rows;
 mod mapping;
 mod measured;
 mod parts;
@@ -34,6 +35,7 @@ mod time_format;
 
 pub use condition::Condition;
 pub use error::FieldLogError;
+pub use log_rows::{LogRows, row_source};
 pub use mapping::{
     Columns, Decimal, Direct, Hookload, Mapping, MeasuredColumn, Quality, RotarySpeedColumn, TimeColumn,
     WeightOnBitColumn,

@@ -6,6 +6,7 @@ mod grown;
 mod journal;
 pub mod large_array;
 mod message;
+mod moment;
 mod time;
 pub mod topics;
 
@@ -25,3 +26,4 @@ pub use generated::{
     sensor_msgs, std_msgs, std_srvs, tf2_msgs, type_description_interfaces, unique_identifier_msgs, visualization_msgs,
 };
 pub use message::{ActionInfo, Message, ServiceInfo, TypeInfo, find_action, find_service, find_type};
+pub use moment::AlarmMoment;

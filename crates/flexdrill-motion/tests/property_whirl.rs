@@ -562,8 +562,8 @@ fn serialised_state_continues_bit_for_bit() {
 }
 
 /// 2,000 generated orbits of each of five seeds, with noise 20 dB below the motion. Thresholds were set with other
-/// seeds (2024, 1, 2, 3). Prints the table that `docs/whirl.md` shows (`cargo test --release --test property_whirl
-/// confusion -- --nocapture`).
+/// seeds (2024, 1, 2, 3). Prints the table that `docs/whirl.md` shows (`cargo test --release -p flexdrill-motion --test
+/// property_whirl confusion -- --nocapture`).
 #[test]
 fn confusion_table_of_generated_orbits() {
     const COUNT: usize = 2000;
@@ -625,7 +625,7 @@ fn confusion_table_of_generated_orbits() {
 /// Time per sample of 64 stations, half of which orbit with two lines and half of which rest, as the pipe's and the
 /// guide's do. Prints the figure of `docs/whirl.md`; a quiet core is needed for it.
 #[test]
-#[ignore = "a measurement: cargo test --release --test property_whirl cost -- --ignored --nocapture"]
+#[ignore = "a measurement: cargo test --release -p flexdrill-motion --test property_whirl cost -- --ignored --nocapture"]
 fn cost_of_a_sample() {
     const STATIONS: usize = 64;
     let watched = |index: usize| WatchedStation {

@@ -10,7 +10,6 @@
 //!   `series` and `motion` hold what it measures with.
 //! - [`hinge`]: the case of Fig. 9. [`figures`]: the drawings, as SVG, and their data.
 //! - [`Report`]: the table of findings with what makes them trustworthy, as Markdown and HTML.
-//! - [`search`]: parameter sets that agree with as many findings as possible.
 
 mod case;
 mod error;
@@ -21,7 +20,6 @@ pub mod hinge;
 mod motion;
 mod record;
 mod report;
-pub mod search;
 mod series;
 
 pub use case::{Case, record};

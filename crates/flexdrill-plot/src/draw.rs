@@ -18,8 +18,6 @@ pub(crate) const SCALE: u32 = 4;
 const WIDTH: u32 = 1080;
 /// The font, so that figures have the same layout on every machine. `font/README.md` has its source.
 const FONT: &[u8] = include_bytes!("font/Roboto-Regular.ttf");
-/// Its name.
-const FONT_FAMILY: &str = "Roboto";
 
 /// Colours that differ for colour-blind readers too, and in grey (Okabe and Ito, 2008).
 const PALETTE: [RGBColor; 7] = [

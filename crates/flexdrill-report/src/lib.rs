@@ -7,8 +7,8 @@
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
 //!   `transfer` (torque, weight and power from the surface to the bit), `balances` (of the whole tool), `incidents`
-//!   (alarms), `log_rows` (of the log that drove the run), `weight` (what does not arrive at the bit), `shares`
-//!   (of time), `locations` (the worst ones and their orbits), `health` (pace, model, recording).
+//!   (alarms), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
+//!   their orbits), `health` (pace, model, recording).
 //! - [`calibration`]: the page of a calibration.
 //! - `compare`: two summaries next to each other, a [`Comparison`].
 //! - [`map`]: a page of another kind, of a safe window.
@@ -24,7 +24,6 @@ mod health;
 mod history;
 mod incidents;
 mod locations;
-mod log_rows;
 pub mod map;
 mod page;
 mod plots;
@@ -38,8 +37,7 @@ use std::path::{Path, PathBuf};
 
 pub use compare::Comparison;
 pub use error::ReportError;
-pub use incidents::{AlarmMoment, INPUT_ALARMS};
-pub use log_rows::{LogRows, row_source};
+pub use incidents::INPUT_ALARMS;
 pub use page::comparison::html as comparison_html;
 pub use page::html;
 pub use reading::{Summary, read};

@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use flexdrill_sweep::map::{Axis, Map, OfStart, Start, Verdict};
+use flexdrill_map::{Axis, Map, OfStart, Start, Verdict};
 use flexdrill_text::counted;
 
 use crate::page::STYLE;

@@ -8,13 +8,13 @@ use crate::drive::Drive;
 use crate::health::Health;
 use crate::incidents::Incidents;
 use crate::locations::Locations;
-use crate::log_rows::LogRows;
 use crate::roles::{OUTPUTS, Roles};
 use crate::transfer::TransferHistory;
 use crate::weight::SteadyDrilling;
 use flexdrill_bag::{BagError, BagMessage, Gap, Gaps};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
+use flexdrill_field_log::LogRows;
 use flexdrill_messages::std_msgs::{Float64, Header};
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{

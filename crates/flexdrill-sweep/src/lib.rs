@@ -1,11 +1,10 @@
 //! Sweeps of runs as a directory of content-addressed points, and maps of two quantities made from them. No run is made
-//! here: the program computes a point, this crate keeps it.
+//! here: the program computes a point, this crate keeps it. The file of a map is the crate [`flexdrill_map`].
 //!
 //! # Layout
 //! - [`spec`]: what a person writes (YAML). [`plan`]: what follows from it, `sweep.json`.
 //! - [`directory`]: the plan and a file per result. [`outcome`]: that file.
 //! - [`work`]: computes what has no result yet. [`collect`]: all results as one table.
-//! - [`map`]: the map that `flexdrill map` writes (`map.json`), with a reader that bounds it.
 //! - [`choice`]: which runs of a map to make next, by Gaussian processes ([`gauss`]). [`cover`]: what runs must show before a
 //!   cell between them may be inferred clear. [`envelope`]: the clear part of a map.
 //!
@@ -21,11 +20,12 @@ pub mod directory;
 pub mod envelope;
 mod error;
 pub mod gauss;
-pub mod map;
 pub mod outcome;
 pub mod plan;
 pub mod spec;
 pub mod work;
+
+pub use flexdrill_map as map;
 
 pub use directory::{Directory, Found, Status};
 pub use error::SweepError;

@@ -51,10 +51,7 @@ pub(super) struct MqttArgs {
 /// Always: this program has no MQTT.
 #[cfg(not(feature = "mqtt"))]
 pub(super) fn run(_args: &MqttArgs, _ros_args: &[String]) -> anyhow::Result<()> {
-    anyhow::bail!(
-        "this flexdrill was built without MQTT; build it with the feature mqtt, which is on by default: cargo build \
-         --release --features mqtt"
-    )
+    Err(super::super::absent::refusal("MQTT", "mqtt"))
 }
 
 #[cfg(feature = "mqtt")]

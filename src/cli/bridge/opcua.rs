@@ -66,10 +66,7 @@ struct SideArgs {
 /// Always: this program has no OPC UA.
 #[cfg(not(feature = "opcua"))]
 pub(super) fn run(_args: &OpcuaArgs, _ros_args: &[String]) -> anyhow::Result<()> {
-    anyhow::bail!(
-        "this flexdrill was built without OPC UA, whose tables take minutes to compile; build it with them: cargo build \
-         --release --features opcua"
-    )
+    Err(super::super::absent::refusal("OPC UA", "opcua"))
 }
 
 #[cfg(feature = "opcua")]

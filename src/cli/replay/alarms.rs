@@ -4,8 +4,7 @@ use std::fmt;
 
 use super::log::LogPlace;
 use crate::alarms::AlarmId;
-use crate::messages::{Alarm, AlarmEvent};
-use crate::report::AlarmMoment;
+use crate::messages::{Alarm, AlarmEvent, AlarmMoment};
 use flexdrill_alarms::{Figures, Incidents, Time, span};
 use flexdrill_outputs::words;
 
@@ -134,7 +133,7 @@ fn seconds(time: Time) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{LogRows, row_source};
+    use crate::field_log::{LogRows, row_source};
 
     /// The event of the raise has 138 %, and the index reached 8.96 two rows later.
     #[test]

@@ -1,6 +1,6 @@
 //! The way back from the model time of a replay to the field log that drove it.
 
-use crate::report::LogRows;
+use crate::field_log::LogRows;
 use flexdrill_text::date_time;
 
 /// The rows of the log, and the begin of the replay (ns since 1970).

@@ -2,6 +2,7 @@
 
 use anyhow::Context as _;
 use std::net::SocketAddr;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tokio::sync::{broadcast, mpsc};
@@ -31,11 +32,13 @@ pub(super) struct WitsLine {
 }
 
 impl WitsLine {
-    /// Listens at an address and reports connections. `well` is the name in the headers.
+    /// Listens at an address and reports connections. `map` is the file of items, without which they are the usual ones;
+    /// `well` is the name in the headers.
     ///
     /// # Errors
-    /// When the address cannot be listened at.
-    pub(super) async fn open(address: SocketAddr, mapping: &Mapping, well: &str) -> anyhow::Result<Self> {
+    /// When the file cannot be read, or the address cannot be listened at.
+    pub(super) async fn open(address: SocketAddr, map: Option<&Path>, well: &str) -> anyhow::Result<Self> {
+        let mapping = map.map_or_else(|| Ok(Mapping::default()), Mapping::load)?;
         let listening = tokio::net::TcpListener::bind(address).await;
         let listener = listening.with_context(|| format!("--wits {address}"))?;
         let address = listener.local_addr()?;
@@ -53,7 +56,7 @@ impl WitsLine {
         tasks.spawn(tell(events, Arc::clone(&connections)));
         Ok(Self {
             address,
-            frames: RigFrames::new(mapping, well),
+            frames: RigFrames::new(&mapping, well),
             outgoing,
             connections,
             _tasks: tasks,

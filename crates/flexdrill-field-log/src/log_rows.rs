@@ -1,4 +1,4 @@
-//! The rows of the field log that drove a run: the way back from an instant of the report to the log.
+//! The rows of the field log that drove a recorded run: from an instant of the recording to the row.
 
 use flexdrill_text::printable;
 

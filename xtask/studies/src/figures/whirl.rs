@@ -1,9 +1,10 @@
 //! Draws the figure of `docs/whirl.md`: three orbits of the mechanics, each called by the analysis, and their full
 //! spectra.
 //!
-//!     cargo run --release --example whirl_figure -- docs/images/whirl.svg
+//!     cargo xtask figure whirl docs/images/whirl.svg
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use anyhow::{Context as _, bail, ensure};
 use flexdrill_config::{Config, ConfigError};
@@ -13,7 +14,7 @@ use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::{kn_to_n, rad_to_deg, rpm_to_rad_per_s};
 use flexdrill_motion::WhirlKind;
-use flexdrill_paper::figures::{Figure, Line, Panel, svg};
+use flexdrill_plot::{Figure, Line, Panel, svg};
 
 /// Time between two samples (s), as the analysis has by default.
 const SPACING: f64 = 0.004;
@@ -79,8 +80,9 @@ struct Orbit {
     position: Vec<[f64; 2]>,
 }
 
-fn main() -> anyhow::Result<()> {
-    let path = std::env::args().nth(1).context("usage: whirl_figure FILE.svg")?;
+/// # Errors
+/// When a run fails or the file cannot be written.
+pub(crate) fn draw(to: &Path) -> anyhow::Result<()> {
     let mut panels = Vec::new();
     let mut spectra = Vec::new();
     for case in &CASES {
@@ -101,8 +103,7 @@ fn main() -> anyhow::Result<()> {
         height: 340,
         panels,
     };
-    std::fs::write(&path, svg(&figure)?).with_context(|| format!("{path} cannot be written"))?;
-    Ok(())
+    std::fs::write(to, svg(&figure)?).with_context(|| format!("{} cannot be written", to.display()))
 }
 
 /// The last turns of the watched pipe place that is of the case's kind with the greatest confidence.

@@ -7,7 +7,7 @@
 )]
 
 use flexdrill_alarms::Priority;
-use flexdrill_sweep::map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Start, State, Verdict};
+use flexdrill_map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Start, State, Verdict};
 use serde_json::{Value, json};
 
 fn axis(key: &str, values: &[f64]) -> Axis {

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use flexdrill_config::{Config, ConfigError};
 
-use super::super::Case;
+use flexdrill_paper::Case;
 
 /// How a coordinate from 0 to 1 is spread over a range.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Draws the figures of `docs/physics.md`: what each piece of the rig's physics does to the paper's tool. It prints the
 //! table of the same page.
 //!
-//!     cargo run --release --example physics_figures -- docs/images
+//!     cargo xtask figure physics docs/images
 //!
 //! Each run is 20 s of `config/default.yaml` at 40 r/min and 10 kN in whole steps with the changes of its line. Figures
 //! are means over the last three quarters, as in `flexdrill bench`. The runs share the processor's cores; their results
@@ -197,12 +197,13 @@ impl Found {
     }
 }
 
-fn main() -> anyhow::Result<()> {
-    let folder = std::env::args().nth(1).context("usage: physics_figures FOLDER")?;
+/// # Errors
+/// When a run fails or a file cannot be written.
+pub(crate) fn draw(folder: &Path) -> anyhow::Result<()> {
     let found = run_all()?;
     print!("{}", table(&found));
     for figure in figures(&found) {
-        let path = Path::new(&folder).join(format!("{}.svg", figure.name));
+        let path = folder.join(format!("{}.svg", figure.name));
         std::fs::write(&path, svg_of_width(&figure, WIDTH)?)
             .with_context(|| format!("{} cannot be written", path.display()))?;
     }

@@ -1,23 +1,26 @@
-//! Reads rosbag2's SQLite storage (`.db3`).
+//! Reads rosbag2's SQLite storage (`.db3`): after [`read_sqlite`], [`flexdrill_bag::open`] opens such files too.
 
 use std::collections::{HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use flexdrill_bag::{BagError, BagFile, RawMessage, Topic, qos_from_yaml, read_sqlite_with};
+use flexdrill_messages::find_type;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, OpenFlags, Row, params};
-
-use crate::raw::RawMessage;
-use crate::{BagError, Topic, qos};
-use flexdrill_messages::find_type;
 
 /// Rows per query.
 const BATCH: i64 = 256;
 /// Length limit of a text or blob in a small file (bytes).
 const SMALL: u64 = 1 << 20;
 
+/// From now on this program opens SQLite files of rosbag2.
+pub fn read_sqlite() {
+    read_sqlite_with(|path| Ok(Box::new(SqliteFile::open(path)?)));
+}
+
 /// An open database.
-pub(crate) struct SqliteStream {
+struct SqliteFile {
     path: PathBuf,
     connection: Connection,
     topics: Vec<Arc<Topic>>,
@@ -32,12 +35,12 @@ pub(crate) struct SqliteStream {
     bounds: Option<(i64, i64)>,
 }
 
-impl SqliteStream {
+impl SqliteFile {
     /// Opens the file and reads its topics.
     ///
     /// # Errors
     /// When the file is not a database of rosbag2.
-    pub fn open(path: &Path) -> Result<Self, BagError> {
+    fn open(path: &Path) -> Result<Self, BagError> {
         let connection = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY).map_err(error(path))?;
         limit_cost(&connection, path)?;
         let mut stream = Self {
@@ -81,7 +84,7 @@ impl SqliteStream {
                 schema,
                 schema_encoding,
                 type_hash: row.get(5)?,
-                qos: qos::from_yaml(&row.get::<_, String>(4)?),
+                qos: qos_from_yaml(&row.get::<_, String>(4)?),
             };
             self.topic_of.insert(row.get(0)?, self.topics.len());
             self.topics.push(Arc::new(topic));
@@ -94,40 +97,6 @@ impl SqliteStream {
         self.messages = u64::try_from(count).unwrap_or(0);
         self.bounds = first.zip(last);
         Ok(())
-    }
-
-    pub fn topics(&self) -> &[Arc<Topic>] {
-        &self.topics
-    }
-
-    pub fn set_wanted(&mut self, wanted: Vec<bool>) {
-        self.wanted = wanted;
-    }
-
-    pub fn messages(&self) -> u64 {
-        self.messages
-    }
-
-    pub fn bounds(&self) -> Option<(i64, i64)> {
-        self.bounds
-    }
-
-    /// Continues with the first message at or after `time` (ns since the epoch).
-    pub fn seek(&mut self, time: i64) {
-        self.batch.clear();
-        self.finished = false;
-        self.last = time.checked_sub(1).map(|before| (before, i64::MAX));
-    }
-
-    /// The next message; `None` at the end and after an error.
-    pub fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
-        while self.batch.is_empty() && !self.finished {
-            if let Err(problem) = self.fetch() {
-                self.finished = true;
-                return Some(Err(error(&self.path)(problem)));
-            }
-        }
-        self.batch.pop_front().map(Ok)
     }
 
     fn fetch(&mut self) -> rusqlite::Result<()> {
@@ -151,6 +120,40 @@ impl SqliteStream {
     }
 }
 
+impl BagFile for SqliteFile {
+    fn topics(&self) -> &[Arc<Topic>] {
+        &self.topics
+    }
+
+    fn set_wanted(&mut self, wanted: Vec<bool>) {
+        self.wanted = wanted;
+    }
+
+    fn messages(&self) -> Option<u64> {
+        Some(self.messages)
+    }
+
+    fn bounds(&self) -> Option<(i64, i64)> {
+        self.bounds
+    }
+
+    fn seek(&mut self, time: i64) {
+        self.batch.clear();
+        self.finished = false;
+        self.last = time.checked_sub(1).map(|before| (before, i64::MAX));
+    }
+
+    fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
+        while self.batch.is_empty() && !self.finished {
+            if let Err(problem) = self.fetch() {
+                self.finished = true;
+                return Some(Err(error(&self.path)(problem)));
+            }
+        }
+        self.batch.pop_front().map(Ok)
+    }
+}
+
 /// Keeps the cost of reading in proportion to the file's size: a malicious file may define tables whose rows SQLite
 /// computes, without end or of any size.
 fn limit_cost(connection: &Connection, path: &Path) -> Result<(), BagError> {
@@ -158,7 +161,10 @@ fn limit_cost(connection: &Connection, path: &Path) -> Result<(), BagError> {
     log.push("-wal");
     // The newest rows may be in the write-ahead log alone.
     let logged = std::fs::metadata(log).map_or(0, |file| file.len());
-    let size = std::fs::metadata(path).map_err(BagError::io("read", path))?.len() + logged;
+    let size = std::fs::metadata(path)
+        .map_err(|source| unreadable(path, source))?
+        .len()
+        + logged;
     let longest = i32::try_from(size.max(SMALL)).unwrap_or(i32::MAX);
     connection
         .set_limit(Limit::SQLITE_LIMIT_LENGTH, longest)
@@ -228,7 +234,18 @@ fn has_column(connection: &Connection, table: &str, column: &str) -> rusqlite::R
     Ok(count > 0)
 }
 
+fn unreadable(path: &Path, source: std::io::Error) -> BagError {
+    BagError::Io {
+        action: "read",
+        path: path.to_owned(),
+        source,
+    }
+}
+
 fn error(path: &Path) -> impl FnOnce(rusqlite::Error) -> BagError {
     let path = path.to_owned();
-    move |source| BagError::Sqlite { path, source }
+    move |source| BagError::Sqlite {
+        path,
+        source: source.into(),
+    }
 }

@@ -5,8 +5,8 @@ use super::descent::Descent;
 use super::outcome::{Outcome, Trial};
 use super::random::Random;
 use super::space::{DIMENSIONS, Scale, case, starts, written};
-use crate::{Case, record};
 use flexdrill_config::Config;
+use flexdrill_paper::{Case, record};
 
 /// How much is tried.
 #[derive(Debug, Clone, PartialEq)]

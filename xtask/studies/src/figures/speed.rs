@@ -1,9 +1,11 @@
 //! Draws the figure of the README: how much faster than real time each case runs, by version, from `benches/speed.csv`.
 //!
-//!     cargo run --release --example speed_figure -- docs/images/speed.svg
+//!     cargo xtask figure speed docs/images/speed.svg
 //!
 //! The rows of one processor are drawn, the last one named in the file. Each is a factor that `flexdrill bench --cases
 //! real-time` of that commit printed.
+
+use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use flexdrill_plot::{Figure, Line, Panel, svg};
@@ -17,10 +19,9 @@ struct Row {
     factor: f64,
 }
 
-fn main() -> anyhow::Result<()> {
-    let to = std::env::args()
-        .nth(1)
-        .context("say where to write it: cargo run --example speed_figure -- FILE")?;
+/// # Errors
+/// When the table cannot be read or the file not be written.
+pub(crate) fn draw(to: &Path) -> anyhow::Result<()> {
     let from = "benches/speed.csv";
     let mut rows: Vec<Row> = csv::Reader::from_path(from)?
         .deserialize()
@@ -62,6 +63,5 @@ fn main() -> anyhow::Result<()> {
         columns: 1,
         panels: vec![panel],
     };
-    std::fs::write(&to, svg(&figure)?).with_context(|| format!("{to}: cannot be written"))?;
-    Ok(())
+    std::fs::write(to, svg(&figure)?).with_context(|| format!("{}: cannot be written", to.display()))
 }

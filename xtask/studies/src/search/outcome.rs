@@ -1,8 +1,8 @@
 //! What a trial came to, as a line of the table.
 
 use super::space::{DIMENSIONS, case, written};
-use crate::{Finding, PaperError, Record, findings, score};
 use flexdrill_config::{Config, ConfigError};
+use flexdrill_paper::{Finding, PaperError, Record, findings, score};
 
 /// One tried point.
 #[derive(Debug, Clone)]

@@ -1,0 +1,5 @@
+//! The pictures of documents that no command of the program draws.
+
+pub(crate) mod physics;
+pub(crate) mod speed;
+pub(crate) mod whirl;
