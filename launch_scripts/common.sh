@@ -1,5 +1,5 @@
 # Shared by the scripts in this folder; sourced, not run.
-# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, local_dds, python_tools and
+# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, python_tools and
 # python_wheel.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -105,12 +105,6 @@ time_left() {
             if (minutes < 1) printf ", less than a minute left"
             else printf ", about %.0f minute%s left", minutes, (minutes < 1.5 ? "" : "s")
         }'
-}
-
-# DDS stays on this machine unless the caller has said otherwise. No multicast on the loopback interface is needed.
-local_dds() {
-    export ROS_LOCALHOST_ONLY="${ROS_LOCALHOST_ONLY:-1}"
-    say "DDS domain ${ROS_DOMAIN_ID:-0}, $([ "$ROS_LOCALHOST_ONLY" = 1 ] && echo "this machine only" || echo "all networks")"
 }
 
 # Where the scripts of the Python package keep what they make.

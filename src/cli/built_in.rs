@@ -59,6 +59,11 @@ impl DemoLog {
         DEMO[0].1.as_bytes()
     }
 
+    /// The text of the mapping of its columns.
+    pub(super) fn mapping_text(&self) -> &'static str {
+        DEMO[1].1
+    }
+
     /// The mapping of its columns.
     ///
     /// # Errors

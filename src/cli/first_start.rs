@@ -10,6 +10,7 @@ motion, and alarms for whirl, stick-slip and shock.
 
 Begin with one of these:
 
+  flexdrill demo                          a twin and a rig that drills by a built-in log, here in this terminal
   flexdrill run                           the twin of the paper's tool, live, on this machine's ROS 2 network
   flexdrill dashboard                     see it in a browser: the tool in its well, limits, alarms, the last hour
   flexdrill watch                         see it in a second terminal
@@ -26,7 +27,8 @@ flexdrill --help lists all commands, flexdrill COMMAND --help describes one.
 ";
 
 /// Words of other programs for commands of this one.
-const SYNONYMS: [(&str, &[&str]); 11] = [
+const SYNONYMS: [(&str, &[&str]); 12] = [
+    ("demo", &["demonstration", "example", "try"]),
     ("run", &["start", "node", "launch", "twin", "serve", "simulate"]),
     ("run --record FILE.mcap", &["record", "rec", "log"]),
     ("rig LOG", &["play", "publish", "send", "feed"]),

@@ -15,6 +15,7 @@ mod built_in;
 mod calibrate;
 mod check;
 mod dashboard;
+mod demo;
 mod first_start;
 #[cfg(feature = "sweep")]
 mod map;
@@ -101,6 +102,7 @@ enum Command {
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
     Dashboard(dashboard::DashboardArgs),
+    Demo(demo::DemoArgs),
     Recover(recover::RecoverArgs),
     Verify(verify::VerifyArgs),
     Paper(Box<paper::PaperArgs>),
@@ -247,6 +249,7 @@ pub fn main(no_output: bool) -> ExitCode {
     {
         return side::main();
     }
+    demo::end_with_parent();
     #[cfg(feature = "sqlite")]
     flexdrill_sqlite::read_sqlite();
     let (arguments, ros_args) = split(std::env::args_os().collect());
@@ -281,6 +284,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Dashboard(args) => dashboard::run(&args),
+        Command::Demo(args) => demo::run(&args),
         Command::Recover(args) => recover::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Paper(args) => paper::run(&args),

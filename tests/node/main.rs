@@ -15,6 +15,7 @@ mod bridge;
 mod clock;
 #[cfg(feature = "full")]
 mod command_line;
+mod demo;
 mod following;
 #[cfg(feature = "full")]
 mod mqtt;
