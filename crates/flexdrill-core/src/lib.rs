@@ -49,7 +49,8 @@
 //! - [`tool`]: what is modelled, as plain structs, and its checks.
 //! - [`twin`]: simulation, settings, snapshots, checkpoints, the schedule of outputs.
 //! - [`inputs`]: from samples of a rig to inputs of a step: limits, ages, safe values.
-//! - [`dynamics`]: residual, time scheme, Newton, steps; `chain`, `model`, `elements`, `simd` below it.
+//! - [`step`]: steps, sub-steps, the start at rest. Below it `effects`, what acts inside spans; `chain`, the tool over
+//!   its nodes; [`dynamics`]: state, time scheme, Newton, energy; below these `model`, `elements`, `simd`.
 //! - [`units`] and [`validation`], of the crate `flexdrill-base`: the only conversions; the checks of numbers.
 //!
 //! The crate `flexdrill-motion` says what the motion means: whirl, stick-slip, shock, their levels and a table of episodes.
@@ -70,12 +71,14 @@
 
 mod chain;
 pub mod dynamics;
+mod effects;
 mod elements;
 pub mod inputs;
 mod model;
 mod simd;
 #[cfg(test)]
 mod stations;
+pub mod step;
 pub mod tool;
 pub mod twin;
 

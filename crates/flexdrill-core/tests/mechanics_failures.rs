@@ -9,8 +9,9 @@
 
 mod support;
 
-use flexdrill_core::dynamics::{FailureCause, StartError, StepFailure, StepOutcome};
+use flexdrill_core::dynamics::{FailureCause, StepFailure, StepOutcome};
 use flexdrill_core::inputs::{InputKind, Inputs};
+use flexdrill_core::step::StartError;
 use flexdrill_core::tool::{
     Body, Direction, LoadHistory, Location, PointLoad, Support, ToolDescription, WellDescription, WellSection,
 };

@@ -10,8 +10,9 @@
 mod support;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::{SolverKind, StepOutcome};
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::SolverKind;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 use support::hinged;

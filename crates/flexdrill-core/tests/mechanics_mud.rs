@@ -10,8 +10,9 @@
 mod support;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::{MOST_REFINEMENT, Scheme, SolverKind};
+use flexdrill_core::dynamics::Scheme;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::{MOST_REFINEMENT, SolverKind};
 use flexdrill_core::tool::{
     AddedMass, Body, MudDamping, MudDescription, MudFilm, Rayleigh, ToolDescription, WellSection,
 };

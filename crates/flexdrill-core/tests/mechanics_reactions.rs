@@ -10,8 +10,8 @@
 mod support;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::SolverKind;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::SolverKind;
 use flexdrill_core::tool::{
     AddedMass, Body, Direction, FreeCurvature, LoadHistory, Location, MudDamping, MudDescription, MudFilm, PointLoad,
     PointMass, PressureDescription, PressureEnd, PressureSource, ToolDescription,

@@ -7,8 +7,9 @@
     reason = "helpers of tests fail by panicking"
 )]
 
-use flexdrill_core::dynamics::{MOST_REFINEMENT, StepOutcome};
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::MOST_REFINEMENT;
 use flexdrill_core::tool::{Body, ToolDescription};
 use flexdrill_core::twin::{Run, Schedule, Simulation, SimulationSettings, Snapshot, StepRule};
 

@@ -10,8 +10,9 @@
 mod support;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::{EnergyAudit, SolverKind, StepOutcome};
+use flexdrill_core::dynamics::{EnergyAudit, StepOutcome};
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::SolverKind;
 use flexdrill_core::tool::{FrictionLaw, ToolDescription, WeightPlace};
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
 use flexdrill_core::units::m_per_h_to_m_per_s;

@@ -10,8 +10,8 @@
 mod support;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::SolverKind;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::SolverKind;
 use flexdrill_core::tool::{Body, Direction, Shortening, ToolDescription, WobPath};
 use flexdrill_core::twin::{Simulation, SimulationSettings};
 use support::coarse;

@@ -11,8 +11,9 @@ mod support;
 use std::f64::consts::TAU;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::{SolverKind, StepOutcome};
+use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
+use flexdrill_core::step::SolverKind;
 use flexdrill_core::tool::{
     Body, DepthOfCut, Direction, Feed, Hoist, Location, Material, Piece, RockLaw, SectionProperties, SpeedController,
     StringDescription, Support, ToolDescription, TopDrive, Tube, WallFriction, Weakening, WellSection,

@@ -10,7 +10,8 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use crate::{Pacer, StepPace};
-use flexdrill_core::dynamics::{MOST_REFINEMENT, StepOutcome};
+use flexdrill_core::dynamics::StepOutcome;
+use flexdrill_core::step::MOST_REFINEMENT;
 use flexdrill_core::twin::{Frame, Run, RunInputs};
 use rtrb::PushError;
 

@@ -5,15 +5,15 @@ use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
 
 /// A column over both ends of a span: six of the top end, two that do not count, six of the bottom end, two more.
-pub(super) type EndColumn = [f64; 16];
+pub(crate) type EndColumn = [f64; 16];
 /// Forces on both ends of a span, pipe and guide.
-pub(super) type EndForces = [EndColumn; 2];
+pub(crate) type EndForces = [EndColumn; 2];
 
 /// Lane of the geometric stiffness, free of forces, that gives the axial force (N).
-pub(super) const TENSION: usize = 7;
+pub(crate) const TENSION: usize = 7;
 
 /// Per row, one in that row only.
-pub(super) static ONLY: Aligned<[[f32; NODE]; NODE]> = {
+pub(crate) static ONLY: Aligned<[[f32; NODE]; NODE]> = {
     let mut out = [[0.0; NODE]; NODE];
     let mut k = 0;
     while k < NODE {
@@ -25,13 +25,13 @@ pub(super) static ONLY: Aligned<[[f32; NODE]; NODE]> = {
 
 /// Two vectors of eight: a span's top and bottom end, or a node.
 #[inline(always)]
-pub(super) fn load<V: Vector>(column: &[f64; 16]) -> [V; 2] {
+pub(crate) fn load<V: Vector>(column: &[f64; 16]) -> [V; 2] {
     let (halves, _) = column.as_chunks::<8>();
     [V::load(&halves[0]), V::load(&halves[1])]
 }
 
 #[inline(always)]
-pub(super) fn store<V: Vector>(values: [V; 2], column: &mut [f64; 16]) {
+pub(crate) fn store<V: Vector>(values: [V; 2], column: &mut [f64; 16]) {
     let (halves, _) = column.as_chunks_mut::<8>();
     values[0].store(&mut halves[0]);
     values[1].store(&mut halves[1]);
@@ -39,14 +39,14 @@ pub(super) fn store<V: Vector>(values: [V; 2], column: &mut [f64; 16]) {
 
 /// sum + column x.
 #[inline(always)]
-pub(super) fn plus_column<V: Vector>(sum: [V; 2], column: &[f64; 16], x: V) -> [V; 2] {
+pub(crate) fn plus_column<V: Vector>(sum: [V; 2], column: &[f64; 16], x: V) -> [V; 2] {
     let column = load::<V>(column);
     [sum[0].plus_product(column[0], x), sum[1].plus_product(column[1], x)]
 }
 
 /// A matrix over both ends times what the ends are.
 #[inline(always)]
-pub(super) fn product<V: Vector>(columns: &[EndColumn; 12], [top, bottom]: &Ends) -> [V; 2] {
+pub(crate) fn product<V: Vector>(columns: &[EndColumn; 12], [top, bottom]: &Ends) -> [V; 2] {
     let zero = [V::splat(0.0); 2];
     let (mut above, mut below) = (zero, zero);
     for j in 0..6 {
@@ -58,7 +58,7 @@ pub(super) fn product<V: Vector>(columns: &[EndColumn; 12], [top, bottom]: &Ends
 
 /// First unknowns of a span's ends, [top, bottom], of the pipe (0) or the guide (1).
 #[inline(always)]
-pub(super) fn ends(span: usize, body: usize) -> [usize; 2] {
+pub(crate) fn ends(span: usize, body: usize) -> [usize; 2] {
     let (top, bottom) = (NODE * span, NODE * (span + 1));
     if body == 0 {
         [top + U, bottom]
@@ -68,11 +68,11 @@ pub(super) fn ends(span: usize, body: usize) -> [usize; 2] {
 }
 
 /// What a span's ends are to a body: the unknowns of its top end and of its bottom end.
-pub(super) type Ends = [[f64; 6]; 2];
+pub(crate) type Ends = [[f64; 6]; 2];
 
 /// The unknowns of the ends of the span below node `l`, of the pipe (0) or the guide (1).
 #[inline(always)]
-pub(super) fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
+pub(crate) fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
     let (above, below) = (&nodes[l], &nodes[l + 1]);
     if body == 0 {
         [
@@ -89,7 +89,7 @@ pub(super) fn at_ends(nodes: &[[f64; NODE]], l: usize, body: usize) -> Ends {
 
 /// Eight values from each end on. Two of each belong to other unknowns, and are to be multiplied by zero.
 #[inline(always)]
-pub(super) fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
+pub(crate) fn around<V: Vector>(values: &[f64], ends: [usize; 2]) -> [V; 2] {
     let mut out = [V::splat(0.0); 2];
     for (out, first) in out.iter_mut().zip(ends) {
         *out = match values[first..].first_chunk() {

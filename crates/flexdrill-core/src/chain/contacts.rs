@@ -8,12 +8,10 @@ use super::slaving::LinkMatrices;
 use super::{Chain, NODE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::state::State;
-use crate::elements::mud_wall::Motion;
+use crate::dynamics::state::{Deflection, State};
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
-use crate::simd::number::Eight;
 use crate::simd::vector::Vector;
 
 impl Chain {
@@ -25,7 +23,7 @@ impl Chain {
         state: &State,
         conditions: &Conditions,
     ) {
-        for (any, moved) in self.has_contacts.iter_mut().zip(&self.active.spans) {
+        for (any, moved) in self.has_inside.iter_mut().zip(&self.active.spans) {
             *any &= !moved;
         }
         let instructions = self.model.instructions;
@@ -86,7 +84,43 @@ fn position<V: Vector>(lateral: &[EndColumn; 12], ends: &Ends, deflection: &EndC
     [slaved[0].plus(deflection[0]), slaved[1].plus(deflection[1])]
 }
 
-/// How the stations of span `l`, one per lane, move by end unknowns `x`, along y and z: the pipe in the guide, and the guide.
+/// How the stations of a span move, the first left out, one per lane: along y and z, the pipe in the guide and the guide in the
+/// hole.
+pub(crate) struct SpanMotion<V> {
+    /// Positions (m).
+    pub d: [[V; 2]; 2],
+    /// Velocities (m/s).
+    pub v: [[V; 2]; 2],
+    /// Accelerations (m/s2).
+    pub a: [[V; 2]; 2],
+}
+
+impl Chain {
+    /// How the stations of span `l` move at `state`.
+    #[inline(always)]
+    pub(crate) fn span_motion<V: Vector>(&self, state: &State, l: usize) -> SpanMotion<V> {
+        let kind = self.model.kind(l);
+        let (nodes, _) = state.q.as_chunks::<NODE>();
+        SpanMotion {
+            d: self.positions::<V>(nodes, &state.deflection[l], l),
+            v: relative::<V>(kind, &state.v, l),
+            a: relative::<V>(kind, &state.a, l),
+        }
+    }
+
+    /// Lateral positions of the pipe in the guide and of the guide in the hole.
+    #[inline(always)]
+    fn positions<V: Vector>(&self, nodes: &[[f64; NODE]], deflection: &Deflection, l: usize) -> [[V; 2]; 2] {
+        let (link, kind) = (&self.model.links[l], self.model.kind(l));
+        let pipe = position::<V>(&kind.lateral[0], &at_ends(nodes, l, 0), &deflection[0]);
+        let guide = position::<V>(&kind.lateral[1], &at_ends(nodes, l, 1), &deflection[1]);
+        let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
+        let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
+        [[y, z], guide]
+    }
+}
+
+/// How the stations of span `l` move by end unknowns `x`, as [`SpanMotion`].
 #[inline(always)]
 fn relative<V: Vector>(kind: &LinkMatrices, x: &[f64], l: usize) -> [[V; 2]; 2] {
     let (nodes, _) = x.as_chunks::<NODE>();
@@ -136,8 +170,8 @@ impl ContactSearch<'_> {
         let station = chain.model.nodes.first(l) + i;
         let advance = conditions.rate_of_penetration;
         let guide = chain.local::<V>(&state.v, l, i, 1);
-        // The residual adds contact forces of marked spans only.
-        chain.has_contacts[l] = true;
+        // The residual adds forces inside marked spans only.
+        chain.has_inside[l] = true;
         if is_closed[0] {
             let pipe = chain.local::<V>(&state.v, l, i, 0);
             let velocity = pipe.minus_product(guide, V::load(&arms[0]));
@@ -182,13 +216,10 @@ impl ContactSearch<'_> {
         } = self;
         let [inner_radius, outer_radius] = model.guide_radii;
         // Only spans that moved are cleared and summed again; the forces of the others are unchanged to the bit.
-        for (contact_forces, (any, moved)) in chain
-            .contact_forces
-            .iter_mut()
-            .zip(chain.has_contacts.iter().zip(&chain.active.spans))
-        {
+        let spans = chain.has_inside.iter().zip(&chain.active.spans);
+        for (inside, (any, moved)) in chain.inside.iter_mut().zip(spans) {
             if *any && *moved {
-                **contact_forces = [[0.0; 16]; 2];
+                **inside = [[0.0; 16]; 2];
             }
         }
         let moved = |station: usize| chain.active.spans[chain.model.nodes.stations[station].0];
@@ -196,9 +227,9 @@ impl ContactSearch<'_> {
             let (l, i) = chain.model.nodes.stations[station];
             let [on_pipe, on_guide] = &chain.model.kinds[chain.model.links[l].kind].force[i].0;
             let force = touch.force();
-            let [pipe, guide] = &mut chain.contact_forces[l].0;
-            // The residual subtracts what acts: the force of the contact from the
-            // pipe, its opposite at the inner radius from the guide.
+            let [pipe, guide] = &mut chain.inside[l].0;
+            // The residual subtracts what acts: the force of the contact from the pipe, its opposite at the inner radius from
+            // the guide.
             let mut opposite = force;
             opposite.iter_mut().for_each(|x| *x = -*x);
             store(plus_rows::<V>(load(pipe), on_pipe, &opposite), pipe);
@@ -212,14 +243,13 @@ impl ContactSearch<'_> {
         for (station, touch) in interactions.outer.among(moved) {
             let (l, i) = chain.model.nodes.stations[station];
             if l != sum.span {
-                sum.take_from(&mut chain.contact_forces, l);
+                sum.take_from(&mut chain.inside, l);
             }
             let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.force(), outer_radius));
         }
         // Taking the first span again writes the sum of the last one.
-        sum.take_from(&mut chain.contact_forces, 0);
-        chain.add_mud_forces::<V>();
+        sum.take_from(&mut chain.inside, 0);
     }
 }
 
@@ -313,14 +343,9 @@ impl ContactSearch<'_> {
                 continue;
             }
             let link = &self.chain.model.links[l];
-            let kind = &self.chain.model.kinds[link.kind];
 
             // Lateral position of the pipe in the guide and of the guide in the bore.
-            let deflection = &state.deflection[l];
-            let pipe = position::<V>(&kind.lateral[0], &at_ends(nodes, l, 0), &deflection[0]);
-            let guide = position::<V>(&kind.lateral[1], &at_ends(nodes, l, 1), &deflection[1]);
-            let y = V::load(&link.offset[0]).plus(pipe[0].minus(guide[0]));
-            let z = V::load(&link.offset[1]).plus(pipe[1].minus(guide[1]));
+            let [[y, z], guide] = self.chain.positions::<V>(nodes, &state.deflection[l], l);
 
             // A gap is closed beyond its clearance, Eq. 21. Lanes without a station are masked: an out-of-range state must
             // not close a gap there.
@@ -329,21 +354,6 @@ impl ContactSearch<'_> {
             let inner = square(y, z).above(V::load(&link.clearance_squared)) & stations;
             let outer = square(guide[0], guide[1]).above(V::splat(outer_squared)) & stations;
             let mut closed = inner | outer;
-            // Mud near a wall acts whether or not the gap is closed, so that a span with mud always has forces.
-            if link.mud.is_some() {
-                let (v, a) = (relative::<V>(kind, &state.v, l), relative::<V>(kind, &state.a, l));
-                let place = [[y, z], guide];
-                for (layer, to) in self.chain.mud[l].iter_mut().enumerate() {
-                    let (d, v, a) = (place[layer], v[layer], a[layer]);
-                    let motion = Motion {
-                        d: [Eight(d[0]), Eight(d[1])],
-                        v: [Eight(v[0]), Eight(v[1])],
-                        a: [Eight(a[0]), Eight(a[1])],
-                    };
-                    motion.store(to);
-                }
-                self.chain.has_contacts[l] = true;
-            }
             // A span without a closed gap ends here: its velocities are not needed.
             if closed == 0 {
                 continue;

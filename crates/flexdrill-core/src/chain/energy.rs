@@ -2,15 +2,14 @@
 
 use nalgebra::Vector3;
 
-use super::Chain;
 use super::columns::{EndColumn, TENSION, around, at_ends, ends, load, product, store};
 use super::contacts::{OnSpan, at_radius, plus_rows};
+use super::{Chain, Effect, Under};
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, SpanForces, SpanWorks};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
-use crate::elements::mud::MudLump;
 use crate::model::{HeldNode, Model};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -19,6 +18,7 @@ impl Chain {
     /// Evaluates `point` at `state`, at which the residual was evaluated last.
     pub(crate) fn energy(
         &mut self,
+        effects: &impl Effect,
         point: &mut EnergyPoint,
         model: &Model,
         state: &State,
@@ -28,7 +28,8 @@ impl Chain {
         let instructions = self.model.instructions;
         point.mud.fill(0.0);
         let mut stored = instructions.run(SpanEnergies {
-            at_top: model.pressure_at_top(conditions),
+            at_top: model.pressure_at_top(conditions.standpipe_pressure),
+            has_tension: effects.has_tension(),
             chain: self,
             point,
             state,
@@ -39,13 +40,11 @@ impl Chain {
             point.inertia.fill(0.0);
             point.add_masses(&self.model.numbered(model), state, conditions);
         }
-        self.add_mud_energy(point);
-        for (couple, q) in self.model.preload.iter().zip(&state.q) {
-            stored -= couple * q;
+        let of_effects = effects.energy(self, point);
+        for (force, q) in self.model.potential.iter().zip(&state.q) {
+            stored -= force * q;
         }
-        if !self.closed_slots.is_empty() {
-            stored += self.slots_energy();
-        }
+        stored += of_effects;
         stored += point.kinetic + self.model.numbered(model).hanger_energy(state);
         point.friction.fill(0.0);
         point.contact_dissipation = 0.0;
@@ -59,15 +58,16 @@ impl Chain {
         point.joints.multipliers.copy_from_slice(&self.multipliers);
         let numbered = self.model.numbered(model);
         point.finish(stored, &numbered, conditions, interactions, &self.residual);
-        self.reactions_inside_a_fixed_guide(point, model, state, conditions, interactions);
+        self.reactions_inside_a_fixed_guide(effects, point, model, state, conditions, interactions);
     }
 }
 
 impl Chain {
     /// Reactions of the supports at stations between the nodes, of a guide that is fixed as a whole: they balance weight,
-    /// contacts, and what the pipe does through the mud, since nothing else acts there.
+    /// contacts, and what effects do to the guide, since nothing else acts there.
     fn reactions_inside_a_fixed_guide(
         &self,
+        effects: &impl Effect,
         point: &mut EnergyPoint,
         model: &Model,
         state: &State,
@@ -78,31 +78,23 @@ impl Chain {
         if !model.description.guide_fixed {
             return;
         }
+        let under = Under {
+            model,
+            conditions,
+            keeps_axial: true,
+        };
         let inside = |at: &&HeldNode| self.model.places.held[at.held.start].is_none();
-        // The weight begins the sum: without contacts and mud the support carries nothing else.
+        // The weight begins the sum: without contacts and effects the support carries nothing else.
         for at in model.held_nodes.iter().filter(inside) {
             for index in at.held.clone() {
                 point.reactions[index] = -model.weight[model.held[index]];
             }
-            if let Some(mud) = &model.mud {
-                let station = &model.stations[at.station];
-                // The pipe moves in its link's frame; the mud pushes in that of the station.
-                let moving = |values: &[f64]| station.pipe_to_station * self.pipe_translation(values, at.station);
-                let (v, a) = (moving(&state.v), moving(&state.a));
-                let MudLump { mass, drag } = mud.stations[at.station];
-                for index in at.held.clone() {
-                    let k = model.held[index] - at.node;
-                    // Mud acts across the hole only.
-                    if matches!(k, 1 | 2) {
-                        let inert = mass.coupling * (a[k] + conditions.rayleigh.alpha * v[k]);
-                        point.reactions[index] += inert + drag.coupling * v[k];
-                        if let (Some(near), (l, i)) =
-                            (mud.near_wall.get(at.station), self.model.nodes.stations[at.station])
-                        {
-                            let taken = near[0].take(&self.mud[l][0].lane(i - 1));
-                            point.reactions[index] -= taken.film[k - 1] + taken.inertia[k - 1];
-                        }
-                    }
+            let on_guide = effects.on_guide(self, at.station, state, &under);
+            for index in at.held.clone() {
+                let k = model.held[index] - at.node;
+                // Effects act across the hole only.
+                if matches!(k, 1 | 2) {
+                    point.reactions[index] -= on_guide[k - 1];
                 }
             }
         }
@@ -127,9 +119,10 @@ impl Chain {
     }
 }
 
-/// Adds forces on a span's ends.
+/// Adds forces on the ends of span `l`, of pipe (0) or guide (1).
 #[inline(always)]
-pub(super) fn add(values: &mut [f64], [top, bottom]: [usize; 2], force: &EndColumn) {
+pub(crate) fn add_to_ends(values: &mut [f64], l: usize, body: usize, force: &EndColumn) {
+    let [top, bottom] = ends(l, body);
     for (first, half) in [(top, 0), (bottom, 8)] {
         for (to, x) in values[first..first + 6].iter_mut().zip(&force[half..half + 6]) {
             *to += x;
@@ -149,6 +142,8 @@ static SPIN: [[f64; 8]; 2] = [
 /// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
 struct SpanEnergies<'a> {
     chain: &'a mut Chain,
+    /// Whether the axial forces of the pipe's spans are those of an effect's energy.
+    has_tension: bool,
     point: &'a mut EnergyPoint,
     state: &'a State,
     conditions: &'a Conditions,
@@ -163,6 +158,7 @@ impl Kernel for SpanEnergies<'_> {
     fn run<V: Vector>(self) -> f64 {
         let Self {
             chain,
+            has_tension,
             point,
             state,
             conditions,
@@ -172,7 +168,6 @@ impl Kernel for SpanEnergies<'_> {
         let zero = [V::splat(0.0); 2];
         // Pipe and guide are summed in two halves of vectors, and added across the lanes once, at the end.
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (zero, zero, zero, zero);
-        let (mut shortened, mut lifted) = (0.0, 0.0);
         let ((rates, _), (rates2, _)) = (state.v.as_chunks(), state.a.as_chunks());
         for (l, link) in chain.model.links.iter().enumerate() {
             let kind = &chain.model.kinds[link.kind];
@@ -182,25 +177,25 @@ impl Kernel for SpanEnergies<'_> {
                 let mut moving = product::<V>(&kind.mass[body], &at_v);
                 let mut inert = product::<V>(&kind.mass[body], &at_ends(rates2, l, body));
                 let mut dragged = zero;
-                // Mud couples both pipes: the momentum of one depends on the velocity of the other.
-                if let Some(mud) = &kind.mud {
+                // Where both pipes are coupled the momentum of one depends on the velocity of the other.
+                if let Some(coupled) = &kind.coupled {
                     let there = at_ends(rates, l, 1 - body);
-                    let across = &mud.mass_across[body];
-                    let of_mud = [
+                    let across = &coupled.mass_across[body];
+                    let parts = [
                         product::<V>(across, &there),
                         product::<V>(across, &at_ends(rates2, l, 1 - body)),
-                        product::<V>(&mud.drag[body], &at_v),
-                        product::<V>(&mud.drag_across[body], &there),
+                        product::<V>(&coupled.damping[body], &at_v),
+                        product::<V>(&coupled.damping_across[body], &there),
                     ];
                     for half in 0..2 {
-                        moving[half] = moving[half].plus(of_mud[0][half]);
-                        inert[half] = inert[half].plus(of_mud[1][half]);
-                        dragged[half] = of_mud[2][half].plus(of_mud[3][half]);
+                        moving[half] = moving[half].plus(parts[0][half]);
+                        inert[half] = inert[half].plus(parts[1][half]);
+                        dragged[half] = parts[2][half].plus(parts[3][half]);
                     }
                     // The work of the viscosity is audited apart from the damping of the steel.
                     let mut on = [0.0; 16];
                     store(dragged, &mut on);
-                    add(&mut point.mud, ends(l, body), &on);
+                    add_to_ends(&mut point.mud, l, body, &on);
                 }
                 // Forces of geometric stiffness per axial force; the lane that
                 // holds the axial force itself is masked out.
@@ -211,17 +206,15 @@ impl Kernel for SpanEnergies<'_> {
                 } else {
                     state.guide_axial[l]
                 };
-                // With shortening the axial force is that of the energy: nothing is foreseen, and N G q is no update.
-                let stretch = if body == 0 { chain.stretches.get(l) } else { None };
-                let (beyond, tension_in_use) = match stretch {
-                    None => {
-                        let by_pressure = if body == 0 { at_top * link.unstrained } else { 0.0 };
-                        (
-                            V::splat(in_use - (chain.geometric_forces[l][body][TENSION] + by_pressure)),
-                            V::splat(in_use),
-                        )
-                    }
-                    Some(_) => (V::splat(0.0), V::splat(0.0)),
+                let (beyond, tension_in_use) = if has_tension && body == 0 {
+                    // The axial force is that of an energy: nothing is foreseen, and N G q is no update.
+                    (V::splat(0.0), V::splat(0.0))
+                } else {
+                    let by_pressure = if body == 0 { at_top * link.unstrained } else { 0.0 };
+                    (
+                        V::splat(in_use - (chain.geometric_forces[l][body][TENSION] + by_pressure)),
+                        V::splat(in_use),
+                    )
                 };
                 // Two lanes of each hold other unknowns; forces are zero there.
                 let (mut q, v) = (
@@ -241,48 +234,30 @@ impl Kernel for SpanEnergies<'_> {
                 let mut damped = zero;
                 for half in 0..2 {
                     foreseen[half] = foreseen[half].minus_product(v[half], geometric_forces[half].times(beyond));
-                    let slopes = geometric_forces[half];
-                    // Forces per axial force become forces by the one in use; what that
-                    // differs from the present one works as foresight.
-                    geometric_forces[half] = slopes.times(tension_in_use);
+                    // Forces per axial force become forces by the one in use; what that differs from the present one works as
+                    // foresight.
+                    geometric_forces[half] = geometric_forces[half].times(tension_in_use);
                     damped[half] = moving[half].times(alpha).plus_product(stiff[half], beta);
                     let mut bent = linear[half].minus(damped[half].plus(inert[half]));
-                    if kind.mud.is_some() {
+                    if kind.coupled.is_some() {
                         bent = bent.minus(dragged[half]);
                     }
                     elastic[half] = elastic[half].plus_product(q[half], bent);
                     geometric[half] = geometric[half].plus_product(q[half], geometric_forces[half]);
                     kinetic[half] = kinetic[half].plus_product(v[half], moving[half]);
-                    if let Some(stretch) = stretch {
-                        let (halves, _) = kind.tension[0].as_chunks::<8>();
-                        damped[half] = damped[half]
-                            .plus_product(slopes, V::splat(stretch.damped))
-                            .plus_product(V::load(&halves[half]), V::splat(stretch.damped_shortening));
-                    }
-                }
-                // The energy of the shortening is no product of force and displacement, so it comes from the law.
-                if let Some(stretch) = stretch {
-                    shortened += stretch.energy;
-                    lifted += stretch.shortening * link.on_strain;
                 }
                 if body == 0 {
                     let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
                     // A joint carries what the span below needs at its top,
                     // contacts included, less weight and pressure there.
                     for (i, top) in point.joints.on_top[l].iter_mut().enumerate() {
-                        let contact_forces = if chain.has_contacts[l] {
-                            chain.contact_forces[l][0][i]
+                        let inside = if chain.has_inside[l] {
+                            chain.inside[l][0][i]
                         } else {
                             0.0
                         };
-                        let (across, along) = stretch.map_or((in_use, 0.0), |stretch| {
-                            (stretch.across(), stretch.along() * kind.tension[0][i])
-                        });
-                        *top = linear[i] + across * geometric_forces[i] + contact_forces
+                        *top = linear[i] + in_use * geometric_forces[i] + inside
                             - (link.weight_on_top[i] + at_top * link.pressure_on_top[i]);
-                        if stretch.is_some() {
-                            *top += along;
-                        }
                     }
                 }
                 let forces = &mut point.spans[l];
@@ -295,31 +270,21 @@ impl Kernel for SpanEnergies<'_> {
         point.kinetic = 0.5 * sum(kinetic);
         point.geometric_energy = 0.5 * sum(geometric);
         point.foresight = sum(foreseen);
-        point.lifted_by_pressure = lifted;
-        let linear = 0.5 * sum(elastic) + point.geometric_energy;
-        // Without shortening the sums are those of the linear span, to the bit.
-        if chain.stretches.is_empty() {
-            linear
-        } else {
-            linear + shortened
-        }
+        0.5 * sum(elastic) + point.geometric_energy
     }
 }
 
 impl Chain {
     /// Sum of the forces of the spans' tensions in the geometric stiffness, in the world (N).
-    pub(crate) fn turned_with_the_tool(&self, model: &Model, energy: &EnergyPoint) -> Vector3<f64> {
-        let forces = energy
-            .spans
+    pub(crate) fn turned_with_the_tool(&self, effects: &impl Effect, model: &Model, state: &State) -> Vector3<f64> {
+        let axial = state.pipe_axial.iter().zip(&state.guide_axial).enumerate();
+        let forces = self
+            .geometric_forces
             .iter()
-            .enumerate()
-            .map(|(l, span)| match self.stretches.get(l) {
-                None => span.geometric,
-                // The energy of a span that shortens has its tension, the list of geometric forces none.
-                Some(stretch) => {
-                    let slopes = &self.geometric_forces[l][0];
-                    [slopes.map(|slope| stretch.across() * slope), span.geometric[1]]
-                }
+            .zip(axial)
+            .map(|(slopes, (l, (pipe, guide)))| {
+                let tensions = [pipe + effects.tension_beyond(l), *guide];
+                [0, 1].map(|body| slopes[body].map(|slope| tensions[body] * slope))
             });
         self.sum_of_spans(model, forces)
     }
@@ -393,10 +358,10 @@ impl Kernel for Friction<'_> {
             let [on_pipe, on_guide] = &chain.model.kinds[chain.model.links[l].kind].force[i].0;
             let force = touch.friction_force();
             let mut on = on_ends::<V>(on_pipe, &force);
-            add(&mut point.friction, ends(l, 0), &on);
+            add_to_ends(&mut point.friction, l, 0, &on);
             on = on_ends::<V>(on_guide, &at_radius(&force, model.guide_radii[0]));
             on.iter_mut().for_each(|x| *x = -*x);
-            add(&mut point.friction, ends(l, 1), &on);
+            add_to_ends(&mut point.friction, l, 1, &on);
             stored += touch.energy;
             point.contact_dissipation += touch.dissipation;
         }
@@ -407,7 +372,7 @@ impl Kernel for Friction<'_> {
             if l != sum.span {
                 let span = sum.span;
                 store(sum.next(l), &mut on);
-                add(&mut point.friction, ends(span, 1), &on);
+                add_to_ends(&mut point.friction, span, 1, &on);
             }
             let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.friction_force(), model.guide_radii[1]));
@@ -416,7 +381,7 @@ impl Kernel for Friction<'_> {
         }
         let span = sum.span;
         store(sum.next(span), &mut on);
-        add(&mut point.friction, ends(span, 1), &on);
+        add_to_ends(&mut point.friction, span, 1, &on);
         stored
     }
 }

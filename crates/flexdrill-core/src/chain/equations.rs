@@ -1,10 +1,10 @@
 //! Newton's equations over the chain: which residual is evaluated, in which precision a correction is solved for.
 
 use super::active::WHOLE_CORRECTIONS;
+use super::effect::{Effect, Under};
 use super::geometric::add_geometric;
+use super::precision::Precision;
 use super::residual::Evaluation;
-use super::shortening::StretchTangents;
-use super::slots::add_slots;
 use super::{Chain, NODE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
@@ -18,15 +18,17 @@ use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
 
-/// The chain's equations: the chain's data with the interactions that they evaluate.
-pub(crate) struct ChainEquations<'a> {
+/// The chain's equations: the chain's data with the effects and interactions that they evaluate.
+pub(crate) struct ChainEquations<'a, E> {
     pub model: &'a Model,
     pub chain: &'a mut Chain,
+    /// What acts inside the spans.
+    pub effects: &'a mut E,
     pub interactions: &'a mut Interactions,
     pub stopwatch: &'a mut Stopwatch,
 }
 
-impl ChainEquations<'_> {
+impl<E: Effect> ChainEquations<'_, E> {
     /// Evaluates the whole residual at `to`, with the axial forces that it holds or, without `keep_axial`, those of its
     /// displacements.
     pub(crate) fn evaluate(&mut self, to: &mut State, conditions: &Conditions, keep_axial: bool) {
@@ -43,15 +45,15 @@ impl ChainEquations<'_> {
     pub(crate) fn energy(&mut self, point: &mut EnergyPoint, state: &State, conditions: &Conditions) {
         self.stopwatch.lap(Phase::Assembly);
         self.chain
-            .energy(point, self.model, state, conditions, self.interactions);
+            .energy(self.effects, point, self.model, state, conditions, self.interactions);
     }
 
-    /// Evaluates the residual at `to`: spans, contacts, slots, what is attached, joints, in this
-    /// order.
+    /// Evaluates the residual at `to`: spans, contacts, effects, what is attached, joints, in this order.
     fn residual_by(&mut self, evaluation: Evaluation, to: &mut State, conditions: &Conditions) {
         let Self {
             model,
             chain,
+            effects,
             interactions,
             stopwatch,
         } = self;
@@ -59,7 +61,12 @@ impl ChainEquations<'_> {
         chain.span_forces(evaluation, model, to, conditions);
         stopwatch.lap(Phase::Assembly);
         chain.contact_forces(interactions, model, to, conditions);
-        chain.close_slots(to);
+        let under = Under {
+            model,
+            conditions,
+            keeps_axial: matches!(evaluation, Evaluation::WholeWithAxial),
+        };
+        effects.force(chain, to, &under);
         chain.gather(to);
         stopwatch.lap(Phase::Contact);
         chain.attached_forces(&mut interactions.bit, model, to, conditions);
@@ -67,61 +74,52 @@ impl ChainEquations<'_> {
         chain.joint_forces(&mut interactions.joints, to, model.moment_scale);
     }
 
+    /// Adds up what the last residual left of contacts, bit, masses and effects at `state` for the tangent, in one precision.
+    fn linearise<S: Precision>(&mut self, operator: usize, state: &State, at: &Iteration<'_>) {
+        let Self {
+            model,
+            chain,
+            effects,
+            interactions,
+            ..
+        } = self;
+        // Effects read the chain while they add: what they add to is taken out of it meanwhile.
+        let mut to = std::mem::take(S::additions(chain));
+        let crossing = S::crossing(&chain.operators[operator]);
+        to.linearise(&chain.model, &chain.active, interactions, model, state, at, crossing);
+        effects.tangent(&mut to, chain, state, at);
+        *S::additions(chain) = to;
+        // Dependent rotations follow from the joint's rows as the last residual has linearised them.
+        chain.set_spins(model.moment_scale);
+    }
+
     /// Solves for the correction in double precision, of the whole tool.
     ///
     /// # Errors
     /// When a block cannot be factorised, or no operator was prepared for the factors.
     pub(super) fn solve_in_double(&mut self, state: &State, at: &Iteration<'_>) -> Result<(), Singular> {
-        let Self {
-            model,
-            chain,
-            interactions,
-            stopwatch,
-        } = self;
-        let Some(operator) = chain.operator(at.factors, at.conditions) else {
+        let Some(operator) = self.chain.operator(at.factors, at.conditions) else {
             return Err(Singular { station: 0, pivot: 0.0 });
         };
-        // In double the whole tool is solved: a window needs the columns of
-        // an earlier sweep, which single precision has made.
-        chain.active.set_whole();
-        // What changes in each iteration is added to the step-constant part.
-        let contacts_and_masses = &mut chain.additions;
-        let crossing = chain.operators[operator].crossing.as_ref();
-        contacts_and_masses.linearise(
-            &chain.model,
-            &chain.active,
+        // In double the whole tool is solved: a window needs the columns of an earlier sweep, which single precision has
+        // made.
+        self.chain.active.set_whole();
+        self.linearise::<f64>(operator, state, at);
+        let Self {
+            chain,
+            effects,
             interactions,
-            model,
-            state,
-            at,
-            crossing,
-            &chain.mud,
-        );
-        if !chain.stretches.is_empty() {
-            chain.model.instructions.run(StretchTangents {
-                to: &mut chain.additions,
-                chain: &chain.model,
-                active: &chain.active,
-                stretches: &chain.stretches,
-                slopes: &chain.geometric_forces,
-                state,
-                beta: at.conditions.rayleigh.beta,
-                factors: at.factors,
-            });
-        }
-        // Slots that are closed stiffen the guide, which only this iteration knows.
-        let stiffness = at.factors.stiffness;
-        add_slots(&mut chain.additions, &chain.active, &chain.closed_slots, stiffness);
-        // The tangent of steps has no geometric stiffness. The chain of the
-        // start has it, as its long steps do not converge without.
+            stopwatch,
+            ..
+        } = self;
+        // The tangent of steps has no geometric stiffness. The chain of the start has it, as its long steps do not converge
+        // without.
         if chain.has_geometric_stiffness() {
-            // With shortening the pipe's part is in its own tangent.
-            let of_pipe = if chain.stretches.is_empty() { 1.0 } else { 0.0 };
+            // An effect with the tension of the pipe has that part in its own tangent.
+            let of_pipe = if effects.has_tension() { 0.0 } else { 1.0 };
             let (to, active) = (&mut chain.additions, &chain.active);
-            add_geometric(to, &chain.model, active, state, [stiffness, of_pipe]);
+            add_geometric(to, &chain.model, active, state, [at.factors.stiffness, of_pipe]);
         }
-        // Dependent rotations follow from the joint's rows as the last residual has linearised them.
-        chain.set_spins(model.moment_scale);
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
         interactions.joints.tangents(
@@ -144,49 +142,17 @@ impl ChainEquations<'_> {
     /// Solves for the correction in single precision, of the active part of the tool; `false` where the pivots are too
     /// small for it.
     pub(super) fn solve_in_single(&mut self, state: &State, at: &Iteration<'_>) -> bool {
+        // Without an operator for these factors nothing was prepared, and the double solution reports that as an error.
+        let Some(operator) = self.chain.operator(at.factors, at.conditions) else {
+            return false;
+        };
+        self.linearise::<f32>(operator, state, at);
         let Self {
-            model,
             chain,
             interactions,
             stopwatch,
+            ..
         } = self;
-        // Without an operator for these factors nothing was prepared, and the double solution reports that as an error.
-        let Some(operator) = chain.operator(at.factors, at.conditions) else {
-            return false;
-        };
-        // The sums are formed in the precision of the solution, which is half the memory to move.
-        let contacts_and_masses = &mut chain.single_additions;
-        let crossing = chain.operators[operator].crossing_single.as_ref();
-        contacts_and_masses.linearise(
-            &chain.model,
-            &chain.active,
-            interactions,
-            model,
-            state,
-            at,
-            crossing,
-            &chain.mud,
-        );
-        if !chain.stretches.is_empty() {
-            chain.model.instructions.run(StretchTangents {
-                to: &mut chain.single_additions,
-                chain: &chain.model,
-                active: &chain.active,
-                stretches: &chain.stretches,
-                slopes: &chain.geometric_forces,
-                state,
-                beta: at.conditions.rayleigh.beta,
-                factors: at.factors,
-            });
-        }
-        let stiffness = at.factors.stiffness;
-        add_slots(
-            &mut chain.single_additions,
-            &chain.active,
-            &chain.closed_slots,
-            stiffness,
-        );
-        chain.set_spins(model.moment_scale);
         let (sweep, of_joints) = (&mut chain.single_sweep, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
         // Outside the window the columns of the earlier sweep remain valid.
@@ -201,7 +167,7 @@ impl ChainEquations<'_> {
     }
 }
 
-impl Equations for ChainEquations<'_> {
+impl<E: Effect> Equations for ChainEquations<'_, E> {
     fn begin(&mut self, stride: &Stride, from: &State) {
         self.interactions.begin(from, stride.h);
         self.chain.accuracy = stride.accuracy;

@@ -7,8 +7,8 @@ use super::tangent::{Additions, Touching};
 use super::{BOTTOM, ChainModel, TOP};
 use crate::dynamics::state::State;
 
-/// Adds N G of every span, with the axial forces of `state`, times `factor`; of the guide alone where the pipe shortens, whose
-/// tangent has it.
+/// Adds N G of every span, with the axial forces of `state`, times `factor`; of the guide alone where an effect has
+/// the tension of the pipe, whose tangent has it.
 pub(super) fn add_geometric(
     to: &mut Additions<f64>,
     chain: &ChainModel,

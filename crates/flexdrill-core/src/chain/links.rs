@@ -3,17 +3,16 @@
 use nalgebra::DVector;
 
 use super::columns::ends;
+use super::linear::{Acting, Segment};
 use super::nodes::Nodes;
 use super::slaving::{LinkMatrices, local_lateral};
 use crate::dynamics::state::Deflection;
-use crate::elements::mud_wall::NearWall;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
-use crate::simd::number::Lane;
 
 /// A span.
 #[derive(Debug, Clone)]
-pub(super) struct Link {
+pub(crate) struct Link {
     /// Its matrices.
     pub kind: usize,
     /// Where the undeflected pipe lies at each station but the first: y, z (m).
@@ -29,9 +28,7 @@ pub(super) struct Link {
     /// Effective tension without strain per pressure at the tool's top (N/Pa) as the span's ends have it: the mean of the
     /// elements by their compliance.
     pub on_strain: f64,
-    /// Mud near the walls of both annuli at those stations; none where it does not count.
-    pub mud: Option<Box<[NearWall<Lane>; 2]>>,
-    /// Lateral deflection of the inner stations under the weight of pipe and guide and the guide's preload (m), as
+    /// Lateral deflection of the inner stations under the weight of pipe and guide and constant forces (m), as
     /// [`LinkMatrices::lateral`].
     pub by_weight: Aligned<Deflection>,
 }
@@ -56,17 +53,8 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
             unstrained: 0.0,
             pressure_on_top: [0.0; 3],
             on_strain: 0.0,
-            mud: None,
             by_weight: Aligned([[0.0; 16]; 2]),
         };
-        if let Some(mud) = model.mud.as_ref().filter(|mud| !mud.near_wall.is_empty()) {
-            let lanes = link.mud.get_or_insert_with(Box::default);
-            for i in 0..per {
-                for (lanes, at) in lanes.iter_mut().zip(&mud.near_wall[first + i + 1]) {
-                    lanes.set_lane(i, at);
-                }
-            }
-        }
         for i in 0..per {
             let station = &model.stations[first + i + 1];
             (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
@@ -81,13 +69,14 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
 pub(super) struct ConstantForces {
     /// Consistent forces of gravity (N, N m).
     pub weight: Vec<f64>,
-    /// Couples of the guide's preload (N m); empty without one.
-    pub preload: Vec<f64>,
+    /// Constant forces of effects, which have a potential (N, N m); empty without any.
+    pub potential: Vec<f64>,
 }
 
-/// Consistent forces of gravity, and the guide's preload, in the chain's numbering.
+/// Consistent forces of gravity, and constant forces of effects on the guide, in the chain's numbering.
 pub(super) fn constant_forces(
     model: &Model,
+    acting: &Acting,
     nodes: &Nodes,
     kinds: &[LinkMatrices],
     links: &mut [Link],
@@ -96,14 +85,18 @@ pub(super) fn constant_forces(
     // Without a preload there is no vector, by which later loops skip it.
     let mut out = ConstantForces {
         weight: vec![0.0; unknowns],
-        preload: vec![0.0; if model.preloads().next().is_some() { unknowns } else { 0 }],
+        potential: Vec::new(),
     };
     for (l, link) in links.iter_mut().enumerate() {
         let (first, per) = (nodes.first(l), nodes.elements(l));
+        let parts = acting.parts(&Segment {
+            model,
+            first,
+            elements: per,
+        });
         for body in 0..2 {
             // The forces are summed over the elements of the span first, and then condensed once.
             let mut weight = DVector::<f64>::zeros(6 * (per + 1));
-            let mut preload = None;
             for e in 0..per {
                 let element = if body == 0 {
                     &model.pipe[first + e].weight
@@ -112,24 +105,20 @@ pub(super) fn constant_forces(
                 };
                 let mut part = weight.rows_mut(6 * e, 12);
                 part += element;
-                if let Some(of_element) = model.guide[first + e].preload.as_ref().filter(|_| body == 1) {
-                    let preload = preload.get_or_insert_with(|| DVector::<f64>::zeros(6 * (per + 1)));
-                    let mut part = preload.rows_mut(6 * e, 12);
-                    part += of_element.force;
-                }
             }
             // The slaving condenses forces on inner stations to the ends, as it condenses displacements.
             let kind = &kinds[link.kind];
             let on_ends = kind.slaved[body].tr_mul(&weight);
             let [top, bottom] = ends(l, body);
-            if let Some(preload) = preload {
-                let on_ends = kind.slaved[body].tr_mul(&preload);
+            if let Some(forces) = parts.forces.as_ref().filter(|_| body == 1) {
+                let on_ends = kind.slaved[body].tr_mul(forces);
+                out.potential.resize(unknowns, 0.0);
                 for i in 0..6 {
-                    out.preload[top + i] += on_ends[i];
-                    out.preload[bottom + i] += on_ends[6 + i];
+                    out.potential[top + i] += on_ends[i];
+                    out.potential[bottom + i] += on_ends[6 + i];
                 }
-                // The deflection between the ends comes from all forces inside, the preload's included.
-                weight += preload;
+                // The deflection between the ends comes from all forces inside.
+                weight += forces;
             }
             let by_weight = &kind.compliance[body] * weight.rows(6, 6 * (per - 1));
             for i in 1..per {

@@ -18,25 +18,24 @@
 //! holds where inner stations vibrate faster than a step can follow; [`nodes`] places the nodes so that it does.
 
 mod active;
-mod columns;
+pub(crate) mod columns;
 mod contacts;
 mod deflection;
 mod dependents;
 pub(crate) mod double;
+mod effect;
 mod energy;
 mod equations;
 mod geometric;
+mod linear;
 mod links;
-mod mud;
 mod nodes;
 mod numbering;
 mod operator;
 mod precision;
 mod residual;
-mod shortening;
 mod single;
 mod slaving;
-mod slots;
 mod solve;
 mod start;
 mod tangent;
@@ -46,13 +45,10 @@ mod tests;
 use std::sync::Arc;
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::numbered::Numbered;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
+use crate::elements::factors::TangentFactors;
 use crate::elements::joint::Joint;
-use crate::elements::mud_wall::Motion;
-use crate::elements::shortening::Stretch;
-use crate::elements::slots::{Closed, Slots};
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::simd::aligned::Aligned;
@@ -61,25 +57,28 @@ use active::Active;
 use columns::EndForces;
 use dependents::{Dependents, FIRST_ROW, SECOND_ROW, Spins};
 use links::{ConstantForces, Link};
-use mud::MudMotions;
 use nodes::Nodes;
 use operator::Operator;
 use single::SingleSweep;
 use slaving::LinkMatrices;
 use solve::Sweep;
-use tangent::Additions;
 
+pub(crate) use contacts::SpanMotion;
+pub(crate) use effect::{Effect, Under};
+pub(crate) use energy::add_to_ends;
 pub(crate) use equations::ChainEquations;
+pub(crate) use linear::{Acting, CoupledParts, Parts, Segment};
 use numbering::Numbering;
-#[cfg(test)]
-pub(crate) use tangent::Touching;
+pub(crate) use precision::Precision;
+pub(crate) use slaving::row;
+pub(crate) use tangent::{Additions, Touching};
 
 /// Unknowns per node.
-const NODE: usize = 16;
+pub(crate) const NODE: usize = 16;
 /// First of the displacement.
 const U: usize = 3;
 /// First of the guide.
-const GUIDE: usize = 9;
+pub(crate) const GUIDE: usize = 9;
 /// Place of the tie's multiplier, and after the last of the guide.
 const TIE: usize = 15;
 /// Stations per span, its lower end included, that one vector of eight holds.
@@ -97,9 +96,9 @@ const MOST_COMPLIANCE: f64 = 0.25;
 const SINGLE_CORRECTIONS: u32 = 6;
 
 /// Places in a node of the twelve unknowns of a span's top end, pipe then guide: one after the other.
-const TOP: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14];
+pub(crate) const TOP: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14];
 /// Of its bottom end.
-const BOTTOM: [usize; 12] = [0, 1, 2, 3, 4, 5, 9, 10, 11, 12, 13, 14];
+pub(crate) const BOTTOM: [usize; 12] = [0, 1, 2, 3, 4, 5, 9, 10, 11, 12, 13, 14];
 
 /// What does not change while the tool moves.
 pub(crate) struct ChainModel {
@@ -111,9 +110,7 @@ pub(crate) struct ChainModel {
     /// Matrices of the spans that differ.
     kinds: Vec<LinkMatrices>,
     /// The spans, top to bottom.
-    links: Vec<Link>,
-    /// The guide's slots in each span; none where they never close.
-    slots: Vec<Slots>,
+    pub(crate) links: Vec<Link>,
     /// Rotational rows per joint that are constraints; with play none.
     joint_rows: usize,
     numbering: Numbering,
@@ -122,8 +119,8 @@ pub(crate) struct ChainModel {
     driven: Vec<usize>,
     /// Consistent forces of gravity (N, N m).
     weight: Vec<f64>,
-    /// Couples of the guide's preload (N m); empty without one.
-    preload: Vec<f64>,
+    /// Constant forces of effects, which have a potential (N, N m); empty without any.
+    potential: Vec<f64>,
     /// Sum of both.
     constant: Vec<f64>,
     /// Forces of the pressure in the pipe, per pressure at the top (N/Pa); empty without it.
@@ -135,6 +132,12 @@ pub(crate) struct ChainModel {
 }
 
 impl ChainModel {
+    /// Matrices of span `l`.
+    #[inline(always)]
+    pub(crate) fn kind(&self, l: usize) -> &LinkMatrices {
+        &self.kinds[self.links[l].kind]
+    }
+
     /// The tool in the chain's numbering.
     pub(crate) fn numbered<'a>(&'a self, model: &'a Model) -> Numbered<'a> {
         Numbered {
@@ -164,16 +167,10 @@ pub(crate) struct Chain {
     /// Forces of the spans on their ends: elastic, damping and inertia forces.
     linear: Vec<Aligned<EndForces>>,
     /// Those of geometric stiffness per axial force; one lane holds the axial force of the displacements.
-    geometric_forces: Vec<Aligned<EndForces>>,
-    /// How each span of the pipe is stretched; none where spans do not shorten.
-    stretches: Vec<Stretch>,
-    /// What the guide's slots do in each span where they are closed; none where they never close.
-    closed_slots: Vec<Option<Closed>>,
-    /// Those of contacts and closed slots, and whether there are any.
-    contact_forces: Vec<Aligned<EndForces>>,
-    has_contacts: Vec<bool>,
-    /// How the stations of each span move in both annuli of mud; empty where mud near walls does not count.
-    mud: Vec<MudMotions>,
+    pub(crate) geometric_forces: Vec<Aligned<EndForces>>,
+    /// Those of contacts and effects inside the spans, and whether there are any.
+    inside: Vec<Aligned<EndForces>>,
+    has_inside: Vec<bool>,
     /// The rotations of each node that follow from its others.
     dependents: Vec<Dependents>,
     /// The same of joints with one row, eight at a time.
@@ -192,22 +189,35 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
-    /// The chain of a tool for steps of size `h` (s).
-    pub(crate) fn of(model: &Model, tolerances: &Tolerances, h: f64, instructions: Instructions) -> Self {
-        let nodes = Nodes::of(model, h);
-        Self::over(model, tolerances, nodes, SINGLE_CORRECTIONS, instructions)
+    /// The chain of a tool for steps of size `h` (s), with what effects add to it.
+    pub(crate) fn of(
+        model: &Model,
+        tolerances: &Tolerances,
+        h: f64,
+        acting: &Acting,
+        instructions: Instructions,
+    ) -> Self {
+        let nodes = Nodes::of(model, acting, h);
+        Self::over(model, tolerances, acting, nodes, SINGLE_CORRECTIONS, instructions)
     }
 
     /// The chain with a node at every station, for steps of any size, solved in double precision. Nothing is slaved, so that
     /// it finds a tool at rest under the contacts of all stations.
-    pub(crate) fn over_stations(model: &Model, tolerances: &Tolerances, instructions: Instructions) -> Self {
-        Self::over(model, tolerances, Nodes::at_every_station(model), 0, instructions)
+    pub(crate) fn over_stations(
+        model: &Model,
+        tolerances: &Tolerances,
+        acting: &Acting,
+        instructions: Instructions,
+    ) -> Self {
+        let nodes = Nodes::at_every_station(model, acting);
+        Self::over(model, tolerances, acting, nodes, 0, instructions)
     }
 
     /// Over these nodes, with the matrices of the spans between them.
     fn over(
         model: &Model,
         tolerances: &Tolerances,
+        acting: &Acting,
         (points, spans): (Nodes, Vec<LinkMatrices>),
         single_corrections: u32,
         instructions: Instructions,
@@ -221,8 +231,6 @@ impl Chain {
         // The slowest span bounds the step from below, for all spans alike.
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
         let spans = links.len();
-        // Each span is one element then.
-        let slots: Vec<Slots> = model.slots().map(|(_, slots, _)| *slots).collect();
         // The drive holds the spin above and below, so that its joint's row cannot turn the node.
         let mut driven: Vec<usize> = places.driven.into_iter().collect();
         driven.extend(places.driven.map(|spin| spin + FIRST_ROW));
@@ -269,14 +277,14 @@ impl Chain {
             let ends = [places.pipe_end, places.guide_end];
             links::pressure_forces(model, &points, &kinds, &mut links, unknowns, ends)
         };
-        let ConstantForces { weight, preload } = links::constant_forces(model, &points, &kinds, &mut links, unknowns);
+        let ConstantForces { weight, potential } =
+            links::constant_forces(model, acting, &points, &kinds, &mut links, unknowns);
         // The residual subtracts one vector; the audit needs both apart.
         let mut constant = weight.clone();
         constant
             .iter_mut()
-            .zip(&preload)
-            .for_each(|(sum, couple)| *sum += couple);
-        // All arrays have their final size: nothing allocates while the tool runs.
+            .zip(&potential)
+            .for_each(|(sum, force)| *sum += force);
         Self {
             operators: Vec::new(),
             limits: Limits::new(limits(force, moment), limits(moving_force, moving_moment)),
@@ -287,18 +295,8 @@ impl Chain {
             foreseen_part: 0.0,
             linear: vec![Aligned([[0.0; 16]; 2]); spans],
             geometric_forces: vec![Aligned([[0.0; 16]; 2]); spans],
-            stretches: vec![Stretch::default(); if model.shortens() { spans } else { 0 }],
-            closed_slots: vec![None; slots.len()],
-            contact_forces: vec![Aligned([[0.0; 16]; 2]); spans],
-            has_contacts: vec![false; spans],
-            mud: vec![
-                [Motion::default(); 2];
-                if links.iter().any(|link| link.mud.is_some()) {
-                    spans
-                } else {
-                    0
-                }
-            ],
+            inside: vec![Aligned([[0.0; 16]; 2]); spans],
+            has_inside: vec![false; spans],
             dependents: points
                 .list
                 .iter()
@@ -318,13 +316,12 @@ impl Chain {
                 nodes: points,
                 kinds,
                 links,
-                slots,
                 joint_rows,
                 numbering,
                 places,
                 driven,
                 weight,
-                preload,
+                potential,
                 constant,
                 pressure,
                 rows,
@@ -358,6 +355,33 @@ impl Chain {
     /// Number of spans.
     pub(crate) fn spans(&self) -> usize {
         self.model.links.len()
+    }
+
+    /// Whether span `l` is part of the present correction.
+    #[inline(always)]
+    pub(crate) fn is_active(&self, l: usize) -> bool {
+        self.active.spans[l]
+    }
+
+    /// The span that a station is in, and which of its stations it is; that of its top end is 0.
+    pub(crate) fn span_of(&self, station: usize) -> (usize, usize) {
+        self.model.nodes.stations[station]
+    }
+
+    /// The stations of span `l`, that of its top end left out.
+    #[inline(always)]
+    pub(crate) fn stations_below(&self, l: usize) -> std::ops::Range<usize> {
+        self.model.nodes.first(l) + 1..self.model.nodes.first(l + 1) + 1
+    }
+
+    /// Forces of what acts inside span `l` on its ends, pipe and guide: zero before the first is added in a residual.
+    #[inline(always)]
+    pub(crate) fn inside(&mut self, l: usize) -> &mut EndForces {
+        if !self.has_inside[l] {
+            self.has_inside[l] = true;
+            *self.inside[l] = [[0.0; 16]; 2];
+        }
+        &mut self.inside[l].0
     }
 
     /// Whether the tangent has the geometric stiffness.

@@ -1,7 +1,8 @@
 //! Where the chain has its nodes: at every station that something is attached to, and between them where a span would
-//! otherwise have too many elements, vibrate too slowly or be too compliant. Where slots of the guide close: at every
-//! station.
+//! otherwise have too many elements, vibrate too slowly or be too compliant. Where an effect acts at single stations
+//! in a way that does not follow from the ends of a span: at every station.
 
+use super::linear::Acting;
 use super::slaving::LinkMatrices;
 use super::{LEAST_FREQUENCY, MOST_COMPLIANCE, MOST_STATIONS, NODE};
 use crate::model::Model;
@@ -37,20 +38,19 @@ pub(super) struct Nodes {
 
 impl Nodes {
     /// A node at every station.
-    pub(super) fn at_every_station(model: &Model) -> (Self, Vec<LinkMatrices>) {
-        let spans = (0..model.last()).map(|top| LinkMatrices::of(model, top, 1)).collect();
+    pub(super) fn at_every_station(model: &Model, acting: &Acting) -> (Self, Vec<LinkMatrices>) {
+        let spans = (0..model.last())
+            .map(|top| LinkMatrices::of(model, acting, top, 1))
+            .collect();
         (Self::at(model, &(0..=model.last()).collect::<Vec<_>>()), spans)
     }
 
-    /// The nodes that steps of size `h` (s) need, with the matrices of the spans between them.
-    pub(super) fn of(model: &Model, h: f64) -> (Self, Vec<LinkMatrices>) {
+    /// The nodes that steps of size `h` (s) need, or all of them where an effect asks for that, with the matrices of the
+    /// spans between them.
+    pub(super) fn of(model: &Model, acting: &Acting, h: f64) -> (Self, Vec<LinkMatrices>) {
         let last = model.last();
-        let mut attached = vec![false; last + 1];
+        let mut attached = vec![acting.every_station; last + 1];
         (attached[0], attached[last]) = (true, true);
-        if model.has_slots() {
-            // What inner stations do would depend on which slots are closed.
-            attached.fill(true);
-        }
         for &station in &model.joint_stations {
             attached[station] = true;
         }
@@ -68,7 +68,7 @@ impl Nodes {
         let mut top = 0;
         let bottoms = (1..).zip(&attached[1..]).filter(|(_, attached)| **attached);
         for (bottom, _) in bottoms {
-            split(model, h, [top, bottom], &mut ends, &mut spans);
+            split(model, acting, h, [top, bottom], &mut ends, &mut spans);
             top = bottom;
         }
         (Self::at(model, &ends), spans)
@@ -109,9 +109,16 @@ impl Nodes {
 }
 
 /// Appends the span between two stations, or its halves where the whole cannot be one.
-fn split(model: &Model, h: f64, [top, bottom]: [usize; 2], ends: &mut Vec<usize>, spans: &mut Vec<LinkMatrices>) {
+fn split(
+    model: &Model,
+    acting: &Acting,
+    h: f64,
+    [top, bottom]: [usize; 2],
+    ends: &mut Vec<usize>,
+    spans: &mut Vec<LinkMatrices>,
+) {
     let elements = bottom - top;
-    let whole = (elements <= MOST_STATIONS).then(|| LinkMatrices::of(model, top, elements));
+    let whole = (elements <= MOST_STATIONS).then(|| LinkMatrices::of(model, acting, top, elements));
     let contacts = [&model.description.inner, &model.description.outer].map(|gap| gap.stiffness);
     let will_do =
         |span: &LinkMatrices| span.slowest * h >= LEAST_FREQUENCY && span.compliance(contacts) <= MOST_COMPLIANCE;
@@ -122,8 +129,8 @@ fn split(model: &Model, h: f64, [top, bottom]: [usize; 2], ends: &mut Vec<usize>
         }
         _ => {
             let middle = top + elements.div_ceil(2);
-            split(model, h, [top, middle], ends, spans);
-            split(model, h, [middle, bottom], ends, spans);
+            split(model, acting, h, [top, middle], ends, spans);
+            split(model, acting, h, [middle, bottom], ends, spans);
         }
     }
 }

@@ -25,20 +25,21 @@ use super::slaving::row;
 use super::tangent::AddedCoupling;
 use super::{BOTTOM, Chain, NODE, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::numbered::along_the_hole;
+use crate::elements::factors::TangentFactors;
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
 /// A node's block by columns.
 pub(super) type Block = [[f64; NODE]; NODE];
 
-/// Forces on the ends of pipe and guide by the motion of the other's, of a kind of span; none without mud.
+/// Forces on the ends of pipe and guide by the motion of the other's, of a kind of span; none where they are not
+/// coupled.
 type Across = Option<Box<Aligned<[[EndColumn; 12]; 2]>>>;
 
 /// Coupling of a span's two ends.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Coupling {
+pub(crate) struct Coupling {
     /// Rows of the node above, columns of the span's bottom end.
     pub upper: [[f64; NODE]; 12],
     /// Rows of the node below, columns of the span's top end.
@@ -46,7 +47,7 @@ pub(super) struct Coupling {
 }
 
 /// For one step size and damping.
-pub(super) struct Operator {
+pub(crate) struct Operator {
     factors: TangentFactors,
     damping: [f64; 2],
     /// k K + d C + m M of each kind of span, pipe and guide, by columns over its ends.
@@ -56,7 +57,7 @@ pub(super) struct Operator {
     pub block_of: Vec<usize>,
     /// Couplings, by kind of span.
     pub couplings: Vec<Coupling>,
-    /// What the motion of one pipe does to the other through mud, in place of `spans`; none without mud.
+    /// What the motion of one pipe does to the other, in place of `spans`; none where they are not coupled.
     pub across: Vec<Across>,
     /// The same on the nodes, to begin the additions of an iteration with.
     pub crossing: Option<Crossing<f64>>,
@@ -65,8 +66,8 @@ pub(super) struct Operator {
     pub single: SingleOperator,
 }
 
-/// How mud couples pipe and guide everywhere: added to every node and span in each iteration, as a contact would be.
-pub(super) struct Crossing<S> {
+/// How effects couple pipe and guide everywhere: added to every node and span in each iteration, as a contact would be.
+pub(crate) struct Crossing<S> {
     /// By node.
     pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
     /// By kind of span.
@@ -139,13 +140,13 @@ impl Operator {
                     std::array::from_fn(|j| {
                         let (k, m) = (&kind.stiffness[body][j], &kind.mass[body][j]);
                         let mut column: EndColumn = std::array::from_fn(|i| elastic * k[i] + inertial * m[i]);
-                        if let Some(mud) = &kind.mud {
-                            let drag = column.iter_mut().zip(&mud.drag[body][j]);
-                            drag.for_each(|(x, drag)| *x += factors.damping * drag);
+                        if let Some(coupled) = &kind.coupled {
+                            let damping = column.iter_mut().zip(&coupled.damping[body][j]);
+                            damping.for_each(|(x, damping)| *x += factors.damping * damping);
                         }
-                        // The preload has stiffness and no damping: it turns with the guide.
-                        match kind.preload.as_ref().filter(|_| body == 1) {
-                            Some(preload) => std::array::from_fn(|i| column[i] + factors.stiffness * preload[j][i]),
+                        // This stiffness has no damping: it turns with the guide.
+                        match kind.undamped.as_ref().filter(|_| body == 1) {
+                            Some(undamped) => std::array::from_fn(|i| column[i] + factors.stiffness * undamped[j][i]),
                             None => column,
                         }
                     })
@@ -216,10 +217,10 @@ impl Operator {
         // Mud across the gap is kept apart: nodes that it crosses need more columns in the elimination.
         let across: Vec<_> = (chain.model.kinds.iter())
             .map(|kind| {
-                let mud = kind.mud.as_ref()?;
+                let coupled = kind.coupled.as_ref()?;
                 Some(Box::new(Aligned(std::array::from_fn(|body| {
                     std::array::from_fn(|j| {
-                        let (m, c) = (&mud.mass_across[body][j], &mud.drag_across[body][j]);
+                        let (m, c) = (&coupled.mass_across[body][j], &coupled.damping_across[body][j]);
                         std::array::from_fn(|i| inertial * m[i] + factors.damping * c[i])
                     })
                 }))))
@@ -248,7 +249,7 @@ impl Operator {
 
 /// The step-constant part in single precision.
 #[derive(Default)]
-pub(super) struct SingleOperator {
+pub(crate) struct SingleOperator {
     pub blocks: Vec<Aligned<[[f32; NODE]; NODE]>>,
     /// Per kind of span: rows of the node above by columns of the bottom end; rows of the node below by columns of the
     /// top end, pipe and guide in one column as they do not share rows, and apart.

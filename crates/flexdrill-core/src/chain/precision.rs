@@ -2,14 +2,17 @@
 
 use std::ops::AddAssign;
 
+use super::Chain;
 use super::columns::{ONLY, load, store};
+use super::operator::{Crossing, Operator};
+use super::tangent::Additions;
 use super::{GUIDE, NODE, U};
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;
 use crate::simd::vector::Vector;
 
 /// A number of a tangent.
-pub(super) trait Precision: Copy + AddAssign + 'static {
+pub(crate) trait Precision: Copy + AddAssign + 'static {
     const ZERO: Self;
     /// Sixteen of them, by vector instructions.
     type Lanes<V: Vector>: Lanes<Self>;
@@ -21,10 +24,14 @@ pub(super) trait Precision: Copy + AddAssign + 'static {
     fn only(k: usize) -> &'static [Self; NODE];
     /// Forces on the nodes of a span by local forces at its stations.
     fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>];
+    /// What a chain adds to the tangent.
+    fn additions(chain: &mut Chain) -> &mut Additions<Self>;
+    /// What of an operator couples pipe and guide.
+    fn crossing(operator: &Operator) -> Option<&Crossing<Self>>;
 }
 
 /// Sixteen numbers: a column of a node's block.
-pub(super) trait Lanes<S>: Copy {
+pub(crate) trait Lanes<S>: Copy {
     fn load(from: &[S; NODE]) -> Self;
     fn store(self, to: &mut [S; NODE]);
     /// Of numbers of double precision.
@@ -43,7 +50,7 @@ pub(super) trait Lanes<S>: Copy {
 /// by those unknowns.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub(super) struct OnNodes<S> {
+pub(crate) struct OnNodes<S> {
     pub inner: [[[S; NODE]; 6]; 2],
     pub outer: [[[S; NODE]; 6]; 2],
     /// `outer` of both nodes in one: what the node below gets is eight places higher up.
@@ -52,14 +59,14 @@ pub(super) struct OnNodes<S> {
 
 /// [`OnNodes`] of the stations of a span, in both precisions.
 #[derive(Debug, Clone)]
-pub(super) struct OnNodesInBoth {
+pub(crate) struct OnNodesInBoth {
     double: Vec<OnNodes<f64>>,
     single: Vec<OnNodes<f32>>,
 }
 
 impl OnNodesInBoth {
     /// From the rows of each station over the ends of its span, and the radii of the guide (m).
-    pub(super) fn of<'a>(rows: impl Iterator<Item = &'a [[[f64; 16]; 6]; 2]> + Clone, radii: [f64; 2]) -> Self {
+    pub(crate) fn of<'a>(rows: impl Iterator<Item = &'a [[[f64; 16]; 6]; 2]> + Clone, radii: [f64; 2]) -> Self {
         Self {
             double: rows.clone().map(|rows| OnNodes::of(rows, radii)).collect(),
             single: rows.map(|rows| OnNodes::of(rows, radii)).collect(),
@@ -131,6 +138,14 @@ impl Precision for f64 {
     fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>] {
         &stations.double
     }
+
+    fn additions(chain: &mut Chain) -> &mut Additions<Self> {
+        &mut chain.additions
+    }
+
+    fn crossing(operator: &Operator) -> Option<&Crossing<Self>> {
+        operator.crossing.as_ref()
+    }
 }
 
 impl Precision for f32 {
@@ -164,11 +179,19 @@ impl Precision for f32 {
     fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>] {
         &stations.single
     }
+
+    fn additions(chain: &mut Chain) -> &mut Additions<Self> {
+        &mut chain.single_additions
+    }
+
+    fn crossing(operator: &Operator) -> Option<&Crossing<Self>> {
+        operator.crossing_single.as_ref()
+    }
 }
 
 /// Sixteen numbers of double precision.
 #[derive(Clone, Copy)]
-pub(super) struct Double<V>(pub [V; 2]);
+pub(crate) struct Double<V>(pub [V; 2]);
 
 impl<V: Vector> Lanes<f64> for Double<V> {
     #[inline(always)]
@@ -217,7 +240,7 @@ impl<V: Vector> Lanes<f64> for Double<V> {
 
 /// Sixteen numbers of single precision.
 #[derive(Clone, Copy)]
-pub(super) struct Rounded<S>(pub S);
+pub(crate) struct Rounded<S>(pub S);
 
 impl<S: Single> Lanes<f32> for Rounded<S> {
     #[inline(always)]

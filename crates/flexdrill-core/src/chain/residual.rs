@@ -2,7 +2,7 @@
 //!
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
 //! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
-//! contacts, stops and joint rows are evaluated again.
+//! contacts, effects, stops and joint rows are evaluated again.
 
 use super::columns::{EndColumn, Ends, TENSION, around, at_ends, ends, load, plus_column, product, store};
 use super::operator::Operator;
@@ -34,7 +34,7 @@ impl Chain {
             self.active.set_whole();
         }
         let instructions = self.model.instructions;
-        let at_top = model.pressure_at_top(conditions);
+        let at_top = model.pressure_at_top(conditions.standpipe_pressure);
         instructions.run(Spans {
             chain: self,
             to,
@@ -42,16 +42,9 @@ impl Chain {
             evaluation,
             at_top,
         });
-        if !self.stretches.is_empty() {
-            self.stretch_spans(
-                to,
-                [conditions.rayleigh.beta, at_top],
-                matches!(evaluation, Evaluation::WholeWithAxial),
-            );
-        }
     }
 
-    /// Sums up the forces of spans, contacts and weight on each node.
+    /// Sums up the forces of spans, of what acts inside them, and of weight on each node.
     pub(super) fn gather(&mut self, state: &State) {
         self.model.instructions.run(Gather { chain: self, state });
     }
@@ -138,17 +131,9 @@ impl Kernel for Gather<'_> {
                     continue;
                 }
                 let (linear, geometric) = (&chain.linear[l], &chain.geometric_forces[l]);
-                let contacts = chain.has_contacts[l].then_some(&chain.contact_forces[l]);
-                let [on_pipe, on_guide] = [0, 1].map(|body| contacts.map(|contacts| &contacts[body]));
-                // With shortening the axial force acts along the deflected span, by the law's own force.
-                let pipe: [V; 2] = match chain.stretches.get(l) {
-                    None => force_of_span(&linear[0], &geometric[0], state.pipe_axial[l], on_pipe),
-                    Some(stretch) => {
-                        let tension = &chain.model.kinds[chain.model.links[l].kind].tension[0];
-                        let force = force_of_span(&linear[0], &geometric[0], stretch.across(), on_pipe);
-                        plus_column(force, tension, V::splat(stretch.along()))
-                    }
-                };
+                let inside = chain.has_inside[l].then_some(&chain.inside[l]);
+                let [on_pipe, on_guide] = [0, 1].map(|body| inside.map(|inside| &inside[body]));
+                let pipe: [V; 2] = force_of_span(&linear[0], &geometric[0], state.pipe_axial[l], on_pipe);
                 let guide: [V; 2] = force_of_span(&linear[1], &geometric[1], state.guide_axial[l], on_guide);
                 // Upper ends act on the node above, lower ends on the node below.
                 from_below[l - start].set(pipe[0], U, guide[0]);
@@ -174,19 +159,19 @@ impl Kernel for Gather<'_> {
     }
 }
 
-/// Force of a span on its ends: linear, geometric by its axial force, and that of its contacts.
+/// Force of a span on its ends: linear, geometric by its axial force, and that of what acts inside it.
 #[inline(always)]
 fn force_of_span<V: Vector>(
     linear: &EndColumn,
     geometric: &EndColumn,
     axial: f64,
-    contacts: Option<&EndColumn>,
+    inside: Option<&EndColumn>,
 ) -> [V; 2] {
     let force = plus_column(load(linear), geometric, V::splat(axial));
-    match contacts {
-        Some(contacts) => {
-            let contacts: [V; 2] = load(contacts);
-            [force[0].plus(contacts[0]), force[1].plus(contacts[1])]
+    match inside {
+        Some(inside) => {
+            let inside: [V; 2] = load(inside);
+            [force[0].plus(inside[0]), force[1].plus(inside[1])]
         }
         None => force,
     }
@@ -283,25 +268,25 @@ impl Spans<'_> {
                     }
                 }
                 let mut stiff = product::<V>(&kind.stiffness[body], &strained);
-                if let Some(preload) = kind.preload.as_ref().filter(|_| body == 1) {
-                    // A preload turns with the guide: it stores energy but does not damp.
-                    let turned = product::<V>(preload, &at);
+                if let Some(undamped) = kind.undamped.as_ref().filter(|_| body == 1) {
+                    // What turns with the guide stores energy but does not damp.
+                    let turned = product::<V>(undamped, &at);
                     stiff = [stiff[0].plus(turned[0]), stiff[1].plus(turned[1])];
                 }
                 let inert = product::<V>(&kind.mass[body], &pushed);
                 let mut force = [stiff[0].plus(inert[0]), stiff[1].plus(inert[1])];
-                if let Some(mud) = &kind.mud {
-                    // What the other pipe's motion pushes through the mud, and its viscosity.
+                if let Some(coupled) = &kind.coupled {
+                    // What the other pipe's motion pushes, and viscous damping.
                     let (mut pushed, rate_there) = (at_ends(a, l, 1 - body), at_ends(v, l, 1 - body));
                     for (pushed, rate) in pushed.as_flattened_mut().iter_mut().zip(rate_there.as_flattened()) {
                         *pushed += rayleigh[0] * rate;
                     }
-                    for of_mud in [
-                        product::<V>(&mud.mass_across[body], &pushed),
-                        product::<V>(&mud.drag[body], &rate),
-                        product::<V>(&mud.drag_across[body], &rate_there),
+                    for part in [
+                        product::<V>(&coupled.mass_across[body], &pushed),
+                        product::<V>(&coupled.damping[body], &rate),
+                        product::<V>(&coupled.damping_across[body], &rate_there),
                     ] {
-                        force = [force[0].plus(of_mud[0]), force[1].plus(of_mud[1])];
+                        force = [force[0].plus(part[0]), force[1].plus(part[1])];
                     }
                 }
                 // Forces per axial force are kept: the axial force changes with every correction, these by a product.
@@ -333,8 +318,8 @@ impl Spans<'_> {
                 let dq = at_ends(nodes, 0, body);
                 let (mut sum, other) = products::<V>([&columns[body], &geometric[body]], &dq, sums);
                 if let Some(across) = &across[link.kind] {
-                    let of_mud = product::<V>(&across[body], &at_ends(nodes, 0, 1 - body));
-                    sum = [sum[0].plus(of_mud[0]), sum[1].plus(of_mud[1])];
+                    let from_there = product::<V>(&across[body], &at_ends(nodes, 0, 1 - body));
+                    sum = [sum[0].plus(from_there[0]), sum[1].plus(from_there[1])];
                 }
                 store(sum, &mut linear[body]);
                 store(other, &mut geometric_forces[body]);

@@ -1,13 +1,14 @@
 //! A start over the chain: a state at rest, and accelerations in balance with its forces.
 
 use super::dependents::{FIRST_ROW, SECOND_ROW};
+use super::effect::Effect;
 use super::equations::ChainEquations;
 use super::{NODE, TIE};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::newton::{Iteration, Singular, correct, worst};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
+use crate::elements::factors::TangentFactors;
 
 /// Most corrections of a state at rest.
 const MOST_STATIC_CORRECTIONS: u32 = 20;
@@ -18,7 +19,7 @@ const SETTLED: f64 = 0.1;
 /// than their inertia lets them in this time. Motions between two contacts are slower, so that the corrections converge.
 const STATIC_MASS: f64 = 4e4;
 
-impl ChainEquations<'_> {
+impl<E: Effect> ChainEquations<'_, E> {
     /// Static corrections of a state at rest, as long as they bring the residual down, or until a part of the limits is left
     /// where the tangent has no geometric stiffness; `scratch` is overwritten. Where the static tangent has no inverse (a body
     /// that could float), the state is not changed.

@@ -5,14 +5,13 @@
 //! is the same sum with the forces and motions that the slaving makes of them.
 
 use super::active::Active;
-use super::mud::MudMotions;
 use super::operator::Crossing;
 use super::precision::{Lanes, Precision};
 use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::{State, motion};
+use crate::elements::factors::TangentFactors;
 use crate::elements::gap::GapTangent;
 use crate::model::Model;
 use crate::simd::Kernel;
@@ -33,20 +32,32 @@ pub(crate) enum Touching {
 /// What is added to a span's coupling, as [`super::operator::Coupling`].
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(64))]
-pub(super) struct AddedCoupling<S> {
+pub(crate) struct AddedCoupling<S> {
     pub upper: [[S; NODE]; 12],
     pub lower: [[S; NODE]; 12],
 }
 
 /// Additions of one iteration.
-#[derive(Clone, Default)]
-pub(super) struct Additions<S> {
+#[derive(Clone)]
+pub(crate) struct Additions<S> {
     /// Per node, with the columns that count: the guide's, or all.
     pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
     pub nodes: Vec<Touching>,
     /// Per span, with the columns that count.
     pub couplings: Vec<AddedCoupling<S>>,
     pub spans: Vec<Touching>,
+}
+
+impl<S> Default for Additions<S> {
+    /// Without nodes: what stands for those of a chain while they are taken out of it.
+    fn default() -> Self {
+        Self {
+            blocks: Vec::new(),
+            nodes: Vec::new(),
+            couplings: Vec::new(),
+            spans: Vec::new(),
+        }
+    }
 }
 
 impl<S: Precision> Additions<S> {
@@ -65,7 +76,7 @@ impl<S: Precision> Additions<S> {
 
     /// A node's block, whose columns of what is `touching` are made zero before their first use in an iteration.
     #[inline(always)]
-    pub(super) fn block(&mut self, node: usize, touching: Touching) -> &mut [[S; NODE]; NODE] {
+    pub(crate) fn block(&mut self, node: usize, touching: Touching) -> &mut [[S; NODE]; NODE] {
         let (block, before) = (&mut self.blocks[node], self.nodes[node]);
         if touching > before {
             if before == Touching::Nothing {
@@ -82,7 +93,7 @@ impl<S: Precision> Additions<S> {
 
     /// A span's coupling, in the same way.
     #[inline(always)]
-    pub(super) fn coupling(&mut self, span: usize, touching: Touching) -> &mut AddedCoupling<S> {
+    pub(crate) fn coupling(&mut self, span: usize, touching: Touching) -> &mut AddedCoupling<S> {
         let (coupling, before) = (&mut self.couplings[span], self.spans[span]);
         if touching > before {
             for columns in [&mut coupling.upper, &mut coupling.lower] {
@@ -98,7 +109,7 @@ impl<S: Precision> Additions<S> {
         coupling
     }
 
-    /// Begins with the mud, which couples pipe and guide everywhere.
+    /// Begins with what couples pipe and guide everywhere.
     fn begin_with(&mut self, crossing: &Crossing<S>, chain: &ChainModel, active: &Active) {
         for (node, _) in active.nodes.iter().enumerate().filter(|(_, active)| **active) {
             self.blocks[node].clone_from(&crossing.blocks[node]);
@@ -111,8 +122,7 @@ impl<S: Precision> Additions<S> {
     }
 
     /// Fills the additions, joints left out, from what was linearised by the last residual at `state`, where it is
-    /// `active`, and from what mud couples by the step-constant `crossing`.
-    #[expect(clippy::too_many_arguments, reason = "the parts of one linearisation")]
+    /// `active`, and from what is coupled everywhere by the step-constant `crossing`.
     pub(super) fn linearise(
         &mut self,
         chain: &ChainModel,
@@ -122,7 +132,6 @@ impl<S: Precision> Additions<S> {
         state: &State,
         at: &Iteration<'_>,
         crossing: Option<&Crossing<S>>,
-        mud: &[MudMotions],
     ) {
         let Iteration {
             conditions, factors, ..
@@ -133,7 +142,6 @@ impl<S: Precision> Additions<S> {
             self.begin_with(crossing, chain, active);
         }
         chain.instructions.run(ContactTangents {
-            mud,
             to: self,
             chain,
             active,
@@ -166,8 +174,29 @@ impl<S: Precision> Additions<S> {
     }
 }
 
+impl<S: Precision> Additions<S> {
+    /// Adds the derivative of two `components` of a local force at station `i` of span `l`, one below its top end, by the same
+    /// components of the motion there, by columns: between pipe and guide or, not `inner`, of the guide alone.
+    #[inline(always)]
+    pub(crate) fn add_local<V: Vector>(
+        &mut self,
+        chain: &ChainModel,
+        (l, i): (usize, usize),
+        inner: bool,
+        components: [usize; 2],
+        tangent: &[[f64; 2]; 2],
+    ) {
+        let on_nodes = &S::on_nodes(&chain.kind(l).on_nodes)[i];
+        let at = InSpan {
+            l,
+            at: [false, i == chain.nodes.elements(l)],
+            rows: if inner { &on_nodes.inner } else { &on_nodes.outer },
+        };
+        at.add_local::<V>(self, components, tangent);
+    }
+}
+
 struct ContactTangents<'a, S> {
-    mud: &'a [MudMotions],
     to: &'a mut Additions<S>,
     chain: &'a ChainModel,
     active: &'a Active,
@@ -212,33 +241,6 @@ impl<S: Precision> Kernel for ContactTangents<'_, S> {
             }
         }
         guide_sum.add_to_nodes::<V>(self.to);
-        // Mud near walls after the contacts, since it has the same columns and no friction.
-        for (l, motions) in self.mud.iter().enumerate() {
-            let link = &self.chain.links[l];
-            let Some(near) = link.mud.as_ref().filter(|_| self.active.spans[l]) else {
-                continue;
-            };
-            let elements = self.chain.nodes.elements(l);
-            let on_nodes = &S::on_nodes(&self.chain.kinds[link.kind].on_nodes);
-            // The station at the top of a span belongs to the span above, so that none counts twice.
-            for i in 1..=elements {
-                for (layer, (near, motion)) in near.iter().zip(motions).enumerate() {
-                    let Some(tangent) = near.lane(i - 1).tangent(&motion.lane(i - 1), &self.factors) else {
-                        continue;
-                    };
-                    let at = InSpan {
-                        l,
-                        at: [false, i == elements],
-                        rows: if layer == 0 {
-                            &on_nodes[i].inner
-                        } else {
-                            &on_nodes[i].outer
-                        },
-                    };
-                    at.add_lateral::<V>(self.to, &tangent);
-                }
-            }
-        }
     }
 }
 
@@ -409,38 +411,39 @@ impl<S: Precision> InSpan<'_, S> {
 }
 
 impl<S: Precision> InSpan<'_, S> {
-    /// Adds the derivative of a force along y and z by the motion there, by columns, which both pipes may take part in.
+    /// Adds the derivative of two components of a force by those of the motion there, by columns, which both pipes may take part
+    /// in.
     #[inline(always)]
-    fn add_lateral<V: Vector>(&self, to: &mut Additions<S>, tangent: &[[f64; 2]; 2]) {
-        let [above, below] = self.rows;
-        let (on_above, on_below) = (lateral::<V, S>(above, tangent), lateral::<V, S>(below, tangent));
+    fn add_local<V: Vector>(&self, to: &mut Additions<S>, components: [usize; 2], tangent: &[[f64; 2]; 2]) {
+        let [above, below] = self.rows.each_ref().map(|rows| components.map(|k| &rows[k]));
+        let (on_above, on_below) = (local::<V, S>(above, tangent), local::<V, S>(below, tangent));
         if self.at[1] {
             let block = to.block(self.l + 1, Touching::Both);
             for &j in &BOTTOM {
-                add_lateral::<V, S>(&mut block[j], &on_below, below, j);
+                add_local::<V, S>(&mut block[j], &on_below, below, j);
             }
             return;
         }
         let block = to.block(self.l, Touching::Both);
         for &j in &TOP {
-            add_lateral::<V, S>(&mut block[j], &on_above, above, j);
+            add_local::<V, S>(&mut block[j], &on_above, above, j);
         }
         let block = to.block(self.l + 1, Touching::Both);
         for &j in &BOTTOM {
-            add_lateral::<V, S>(&mut block[j], &on_below, below, j);
+            add_local::<V, S>(&mut block[j], &on_below, below, j);
         }
         let coupling = to.coupling(self.l, Touching::Both);
         for c in 0..12 {
-            add_lateral::<V, S>(&mut coupling.upper[c], &on_above, below, BOTTOM[c]);
-            add_lateral::<V, S>(&mut coupling.lower[c], &on_below, above, TOP[c]);
+            add_local::<V, S>(&mut coupling.upper[c], &on_above, below, BOTTOM[c]);
+            add_local::<V, S>(&mut coupling.lower[c], &on_below, above, TOP[c]);
         }
     }
 }
 
-/// The forces on a node by the motions along y and z of a station, `rows` being those by forces there.
+/// The forces on a node by two components of the motion of a station, `rows` being those by such forces there.
 #[inline(always)]
-fn lateral<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &[[f64; 2]; 2]) -> [S::Lanes<V>; 2] {
-    let (y, z) = (S::Lanes::<V>::load(&rows[1]), S::Lanes::<V>::load(&rows[2]));
+fn local<V: Vector, S: Precision>(rows: [&[S; NODE]; 2], tangent: &[[f64; 2]; 2]) -> [S::Lanes<V>; 2] {
+    let (y, z) = (S::Lanes::<V>::load(rows[0]), S::Lanes::<V>::load(rows[1]));
     let [[yy, zy], [yz, zz]] = *tangent;
     [
         y.times(S::Lanes::<V>::splat(S::of(yy)))
@@ -452,10 +455,10 @@ fn lateral<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &[[f64; 2]; 
 
 /// column += on by^T of such forces, for column `j` of the product.
 #[inline(always)]
-fn add_lateral<V: Vector, S: Precision>(column: &mut [S; NODE], on: &[S::Lanes<V>; 2], by: &[[S; NODE]; 6], j: usize) {
+fn add_local<V: Vector, S: Precision>(column: &mut [S; NODE], on: &[S::Lanes<V>; 2], by: [&[S; NODE]; 2], j: usize) {
     S::Lanes::<V>::load(column)
-        .plus_product(on[0], S::Lanes::<V>::splat(by[1][j]))
-        .plus_product(on[1], S::Lanes::<V>::splat(by[2][j]))
+        .plus_product(on[0], S::Lanes::<V>::splat(by[0][j]))
+        .plus_product(on[1], S::Lanes::<V>::splat(by[1][j]))
         .store(column);
 }
 

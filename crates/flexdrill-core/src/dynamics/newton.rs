@@ -2,11 +2,11 @@
 //! all stations.
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Accuracy;
+use crate::elements::factors::TangentFactors;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 use crate::tool::description::Body;

@@ -2,8 +2,8 @@
 //! the connector by which the pipe hangs on the guide below it, pressure in the pipe, the rock's torque and weight, point loads.
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::{State, motion};
+use crate::elements::factors::TangentFactors;
 use crate::elements::rock::{BitAt, BitLoad};
 use crate::model::{Model, Places};
 
@@ -57,7 +57,7 @@ impl Numbered<'_> {
         }
         // Pressure scales one vector of forces, because its distribution along the tool is fixed.
         if !self.pressure.is_empty() {
-            let at_top = model.pressure_at_top(conditions);
+            let at_top = model.pressure_at_top(conditions.standpipe_pressure);
             for (unknown, force) in self.pressure.iter().enumerate() {
                 if wanted(unknown) {
                     residual[unknown] -= at_top * force;

@@ -21,8 +21,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
+use crate::elements::factors::TangentFactors;
 
 /// Parameters of the scheme.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -25,7 +25,6 @@
 
 use std::f64::consts::PI;
 
-use crate::dynamics::conditions::Conditions;
 use crate::tool::{PressureDescription, PressureEnd, PressureSource, ToolDescription};
 
 /// Constant factors of the pressure at the tool's top.
@@ -63,12 +62,12 @@ impl PipePressure {
         }
     }
 
-    /// Pressure inside less outside at the tool's top (Pa).
+    /// Pressure inside less outside at the tool's top (Pa), under that of the standpipe (Pa).
     #[inline]
-    pub fn at_top(&self, conditions: &Conditions) -> f64 {
+    pub fn at_top(&self, standpipe: f64) -> f64 {
         match self.described.at_top {
             PressureSource::Constant(pressure) => pressure,
-            PressureSource::Standpipe => conditions.standpipe_pressure,
+            PressureSource::Standpipe => standpipe,
         }
     }
 }

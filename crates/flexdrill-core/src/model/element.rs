@@ -4,9 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::station::{Bore, Station};
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
-use crate::elements::preload::{Preload, path_curvature};
-use crate::elements::slots::Slots;
-use crate::tool::{FreeCurvature, SectionProperties, ToolDescription, frame_along};
+use crate::tool::{SectionProperties, ToolDescription, frame_along};
 
 /// A pipe element, in its link's frame.
 #[derive(Debug, Clone)]
@@ -34,10 +32,6 @@ pub struct GuideElement {
     pub mass: ElementMatrix,
     /// Gamma^T G Gamma, see [`Beam::geometric_along`].
     pub geometric: ElementMatrix,
-    /// Of a guide that is not without stress in the path.
-    pub preload: Option<Preload>,
-    /// Of a guide whose slots close as it bends.
-    pub slots: Option<Slots>,
 }
 
 impl PipeElement {
@@ -84,25 +78,6 @@ impl GuideElement {
             stiffness: turned(beam.stiffness()),
             mass: turned(beam.mass()),
             geometric: turned(beam.geometric_along(curvature)),
-            preload: d
-                .guide_free_curvature
-                .map(|free| Preload::of(free, beam.section.bending, beam.length, turn)),
-            // Closed slots add to the stiffness of the slotted guide up to that of the whole tube.
-            slots: d.guide_slots_close_at.map(|close_at| {
-                let path = path_curvature(beam.length, turn);
-                let whole = SectionProperties::of(d.guide_section, d.material, 1.0);
-                Slots {
-                    stiffening: whole.bending - beam.section.bending,
-                    close_at,
-                    length: beam.length,
-                    path,
-                    // A tube without stress in the path was made with its curvature.
-                    free: d.guide_free_curvature.unwrap_or(FreeCurvature {
-                        curvature: path,
-                        phase: 0.0,
-                    }),
-                }
-            }),
             beam,
         }
     }

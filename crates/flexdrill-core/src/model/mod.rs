@@ -12,14 +12,10 @@ mod station;
 
 use nalgebra::Vector3;
 
-use crate::dynamics::conditions::Conditions;
 use crate::elements::beam::{Beam, ElementVector};
 use crate::elements::joint::Joint;
-use crate::elements::mud::Mud;
-use crate::elements::preload::Preload;
 use crate::elements::pressure::PipePressure;
-use crate::elements::slots::Slots;
-use crate::tool::{Direction, Shortening, ToolDescription, WobPath};
+use crate::tool::{Direction, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
 pub use attached::{HeldNode, ResolvedLoad, ResolvedMass};
@@ -47,8 +43,6 @@ pub struct Model {
     pub weight: Vec<f64>,
     /// Pump pressure in the pipe.
     pub pressure: Option<PipePressure>,
-    /// The mud that moves with the pipes.
-    pub mud: Option<Mud>,
     /// Unknowns held at zero, in rising order.
     pub held: Vec<usize>,
     /// The nodes of the held unknowns, in the same order.
@@ -149,7 +143,6 @@ impl Model {
             joint_stations,
             weight: vec![0.0; layout.unknowns()],
             pressure: d.pressure.map(|pressure| PipePressure::of(pressure, d, bore.spacing)),
-            mud: d.mud.map(|mud| Mud::of(&mud, d, guide.iter().map(|e| e.beam.length))),
             pipe,
             guide,
             held: Vec::new(),
@@ -206,33 +199,11 @@ impl Model {
         [axis.x, axis.y, axis.z]
     }
 
-    /// The guide's elements with a preload, and the first unknowns of their nodes.
-    pub fn preloads(&self) -> impl Iterator<Item = (&Preload, [usize; 2])> {
-        let ends = self.stations.windows(2).zip(&self.guide);
-        ends.filter_map(|(ends, element)| Some((element.preload.as_ref()?, [ends[0].guide, ends[1].guide])))
-    }
-
-    /// The guide's elements whose slots close: their number, their slots, and the first unknowns of their nodes.
-    pub fn slots(&self) -> impl Iterator<Item = (usize, &Slots, [usize; 2])> {
-        let ends = self.stations.windows(2).zip(&self.guide).enumerate();
-        ends.filter_map(|(e, (ends, element))| Some((e, element.slots.as_ref()?, [ends[0].guide, ends[1].guide])))
-    }
-
-    /// Whether the guide's slots close.
-    pub fn has_slots(&self) -> bool {
-        self.description.guide_slots_close_at.is_some()
-    }
-
-    /// Pressure in the pipe at the tool's top, inside less outside (Pa); 0 without it.
-    pub fn pressure_at_top(&self, conditions: &Conditions) -> f64 {
+    /// Pressure in the pipe at the tool's top, inside less outside (Pa), under that of the standpipe (Pa); 0 without it.
+    pub fn pressure_at_top(&self, standpipe: f64) -> f64 {
         self.pressure
             .as_ref()
-            .map_or(0.0, |pressure| pressure.at_top(conditions))
-    }
-
-    /// Whether the pipe's spans shorten to second order.
-    pub fn shortens(&self) -> bool {
-        self.description.shortening == Shortening::SecondOrder
+            .map_or(0.0, |pressure| pressure.at_top(standpipe))
     }
 
     /// Number of unknowns, padding included.

@@ -8,9 +8,9 @@
 
 use super::constants::Constants;
 use super::linear::{BlockSystem, TangentIncrement};
-use crate::dynamics::factors::TangentFactors;
+use crate::effects::mud_wall::Motion;
+use crate::elements::factors::TangentFactors;
 use crate::elements::joint::Joint;
-use crate::elements::mud_wall::Motion;
 use crate::model::Model;
 use crate::simd::Instructions;
 
@@ -43,7 +43,7 @@ impl Assembler {
             step_constant_for: None,
             instructions,
             constants: Constants::of(model),
-            mud: vec![[Motion::default(); 2]; model.mud.as_ref().map_or(0, |mud| mud.near_wall.len())],
+            mud: vec![[Motion::default(); 2]; crate::effects::mud_wall::at_stations(model).len()],
             increment: TangentIncrement::new(
                 &model.layout,
                 model.joints.len(),

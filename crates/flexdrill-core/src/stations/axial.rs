@@ -23,7 +23,11 @@ impl State {
     pub(crate) fn blend_axial(&mut self, model: &Model, part: f64, foreseen: &[Vec<f64>; 2], conditions: &Conditions) {
         self.axial_of_strain(model);
         // With shortening the pipe's force is in the tangent, and is not foreseen.
-        let pipe = if model.shortens() { 0 } else { self.pipe_axial.len() };
+        let pipe = if crate::effects::shortening::is_on(model) {
+            0
+        } else {
+            self.pipe_axial.len()
+        };
         let forces = self.pipe_axial[..pipe].iter_mut().chain(&mut self.guide_axial);
         for (force, foreseen) in forces.zip(foreseen[0][..pipe].iter().chain(&foreseen[1])) {
             *force += part * (foreseen - *force);
@@ -34,7 +38,7 @@ impl State {
     /// Makes the axial forces of the pipe effective tensions.
     pub(super) fn add_pressure(&mut self, model: &Model, conditions: &Conditions) {
         if let Some(pressure) = &model.pressure {
-            let at_top = pressure.at_top(conditions);
+            let at_top = pressure.at_top(conditions.standpipe_pressure);
             for (force, unstrained) in self.pipe_axial.iter_mut().zip(&pressure.unstrained) {
                 *force += at_top * unstrained;
             }
@@ -57,7 +61,7 @@ impl State {
 fn set_axial(model: &Model, [pipe, guide]: [&mut [f64]; 2], q: impl Fn(usize) -> f64) {
     let ends = model.stations.windows(2);
     for ((tension, element), ends) in pipe.iter_mut().zip(&model.pipe).zip(ends.clone()) {
-        let shorter = if model.shortens() {
+        let shorter = if crate::effects::shortening::is_on(model) {
             let at = |k: usize| {
                 if k < 6 {
                     q(ends[0].pipe_below + k)

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use crate::dynamics::numbered::Numbered;
+use crate::effects::mud::{Lateral, Mud, MudLump};
+use crate::effects::preload::{self, Preload};
 use crate::elements::beam::ElementMatrix;
-use crate::elements::mud::{Lateral, MudLump};
 use crate::model::Model;
 
 /// An element of pipe or guide, its matrices along the axes of its nodes.
@@ -47,7 +48,7 @@ impl Constants {
         });
         let elements = pipe.chain(guide).collect();
         let mut preload = vec![0.0; model.unknowns()];
-        for (of_element, nodes) in model.preloads() {
+        for (of_element, nodes) in preloads(model) {
             for (k, couple) in of_element.force.iter().enumerate() {
                 preload[nodes[k / 6] + k % 6] += couple;
             }
@@ -84,11 +85,19 @@ impl Constants {
     }
 }
 
+/// The guide's elements with a preload, and the first unknowns of their nodes.
+pub(super) fn preloads(model: &Model) -> impl Iterator<Item = (Preload, [usize; 2])> {
+    (0..model.guide.len()).filter_map(|e| {
+        let nodes = [e, e + 1].map(|station| model.stations[station].guide);
+        Some((preload::of_element(model, e)?, nodes))
+    })
+}
+
 impl Model {
     /// Adds to `forces` (by unknown) those that matrices over the lateral motion of each station, `matrix` of its mud, make
     /// of the motion `x`, by unknown.
     pub fn add_mud_forces(&self, forces: &mut [f64], matrix: impl Fn(&MudLump) -> Lateral, x: impl Fn(usize) -> f64) {
-        let Some(mud) = &self.mud else {
+        let Some(mud) = Mud::around(self) else {
             return;
         };
         for (station, mud) in self.stations.iter().zip(&mud.stations) {

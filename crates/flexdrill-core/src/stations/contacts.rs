@@ -8,11 +8,11 @@ use super::axial::node;
 use super::linear::ContactBlock;
 use crate::chain::Touching;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, inner_lateral};
+use crate::effects::mud_wall::Motion;
+use crate::elements::factors::TangentFactors;
 use crate::elements::gap::{GapVector, LayerContacts};
-use crate::elements::mud_wall::Motion;
 use crate::model::{Model, Station};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -42,13 +42,12 @@ impl Assembler {
             conditions,
         });
         let residual = &mut self.residual;
-        if let Some(mud) = model.mud.as_ref().filter(|mud| !mud.near_wall.is_empty()) {
-            for (s, (station, near)) in model.stations.iter().zip(&mud.near_wall).enumerate() {
-                self.mud[s] = mud_motions(model, station, state);
-                let taken = [0, 1].map(|k| near[k].take(&self.mud[s][k]));
-                let total = taken.map(|taken| [0, 1].map(|k| taken.film[k] + taken.inertia[k]));
-                add_mud_forces(residual, station, total);
-            }
+        let walls = crate::effects::mud_wall::at_stations(model);
+        for (s, (station, near)) in model.stations.iter().zip(&walls).enumerate() {
+            self.mud[s] = mud_motions(model, station, state);
+            let taken = [0, 1].map(|k| near[k].take(&self.mud[s][k]));
+            let total = taken.map(|taken| [0, 1].map(|k| taken.film[k] + taken.inertia[k]));
+            add_mud_forces(residual, station, total);
         }
         let Interactions { inner, outer, .. } = &*interactions;
         for (s, touch) in inner.iter() {
@@ -68,6 +67,7 @@ impl Assembler {
 
     /// Fills the contacts' part of the tangent increment, Eq. 28 and 32.
     pub(super) fn contact_tangent(&mut self, interactions: &Interactions, model: &Model, factors: TangentFactors) {
+        let walls = crate::effects::mud_wall::at_stations(model);
         for (s, station) in model.stations.iter().enumerate() {
             let (inner, outer) = (interactions.inner.get(s), interactions.outer.get(s));
             self.increment.touching[s] = match (&inner, &outer) {
@@ -75,7 +75,7 @@ impl Assembler {
                 (None, Some(_)) => Touching::Guide,
                 (Some(_), _) => Touching::Both,
             };
-            let near = model.mud.as_ref().and_then(|mud| mud.near_wall.get(s));
+            let near = walls.get(s);
             let near = near.map_or([None; 2], |near| {
                 [0, 1].map(|k| near[k].tangent(&self.mud[s][k], &factors))
             });

@@ -24,7 +24,11 @@ impl EnergyPoint {
         let in_use = state.pipe_axial.iter().chain(&state.guide_axial);
         let of_strain = strained.pipe_axial.iter().chain(&strained.guide_axial);
         // With shortening the pipe's axial force is that of its energy: nothing is foreseen, and N G q is no update.
-        let later = if model.shortens() { model.pipe.len() } else { 0 };
+        let later = if crate::effects::shortening::is_on(model) {
+            model.pipe.len()
+        } else {
+            0
+        };
         let elements = assembler.constants.elements.iter().zip(in_use.zip(of_strain));
         for (e, (element, (&tension, &strained))) in elements.enumerate() {
             let at = |values: &[f64]| element_values(values, element.nodes);
@@ -71,13 +75,13 @@ impl EnergyPoint {
     ) {
         let numbered = assembler.constants.numbered(model);
         let mut stored = self.add_elements(assembler, model, state, conditions);
-        for (preload, nodes) in model.preloads() {
+        for (preload, nodes) in super::constants::preloads(model) {
             stored += preload.energy(&element_values(&state.q, nodes));
         }
-        if model.has_slots() {
+        if crate::effects::slots::is_on(model) {
             stored += slots_energy(model, state);
         }
-        if model.shortens() {
+        if crate::effects::shortening::is_on(model) {
             stored += self.add_shortening(model, state, conditions);
         }
         self.add_mud(model, state, conditions);
@@ -120,7 +124,7 @@ impl EnergyPoint {
         model.add_mud_forces(&mut self.inertia, |mud| mud.mass, |unknown| state.a[unknown]);
         self.mud.fill(0.0);
         model.add_mud_forces(&mut self.mud, |mud| mud.drag, |unknown| state.v[unknown]);
-        let near_wall = model.mud.as_ref().map(|mud| &mud.near_wall[..]).unwrap_or_default();
+        let near_wall = crate::effects::mud_wall::at_stations(model);
         for (station, near) in model.stations.iter().zip(near_wall) {
             let motions = mud_motions(model, station, state);
             let taken = [0, 1].map(|k| near[k].take(&motions[k]));

@@ -3,12 +3,12 @@
 use super::assembler::Assembler;
 use super::linear::LinearSolver;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Limits, Tolerances};
+use crate::elements::factors::TangentFactors;
 use crate::elements::joint::rotation::LARGEST_TILT;
 use crate::model::Model;
 use crate::simd::Instructions;

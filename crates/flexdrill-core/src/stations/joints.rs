@@ -2,9 +2,9 @@
 
 use super::assembler::Assembler;
 use super::equations::StationRoom;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::{JointLinearisation, JointTangent, Joints};
 use crate::dynamics::state::{State, translation};
+use crate::elements::factors::TangentFactors;
 use crate::model::Model;
 
 impl Assembler {

@@ -16,6 +16,7 @@ mod shortening;
 mod slots;
 mod steps;
 mod tangent;
+mod tests;
 
 pub(crate) use assembler::Assembler;
 pub(crate) use energy::joint_violation;

@@ -14,7 +14,7 @@ impl Assembler {
     /// [`Assembler::drop_reactions`].
     pub fn residual(&mut self, interactions: &mut Interactions, model: &Model, state: &State, conditions: &Conditions) {
         element_forces(&mut self.residual, &self.constants, model, state, conditions);
-        if model.shortens() {
+        if crate::effects::shortening::is_on(model) {
             self.shortening_forces(model, state, conditions);
         }
         self.slots_moments(model, state);
@@ -43,7 +43,11 @@ fn element_forces(residual: &mut [f64], constants: &Constants, model: &Model, st
     let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
     let tensions = state.pipe_axial.iter().chain(&state.guide_axial);
     // With shortening all of the pipe's geometric stiffness comes later.
-    let later = if model.shortens() { model.pipe.len() } else { 0 };
+    let later = if crate::effects::shortening::is_on(model) {
+        model.pipe.len()
+    } else {
+        0
+    };
     for (e, (element, &tension)) in constants.elements.iter().zip(tensions).enumerate() {
         let tension = if e < later { 0.0 } else { tension };
         let at = |values: &[f64]| element_values(values, element.nodes);
@@ -68,7 +72,7 @@ fn preload_forces(residual: &mut [f64], couples: &[f64], model: &Model, state: &
     for (r, couple) in residual.iter_mut().zip(couples) {
         *r -= couple;
     }
-    for (preload, nodes) in model.preloads() {
+    for (preload, nodes) in super::constants::preloads(model) {
         let force = preload.stiffness * element_values(&state.q, nodes);
         add(residual, nodes, &force);
     }

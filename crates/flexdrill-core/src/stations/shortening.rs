@@ -5,10 +5,10 @@ use super::linear::BlockSystem;
 use super::tangent::add_pipe_element;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
+use crate::effects::shortening::{Stretch, StretchTangent};
 use crate::elements::beam::ElementVector;
-use crate::elements::shortening::{Stretch, StretchTangent};
+use crate::elements::factors::TangentFactors;
 use crate::model::Model;
 
 /// An element at one state.
@@ -24,7 +24,7 @@ struct Stretched {
 
 impl Stretched {
     fn of(model: &Model, e: usize, state: &State, conditions: &Conditions) -> Self {
-        let at_top = model.pressure_at_top(conditions);
+        let at_top = model.pressure_at_top(conditions.standpipe_pressure);
         Self::under(model, e, state, conditions.rayleigh.beta, at_top)
     }
 

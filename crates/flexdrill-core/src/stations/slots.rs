@@ -3,15 +3,17 @@
 use super::assembler::Assembler;
 use super::linear::BlockSystem;
 use super::tangent::add_guide_element;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
+use crate::effects::slots::{self, Closed, Rotations};
 use crate::elements::beam::ElementMatrix;
-use crate::elements::slots::{Closed, Rotations};
+use crate::elements::factors::TangentFactors;
 use crate::model::Model;
 
 /// The closed slots at a state: number of the element, first unknowns of its nodes, and what they do.
 fn closed(model: &Model, state: &State) -> impl Iterator<Item = (usize, [usize; 2], Closed)> {
-    model.slots().filter_map(|(e, slots, nodes)| {
+    (0..model.guide.len()).filter_map(|e| {
+        let slots = slots::of_element(model, e)?;
+        let nodes = [e, e + 1].map(|station| model.stations[station].guide);
         let rotations: Rotations = std::array::from_fn(|k| state.q[nodes[k / 3] + 3 + k % 3]);
         Some((e, nodes, slots.at(&rotations)?))
     })

@@ -10,11 +10,11 @@ use crate::dynamics::newton::{self, Stride};
 use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stepper::{Forcing, SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
 use crate::elements::rock::BitMark;
 use crate::inputs::Inputs;
 use crate::model::Model;
+use crate::step::{Forcing, SolverKind, Stepper, StepperSettings};
 use crate::support::small;
 use crate::tool::{
     AddedMass, FreeCurvature, FrictionLaw, JointKind, MudDamping, MudDescription, MudFilm, PressureDescription,

@@ -7,11 +7,11 @@ use super::shortening::add_shortening_tangent;
 use super::slots::add_slots_tangent;
 use crate::chain::Touching;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::along_the_hole;
 use crate::dynamics::state::{State, motion};
 use crate::elements::beam::ElementMatrix;
+use crate::elements::factors::TangentFactors;
 use crate::model::{Model, ResolvedMass};
 
 impl Assembler {
@@ -27,7 +27,7 @@ impl Assembler {
         self.build_step_constant(model, conditions, factors);
         self.system.copy_from(&self.step_constant);
         self.add_geometric_stiffness(model, state, factors.stiffness);
-        if model.shortens() {
+        if crate::effects::shortening::is_on(model) {
             add_shortening_tangent(&mut self.system, model, state, conditions, factors);
         }
         add_slots_tangent(&mut self.system, model, state, factors);
@@ -131,7 +131,7 @@ impl Assembler {
         }
         for (e, element) in model.guide.iter().enumerate() {
             let mut m = element.stiffness * elastic + element.mass * inertial;
-            if let Some(preload) = &element.preload {
+            if let Some(preload) = crate::effects::preload::of_element(model, e) {
                 m += preload.stiffness * factors.stiffness;
             }
             add_guide_element(&mut self.step_constant, e, &m, 1.0);
@@ -144,7 +144,7 @@ impl Assembler {
                     .add(station, local + k, local + k, inertia * inertial);
             }
         }
-        if let Some(mud) = &model.mud {
+        if let Some(mud) = crate::effects::mud::Mud::around(model) {
             for (s, (station, mud)) in model.stations.iter().zip(&mud.stations).enumerate() {
                 let matrix = mud.mass.times(inertial).plus(mud.drag.times(factors.damping));
                 let turn = &station.pipe_to_station;
@@ -184,7 +184,11 @@ impl Assembler {
     /// Eq. 41's geometric part: N G of every element, with the axial forces of `state`, times `factor`.
     fn add_geometric_stiffness(&mut self, model: &Model, state: &State, factor: f64) {
         // With shortening the pipe's is in its tangent.
-        let pipe = if model.shortens() { 0 } else { model.pipe.len() };
+        let pipe = if crate::effects::shortening::is_on(model) {
+            0
+        } else {
+            model.pipe.len()
+        };
         for (e, element) in model.pipe[..pipe].iter().enumerate() {
             let tension = factor * state.pipe_axial[e];
             add_pipe_element(&mut self.system, model, e, &element.geometric, tension);

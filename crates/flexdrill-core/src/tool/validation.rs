@@ -125,17 +125,7 @@ impl ToolDescription {
         Bound::Over(widest).check("guide_section.inner_diameter", self.guide_section.inner_diameter, "m")?;
         Bound::Over(self.guide_section.outer_diameter).check("hole_diameter", self.hole_diameter, "m")?;
         Bound::Positive.check("guide_bending_factor", self.guide_bending_factor, "")?;
-        if let Some(close_at) = self.guide_slots_close_at {
-            Bound::Positive.check("guide_slots_close_at", close_at, "1/m")?;
-            let needs_slots =
-                "leave it out, or set guide_bending_factor below 1: a tube without slots has none that close";
-            require(self.guide_bending_factor < 1.0, "guide_slots_close_at", needs_slots)?;
-            require(
-                !self.guide_fixed,
-                "guide_slots_close_at",
-                "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
-            )?;
-        }
+        self.check_guide()?;
         let Some(free) = self.guide_free_curvature else {
             return Ok(());
         };

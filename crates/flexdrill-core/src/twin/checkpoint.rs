@@ -17,7 +17,7 @@ use super::observe::Observer;
 use super::settings::SimulationSettings;
 use super::simulation::Simulation;
 use super::snapshot::Applied;
-use crate::dynamics::stepper::StepperCheckpoint;
+use crate::step::StepperCheckpoint;
 use crate::tool::ToolDescription;
 
 const MAGIC: [u8; 8] = *b"flexdrCP";

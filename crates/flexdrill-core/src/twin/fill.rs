@@ -3,9 +3,9 @@
 use super::snapshot::{ContactLayer, Holder, Joints, Reactions};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, joint_rotations, translation};
-use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::LayerContacts;
 use crate::model::Model;
+use crate::step::Stepper;
 use crate::tool::{Direction, JointKind};
 use flexdrill_motion::ContactStatistics;
 

@@ -93,7 +93,7 @@ impl StepChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::stepper::MOST_REFINEMENT;
+    use crate::step::MOST_REFINEMENT;
 
     /// Judged so many times.
     fn judged(mut choice: StepChoice, times: u32, share: f64) -> StepChoice {

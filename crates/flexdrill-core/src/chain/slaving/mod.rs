@@ -8,8 +8,8 @@ use guyan::{Guyan, slowest};
 use nalgebra::{DMatrix, Matrix3};
 
 use super::columns::EndColumn;
+use super::linear::{Acting, CoupledParts, Parts, Segment};
 use super::precision::OnNodesInBoth;
-use crate::elements::mud::{Lateral, MudLump};
 use crate::model::Model;
 use crate::simd::aligned::Aligned;
 
@@ -26,15 +26,15 @@ type ForceRows = [[EndColumn; 6]; 2];
 
 /// Matrices of a span over its ends, by columns: six of the top end, six of the bottom end.
 #[derive(Debug, Clone)]
-pub(super) struct LinkMatrices {
+pub(crate) struct LinkMatrices {
     /// Stiffness, mass and geometric stiffness per tension, of pipe and guide.
     pub stiffness: Aligned<[SpanMatrix; 2]>,
     pub mass: Aligned<[SpanMatrix; 2]>,
     pub geometric: Aligned<[SpanMatrix; 2]>,
-    /// Stiffness of the guide's preload; none where it has none.
-    pub preload: Option<Box<Aligned<SpanMatrix>>>,
-    /// The mud that couples pipe and guide; none without mud.
-    pub mud: Option<Box<MudMatrices>>,
+    /// Stiffness of the guide that stores but does not damp; none where it has none.
+    pub undamped: Option<Box<Aligned<SpanMatrix>>>,
+    /// What pipe and guide have of each other, and viscous damping; none where they have none.
+    pub coupled: Option<Box<Coupled>>,
     /// Mean axial force (N) by the ends' displacements; also in lane [`TENSION`] of the geometric stiffness.
     pub tension: Aligned<[EndColumn; 2]>,
     /// E A / L of the pipe (N/m).
@@ -60,22 +60,35 @@ pub(super) struct LinkMatrices {
     pub compliance: [DMatrix<f64>; 2],
 }
 
-/// The mud's part in a span that is not in its mass: what couples pipe and guide, and viscous damping.
+/// What couples pipe and guide of a span all along, and its viscous damping. The mass of either by its own motion is in its mass.
 #[derive(Debug, Clone)]
-pub(super) struct MudMatrices {
+pub(crate) struct Coupled {
     /// Mass on the ends of pipe and guide by the motion of the other's.
     pub mass_across: Aligned<[SpanMatrix; 2]>,
     /// Damping by the own motion, and by that of the other's ends.
-    pub drag: Aligned<[SpanMatrix; 2]>,
-    pub drag_across: Aligned<[SpanMatrix; 2]>,
+    pub damping: Aligned<[SpanMatrix; 2]>,
+    pub damping_across: Aligned<[SpanMatrix; 2]>,
 }
 
-impl MudMatrices {
+impl Coupled {
+    /// What `parts` over all nodes come to at the ends.
+    fn of(parts: &CoupledParts, slaved: &[DMatrix<f64>; 2]) -> Self {
+        let on_ends =
+            |body: usize, matrix: &DMatrix<f64>, by: usize| columns(&(slaved[body].transpose() * matrix * &slaved[by]));
+        let across = |matrix: &DMatrix<f64>| Aligned([on_ends(0, matrix, 1), on_ends(1, &matrix.transpose(), 0)]);
+        let [pipe, damping, guide] = &parts.damping;
+        Self {
+            mass_across: across(&parts.mass[1]),
+            damping: Aligned([on_ends(0, pipe, 0), on_ends(1, guide, 1)]),
+            damping_across: across(damping),
+        }
+    }
+
     fn is_close(&self, other: &Self) -> bool {
         [
             (&self.mass_across, &other.mass_across),
-            (&self.drag, &other.drag),
-            (&self.drag_across, &other.drag_across),
+            (&self.damping, &other.damping),
+            (&self.damping_across, &other.damping_across),
         ]
         .into_iter()
         .all(|(a, b)| (0..2).all(|body| near(a[body].as_flattened(), b[body].as_flattened())))
@@ -90,12 +103,21 @@ fn near(a: &[f64], b: &[f64]) -> bool {
 
 impl LinkMatrices {
     /// Of the span of `per` elements below station `first`.
-    pub fn of(model: &Model, first: usize, per: usize) -> Self {
-        let span = Span { model, first, per };
-        let matrices = span.assembled();
-        let preload = span.preload();
-        let [pipe, guide] = span.slaving(&matrices, preload.as_ref());
-        let slowest = span.slowest(&matrices, preload.as_ref(), [&pipe, &guide]);
+    pub fn of(model: &Model, acting: &Acting, first: usize, per: usize) -> Self {
+        let span = Span {
+            at: Segment {
+                model,
+                first,
+                elements: per,
+            },
+            model,
+            first,
+            per,
+        };
+        let parts = acting.parts(&span.at);
+        let matrices = span.assembled(&parts);
+        let [pipe, guide] = span.slaving(&matrices, &parts);
+        let slowest = span.slowest(&matrices, &parts, [&pipe, &guide]);
         let slaved = [pipe.slaved * span.to_node_unknowns(), guide.slaved];
         let compliance = [pipe.compliance, guide.compliance];
         // Guyan: what the inner nodes' matrices come to at the ends, S^T A S.
@@ -110,8 +132,12 @@ impl LinkMatrices {
             stiffness: condensed(STIFFNESS),
             mass: condensed(MASS),
             geometric: with_tension(condensed(GEOMETRIC), &tension),
-            mud: span.mud_matrices(&slaved).map(Box::new),
-            preload: preload.map(|preload| Box::new(Aligned(columns(&(slaved[1].transpose() * preload * &slaved[1]))))),
+            coupled: parts
+                .coupled
+                .as_ref()
+                .map(|parts| Box::new(Coupled::of(parts, &slaved))),
+            undamped: (parts.undamped.as_ref())
+                .map(|undamped| Box::new(Aligned(columns(&(slaved[1].transpose() * undamped * &slaved[1]))))),
             tension: Aligned(tension.map(|tension| end_column(|j| tension[j]))),
             axial: span.axial(),
             lateral: lateral_columns(&maps),
@@ -155,11 +181,11 @@ impl LinkMatrices {
                 )
                 && near(&self.tension[body], &other.tension[body])
                 && near(self.slaved[body].as_slice(), other.slaved[body].as_slice())
-        }) && match (&self.preload, &other.preload) {
+        }) && match (&self.undamped, &other.undamped) {
             (Some(a), Some(b)) => near(a.as_flattened(), b.as_flattened()),
             (None, None) => true,
             _ => false,
-        } && match (&self.mud, &other.mud) {
+        } && match (&self.coupled, &other.coupled) {
             (Some(a), Some(b)) => a.is_close(b),
             (None, None) => true,
             _ => false,
@@ -178,6 +204,7 @@ const GEOMETRIC: usize = 2;
 
 /// A span whose matrices are made: `per` elements below station `first`.
 struct Span<'a> {
+    at: Segment<'a>,
     model: &'a Model,
     first: usize,
     per: usize,
@@ -185,7 +212,7 @@ struct Span<'a> {
 
 impl Span<'_> {
     /// Stiffness, mass and geometric stiffness over all nodes of the span, of pipe and guide.
-    fn assembled(&self) -> [[DMatrix<f64>; 3]; 2] {
+    fn assembled(&self, parts: &Parts) -> [[DMatrix<f64>; 3]; 2] {
         let size = 6 * (self.per + 1);
         let mut matrices: [[DMatrix<f64>; 3]; 2] =
             std::array::from_fn(|_| std::array::from_fn(|_| DMatrix::zeros(size, size)));
@@ -200,71 +227,19 @@ impl Span<'_> {
                 part += from;
             }
         }
-        if let Some([pipe, _, guide]) = self.mud(|mud| mud.mass) {
+        if let Some(coupled) = &parts.coupled {
+            let [pipe, _, guide] = &coupled.mass;
             matrices[0][MASS] += pipe;
             matrices[1][MASS] += guide;
         }
         matrices
     }
 
-    /// A matrix of the mud over all nodes of the span: of the pipe, of the pipe by the guide, of the guide.
-    fn mud(&self, matrix: impl Fn(&MudLump) -> Lateral) -> Option<[DMatrix<f64>; 3]> {
-        let mud = self.model.mud.as_ref()?;
-        let size = 6 * (self.per + 1);
-        let mut out: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(size, size));
-        for e in 0..self.per {
-            let matrix = matrix(&mud.halves[self.first + e]);
-            for i in [e, e + 1] {
-                let turn = self.pipe_to_station(i);
-                for k in 1..3 {
-                    let (at, guide) = (6 * i, 6 * i + k);
-                    for row in 0..3 {
-                        for column in 0..3 {
-                            out[0][(at + row, at + column)] += turn[(k, row)] * turn[(k, column)] * matrix.pipe;
-                        }
-                        out[1][(at + row, guide)] += turn[(k, row)] * matrix.coupling;
-                    }
-                    out[2][(guide, guide)] += matrix.guide;
-                }
-            }
-        }
-        Some(out)
-    }
-
-    /// Rotation of the pipe's displacements at station `i` of the span, in its link's frame, to the station's frame.
-    fn pipe_to_station(&self, i: usize) -> Matrix3<f64> {
-        let station = &self.model.stations[self.first + i];
-        match station.joint.filter(|_| i == 0) {
-            // The station's own rotation is that of the link above.
-            Some(joint) => station.frame.transpose() * self.model.joints[joint].lower,
-            None => station.pipe_to_station,
-        }
-    }
-
-    /// What the mud's matrices come to at the ends.
-    fn mud_matrices(&self, slaved: &[DMatrix<f64>; 2]) -> Option<MudMatrices> {
-        let on_ends =
-            |body: usize, matrix: &DMatrix<f64>, by: usize| columns(&(slaved[body].transpose() * matrix * &slaved[by]));
-        let across = |matrix: &DMatrix<f64>| Aligned([on_ends(0, matrix, 1), on_ends(1, &matrix.transpose(), 0)]);
-        let [_, mass, _] = self.mud(|mud| mud.mass)?;
-        let [pipe, drag, guide] = self.mud(|mud| mud.drag)?;
-        Some(MudMatrices {
-            mass_across: across(&mass),
-            drag: Aligned([on_ends(0, &pipe, 0), on_ends(1, &guide, 1)]),
-            drag_across: across(&drag),
-        })
-    }
-
-    /// Slowest frequency of the inner nodes, the ends held (rad/s). Mud couples pipe and guide, which lowers it.
-    fn slowest(
-        &self,
-        [pipe, guide]: &[[DMatrix<f64>; 3]; 2],
-        preload: Option<&DMatrix<f64>>,
-        [of_pipe, of_guide]: [&Guyan; 2],
-    ) -> f64 {
+    /// Slowest frequency of the inner nodes, the ends held (rad/s). What couples pipe and guide lowers it.
+    fn slowest(&self, [pipe, guide]: &[[DMatrix<f64>; 3]; 2], parts: &Parts, [of_pipe, of_guide]: [&Guyan; 2]) -> f64 {
         let alone = of_pipe.slowest.min(of_guide.slowest);
         let inner = 6 * (self.per - 1);
-        let coupling = match self.mud(|mud| mud.mass) {
+        let coupling = match parts.coupled.as_ref().map(|coupled| &coupled.mass) {
             Some([_, coupling, _]) if inner > 0 && alone > 0.0 && of_guide.slowest.is_finite() => coupling,
             _ => return alone,
         };
@@ -280,29 +255,16 @@ impl Span<'_> {
             }
             out
         };
-        let of_guide = preload.map_or_else(|| guide[STIFFNESS].clone(), |preload| &guide[STIFFNESS] + preload);
+        let undamped = parts.undamped.as_ref();
+        let of_guide = undamped.map_or_else(|| guide[STIFFNESS].clone(), |undamped| &guide[STIFFNESS] + undamped);
         let stiffness = both(&pipe[STIFFNESS], &of_guide, None);
-        let mass = both(&pipe[MASS], &guide[MASS], Some(&coupling));
+        let mass = both(&pipe[MASS], &guide[MASS], Some(coupling));
         // Without a frequency the span is split.
         slowest(&stiffness, &mass).unwrap_or(0.0).min(alone)
     }
 
-    /// Stiffness of the guide's preload over all nodes of the span.
-    fn preload(&self) -> Option<DMatrix<f64>> {
-        let size = 6 * (self.per + 1);
-        let mut out: Option<DMatrix<f64>> = None;
-        for e in 0..self.per {
-            if let Some(preload) = &self.model.guide[self.first + e].preload {
-                let out = out.get_or_insert_with(|| DMatrix::zeros(size, size));
-                let mut part = out.view_mut((6 * e, 6 * e), (12, 12));
-                part += &preload.stiffness;
-            }
-        }
-        out
-    }
-
     /// How the inner nodes of pipe and guide follow the ends.
-    fn slaving(&self, [pipe, guide]: &[[DMatrix<f64>; 3]; 2], preload: Option<&DMatrix<f64>>) -> [Guyan; 2] {
+    fn slaving(&self, [pipe, guide]: &[[DMatrix<f64>; 3]; 2], parts: &Parts) -> [Guyan; 2] {
         let of = |stiffness: &DMatrix<f64>, mass: &DMatrix<f64>| {
             // Inner nodes without a static solution count as infinitely slow, so that the span is split.
             Guyan::of(stiffness, mass).unwrap_or_else(|| Guyan {
@@ -313,8 +275,8 @@ impl Span<'_> {
         let guide = if self.model.description.guide_fixed {
             Guyan::held(self.per)
         } else {
-            match preload {
-                Some(preload) => of(&(&guide[STIFFNESS] + preload), &guide[MASS]),
+            match &parts.undamped {
+                Some(undamped) => of(&(&guide[STIFFNESS] + undamped), &guide[MASS]),
                 None => of(&guide[STIFFNESS], &guide[MASS]),
             }
         };
@@ -341,7 +303,7 @@ impl Span<'_> {
 
     /// Mean axial force (N) of the elements by the unknowns of the ends.
     fn mean_tension(&self, slaved: &[DMatrix<f64>; 2]) -> [[f64; 12]; 2] {
-        let Self { model, first, per } = *self;
+        let Self { model, first, per, .. } = *self;
         let of_pipe = |e: usize, j: usize| {
             let column = slaved[0].column(j);
             let stretch = column[6 * e + 6] - column[6 * e];
@@ -390,7 +352,7 @@ impl Span<'_> {
 
     /// Lateral deflection of all inner stations by a local force at each of them, the ends held: w = K_ii^-1 f_i.
     fn deflections(&self, compliance: &[DMatrix<f64>; 2]) -> Vec<Aligned<ForceRows>> {
-        let Self { model, first, per } = *self;
+        let Self { model, first, per, .. } = *self;
         let by_force_at = |i: usize, body: usize| {
             let bent = compliance[body].columns(6 * (i - 1), 6) * local(model, first + i, body).transpose();
             let mut columns = [[0.0; 16]; 6];
@@ -427,6 +389,6 @@ pub(super) fn local_lateral(model: &Model, station: usize, body: usize) -> DMatr
 
 /// Row of an [`EndColumn`] of end unknown `k` of twelve.
 #[inline(always)]
-pub(super) const fn row(k: usize) -> usize {
+pub(crate) const fn row(k: usize) -> usize {
     if k < 6 { k } else { k + 2 }
 }

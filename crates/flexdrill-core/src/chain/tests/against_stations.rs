@@ -20,7 +20,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tur
     conditions.rate_of_penetration = 0.2;
     conditions.standpipe_pressure = 5e6;
     for instructions in Instructions::available() {
-        let mut chain = Chain::of(&model, &Tolerances::default(), nodes_for, instructions);
+        let mut chain = Chain::of(&model, &Tolerances::default(), nodes_for, &acting(&model), instructions);
         let slaving = slaving(&chain, &model);
         let mut state = lively(&chain, &model, seed);
         clean(&chain, &mut state);
@@ -30,7 +30,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tur
             (state.pipe_axial[l], state.guide_axial[l]) = (2e3 * random(&mut next), 2e3 * random(&mut next));
         }
 
-        let mut room = Room::new(&model, instructions);
+        let mut room = Room::new(&model, &chain, instructions);
         let start = before(&chain, &state, seed);
         room.interactions.begin(&start, h);
         let bit_before = bit_before(&chain, &state, turned);
@@ -104,7 +104,7 @@ fn check_over(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tur
 
         // Tangent without geometric stiffness, and its solution.
         let mut system = whole.step_constant(&model, &conditions, factors);
-        if model.shortens() {
+        if crate::effects::shortening::is_on(&model) {
             add_shortening_tangent(&mut system, &model, &full, &conditions, factors);
         }
         add_slots_tangent(&mut system, &model, &full, factors);

@@ -11,7 +11,13 @@ fn check_derivative(tool: &ToolDescription) {
 /// With a bit that the step has `turned` (rad).
 fn check_turned(tool: &ToolDescription, turned: f64) {
     let model = Model::new(tool).unwrap();
-    let chain = Chain::of(&model, &Tolerances::default(), 5e-4, Instructions::best());
+    let chain = Chain::of(
+        &model,
+        &Tolerances::default(),
+        5e-4,
+        &acting(&model),
+        Instructions::best(),
+    );
     // No axial force: the tangent of steps leaves geometric stiffness out.
     check_chain(tool, &model, chain, 0.0, turned);
 }
@@ -29,7 +35,7 @@ fn check_chain(tool: &ToolDescription, model: &Model, mut chain: Chain, axial: f
     for force in state.pipe_axial.iter_mut().chain(&mut state.guide_axial) {
         *force = axial * random(&mut tension);
     }
-    let mut room = Room::new(model, instructions);
+    let mut room = Room::new(model, &chain, instructions);
     let start = before(&chain, &state, 22);
     room.interactions.begin(&start, 5e-4);
     let bit_before = bit_before(&chain, &state, turned);
@@ -71,7 +77,7 @@ fn check_chain(tool: &ToolDescription, model: &Model, mut chain: Chain, axial: f
             .zip(&solution)
             .for_each(|(to, x)| *to = by * x);
         // New room each time, as the laws learn of friction from one correction to the next.
-        let mut room = Room::new(model, instructions);
+        let mut room = Room::new(model, &chain, instructions);
         room.interactions.begin(&start, 5e-4);
         room.interactions.set_bit(bit_before);
         let mut newton = equations(model, &mut chain, &mut room);
@@ -104,7 +110,7 @@ fn the_tangent_over_all_stations_has_the_geometric_stiffness() {
     soft.guide_bending_factor = 0.05;
     for tool in [small(6, 2), with_shortening(small(6, 2)), tied, soft] {
         let model = Model::new(&tool).unwrap();
-        let chain = Chain::over_stations(&model, &Tolerances::default(), Instructions::best());
+        let chain = Chain::over_stations(&model, &Tolerances::default(), &acting(&model), Instructions::best());
         check_chain(&tool, &model, chain, 2e5, 4e-4);
     }
 }

@@ -12,13 +12,14 @@ use crate::chain::dependents::{FIRST_ROW, SECOND_ROW};
 use crate::chain::{Chain, ChainEquations, NODE, TIE};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{EnergyPoint, JointForces};
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{Equations, Iteration, correct};
 use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
+use crate::effects::{Effects, acting};
+use crate::elements::factors::TangentFactors;
 use crate::elements::gap::LayerContacts;
 use crate::elements::joint::Joint;
 use crate::model::Model;
@@ -253,23 +254,26 @@ fn no_forces(chain: &Chain) -> JointForces {
 
 /// What the chain's equations need apart from the chain.
 struct Room {
+    effects: Effects,
     interactions: Interactions,
     stopwatch: Stopwatch,
 }
 
 impl Room {
-    fn new(model: &Model, instructions: Instructions) -> Self {
+    fn new(model: &Model, chain: &Chain, instructions: Instructions) -> Self {
         Self {
+            effects: Effects::of(model, chain),
             interactions: Interactions::new(model, instructions),
             stopwatch: Stopwatch::default(),
         }
     }
 }
 
-fn equations<'a>(model: &'a Model, chain: &'a mut Chain, room: &'a mut Room) -> ChainEquations<'a> {
+fn equations<'a>(model: &'a Model, chain: &'a mut Chain, room: &'a mut Room) -> ChainEquations<'a, Effects> {
     ChainEquations {
         model,
         chain,
+        effects: &mut room.effects,
         interactions: &mut room.interactions,
         stopwatch: &mut room.stopwatch,
     }

@@ -6,7 +6,13 @@ use super::*;
 fn spans_that_are_too_long_or_too_soft_have_nodes_inside() {
     let spans = |tool: &ToolDescription, h: f64| {
         let model = Model::new(tool).unwrap();
-        let chain = Chain::of(&model, &Tolerances::default(), h, Instructions::PORTABLE);
+        let chain = Chain::of(
+            &model,
+            &Tolerances::default(),
+            h,
+            &acting(&model),
+            Instructions::PORTABLE,
+        );
         chain.spans()
     };
     let default = ToolDescription::paper();
@@ -36,7 +42,13 @@ fn spans_bow_as_the_whole_tool_does_with_its_joints_held() {
     let model = Model::new(&tool).unwrap();
     let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     // Over the fewest nodes.
-    let chain = Chain::of(&model, &Tolerances::default(), 1.0, Instructions::PORTABLE);
+    let chain = Chain::of(
+        &model,
+        &Tolerances::default(),
+        1.0,
+        &acting(&model),
+        Instructions::PORTABLE,
+    );
     let elastic = TangentFactors {
         stiffness: 1.0,
         damping: 0.0,
@@ -108,10 +120,16 @@ fn a_preload_stores_the_same_energy_over_the_chain() {
         [tool.clone(), tool.with(|tool| tool.guide_free_curvature = None)].map(|tool| {
             let model = Model::new(&tool).unwrap();
             let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
-            let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, Instructions::best());
+            let mut chain = Chain::of(
+                &model,
+                &Tolerances::default(),
+                5e-4,
+                &acting(&model),
+                Instructions::best(),
+            );
             let mut state = lively(&chain, &model, 5);
             clean(&chain, &mut state);
-            let mut room = Room::new(&model, Instructions::best());
+            let mut room = Room::new(&model, &chain, Instructions::best());
             equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
             let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());
             equations(&model, &mut chain, &mut room).energy(&mut point, &state, &conditions);
@@ -137,12 +155,12 @@ fn turning_as_a_whole_changes_no_energy() {
     let model = Model::new(&tool).unwrap();
     let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     for instructions in Instructions::available() {
-        let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
+        let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, &acting(&model), instructions);
         let mut state = lively(&chain, &model, 5);
         let spins: Vec<usize> = chain.spins().collect();
         spins.iter().for_each(|&spin| state.q[spin] *= 2e-4);
         clean(&chain, &mut state);
-        let mut room = Room::new(&model, instructions);
+        let mut room = Room::new(&model, &chain, instructions);
         let mut whole = Assembler::new(&model, instructions);
         let mut interactions = Interactions::new(&model, instructions);
         let mut full = State::at_rest(&model);

@@ -17,8 +17,8 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
     let mut conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     conditions.bit_torque = 90.0;
     for instructions in Instructions::available() {
-        let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, instructions);
-        let mut room = Room::new(&model, instructions);
+        let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, &acting(&model), instructions);
+        let mut room = Room::new(&model, &chain, instructions);
         let mut state = lively(&chain, &model, 8);
         clean(&chain, &mut state);
         chain.prepare(&model, &conditions, factors);

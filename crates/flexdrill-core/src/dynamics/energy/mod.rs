@@ -117,7 +117,7 @@ impl EnergyPoint {
             geometric: vec![0.0; unknowns],
             damping: vec![0.0; unknowns],
             inertia: vec![0.0; unknowns],
-            mud: vec![0.0; if model.mud.is_some() { unknowns } else { 0 }],
+            mud: vec![0.0; if model.description.mud.is_some() { unknowns } else { 0 }],
             joints: JointForces {
                 on_top: vec![[0.0; 3]; spans],
                 multipliers: vec![[0.0; 2]; if spans > 0 { model.joints.len() } else { 0 }],
@@ -301,6 +301,6 @@ impl EnergyPoint {
         self.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);
         self.bit_torque = interactions.bit.torque;
         self.weight_on_bit = interactions.bit.weight;
-        self.pressure = model.pressure_at_top(conditions);
+        self.pressure = model.pressure_at_top(conditions.standpipe_pressure);
     }
 }

@@ -3,8 +3,8 @@
 #[cfg(test)]
 mod one_by_one;
 
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::state::State;
+use crate::elements::factors::TangentFactors;
 use crate::elements::joint::group::JointGroup;
 use crate::model::{JointPlaces, Model};
 use crate::simd::number::Lane;

@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::bristle::Held;
 use super::groove::GrooveMark;
-use super::{Answer, Bristle, Groove, RockLaw, Weakening};
+use super::{Answer, Bristle, Groove};
 use crate::elements::slip::{Slip, SlipMemory};
+use crate::tool::description::{RockLaw, Weakening};
 
 /// The bit as the rock finds it.
 #[derive(Debug, Clone, Copy, PartialEq)]

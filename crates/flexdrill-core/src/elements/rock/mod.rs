@@ -31,58 +31,16 @@ pub use bit::{BitAt, BitLoad, BitMark};
 pub use bristle::Bristle;
 pub use groove::Groove;
 
-use serde::{Deserialize, Serialize};
-
-/// How the rock answers the bit.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub enum RockLaw {
-    /// Eq. 1: the torque is proportional to the weight.
-    #[default]
-    Paper,
-    /// Eq. 1 with a torque that falls with the speed.
-    Weakening(Weakening),
-    /// Cutting and wear flats: weight and torque follow from the depth of cut.
-    DepthOfCut(DepthOfCut),
-}
-
-/// P(omega) = 1 + (ratio - 1) exp(-|omega| / rate).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Weakening {
-    /// Torque at standstill over that at high speed, mu_s / mu_k, at least 1; 1 is no weakening.
-    pub ratio: f64,
-    /// Speed over which the difference falls to 37 %, omega_c (rad/s).
-    pub rate: f64,
-}
+#[cfg(doc)]
+use crate::tool::description::RockLaw;
+use crate::tool::description::{DepthOfCut, Weakening};
 
 impl Weakening {
-    /// No weakening.
-    pub const NONE: Self = Self { ratio: 1.0, rate: 1.0 };
-
     /// P and dP/domega (s/rad) at a speed (rad/s).
     pub fn at(&self, speed: f64) -> (f64, f64) {
         let more = (self.ratio - 1.0) * libm::exp(-speed.abs() / self.rate);
         (1.0 + more, -more / self.rate * speed.signum())
     }
-}
-
-/// Bit and rock of the law with depth of cut.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct DepthOfCut {
-    /// Number of blades n.
-    pub blades: u32,
-    /// Energy to cut a volume of rock, e (Pa).
-    pub specific_energy: f64,
-    /// Weight over torque-like force of a sharp cutter, zeta (-).
-    pub cutter_inclination: f64,
-    /// Largest force of the wear flats, sigma l a (N).
-    pub wear_flat_force: f64,
-    /// Friction of the wear flats with the bit's geometry, mu_g (-).
-    pub wear_flat_friction: f64,
-    /// Distance over which the wear flats come to bear (m).
-    pub wear_flat_travel: f64,
-    /// How the friction of the wear flats falls with the speed.
-    pub weakening: Weakening,
 }
 
 /// What the rock does to the bit.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::*;
 use crate::support::{figure, scaled_figure};
+use crate::tool::description::RockLaw;
 use crate::units::rpm_to_rad_per_s;
 
 const CUT: DepthOfCut = DepthOfCut {

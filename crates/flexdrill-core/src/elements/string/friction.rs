@@ -5,23 +5,10 @@
 //! moves the point against the impedance of the line on both sides. The law has no regularisation: the point sticks, or it
 //! slides with the full friction (Aarsnes and Shor, J. Pet. Sci. Eng. 163, 2018, for torsion; both directions here).
 
-use serde::{Deserialize, Serialize};
+use crate::tool::description::WallFriction;
 
 /// Most corrections of the sliding speed; Newton's method converges from below in some five.
 const MOST_CORRECTIONS: u32 = 60;
-
-/// One point of the string that rubs on the wall.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WallFriction {
-    /// Sliding friction mu N (N).
-    pub sliding: f64,
-    /// Friction that sticking can reach over that of sliding, at least 1.
-    pub static_ratio: f64,
-    /// Sliding speed (m/s) up to which friction stays at the static level.
-    pub static_speed: f64,
-    /// Radius at which the string rubs (m).
-    pub radius: f64,
-}
 
 /// What a point of the string does under the arriving waves.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -29,33 +29,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Block, lines and auto-driller.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Hoist {
-    /// Stiffness of block, lines and derrick (N/m).
-    pub stiffness: f64,
-    /// Response time t of the auto-driller (s).
-    pub response_time: f64,
-    /// Fastest lowering and raising of the block (m/s).
-    pub fastest: f64,
-    /// Speed V_touch at which a bit without weight is lowered (m/s); at most `fastest`.
-    pub touch_down: f64,
-    /// Distance c by which the bit is lifted off bottom where no weight is asked for, at least (m).
-    pub clearance: f64,
-    /// What the block is lowered by.
-    pub feed: Feed,
-}
-
-/// What the block is lowered by.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Feed {
-    /// The auto-driller, towards the weight on bit asked for.
-    #[default]
-    Weight,
-    /// The rate of penetration asked for.
-    Rate,
-}
+use crate::tool::description::{Feed, Hoist};
 
 /// How the hoist moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

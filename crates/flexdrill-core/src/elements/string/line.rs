@@ -5,10 +5,10 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use super::friction::WallFriction;
 use super::history::{History, Mark};
-use super::hoist::{Hoist, HoistState};
-use super::top_drive::{DriveState, TopDrive};
+use super::hoist::HoistState;
+use super::top_drive::DriveState;
+use crate::tool::description::{Piece, StringDescription, Wave};
 use crate::tool::rig_validation::ROWS_PER_STEP;
 use crate::tool::section::SectionProperties;
 
@@ -18,31 +18,6 @@ pub const FOLLOWS_WITHIN: f64 = 2.0;
 
 /// Waves per piece: torsional down and up, axial down and up.
 const WAVES: usize = 4;
-
-/// Waves of one kind in a piece.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Wave {
-    /// Impedance: torque over angular speed (N m s) or force over speed (N s/m).
-    pub impedance: f64,
-    /// Time of travel (s).
-    pub delay: f64,
-    /// Loss at the piece's lower end: torque over the difference of angular speeds (N m s), or force over that of speeds (N
-    /// s/m), against a body that follows within two seconds. None at the last piece, where the tool begins.
-    pub drag: f64,
-}
-
-/// A uniform piece of the string.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Piece {
-    /// Length (m).
-    pub length: f64,
-    /// Torsional waves.
-    pub torsion: Wave,
-    /// Axial waves.
-    pub axial: Wave,
-    /// Friction on the wall at the piece's lower end; not at the last piece, where the tool begins.
-    pub friction: Option<WallFriction>,
-}
 
 impl Piece {
     /// Longest time of travel (s).
@@ -76,19 +51,6 @@ impl Piece {
         }
         self
     }
-}
-
-/// The string as built.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StringDescription {
-    /// From the top drive down; at least one.
-    pub pieces: Vec<Piece>,
-    /// What turns it.
-    pub drive: TopDrive,
-    /// What carries it: then axial waves travel, and the guide's first node is free along the hole.
-    pub hoist: Option<Hoist>,
-    /// Weight of the string in mud along the hole (N), for the hook load.
-    pub weight: f64,
 }
 
 impl StringDescription {

@@ -9,7 +9,7 @@
 //! T = z_t (2 f - w)        N = z_a (2 f_a - u')
 //! ```
 //!
-//! Pieces meet where the section changes and where friction on the wall is lumped ([`WallFriction`]).
+//! Pieces meet where the section changes and where friction on the wall is lumped ([`WallFriction`](crate::tool::description::WallFriction)).
 
 mod friction;
 mod history;
@@ -17,11 +17,8 @@ mod hoist;
 mod line;
 mod modes;
 mod top_drive;
+mod torsion;
 
-pub use friction::WallFriction;
-pub use hoist::{Feed, Hoist};
 #[cfg(feature = "checkpoints")]
 pub use line::StringState;
-pub use line::{Piece, StringDescription, StringLine, StringStep, Wave};
-pub use modes::{HangingTool, TorsionalMode};
-pub use top_drive::{SpeedController, TopDrive};
+pub use line::{StringLine, StringStep};

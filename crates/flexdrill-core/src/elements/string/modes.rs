@@ -15,8 +15,8 @@
 
 use nalgebra::Complex;
 
-use super::line::{FOLLOWS_WITHIN, StringDescription, Wave};
-use super::top_drive::TopDrive;
+use super::line::FOLLOWS_WITHIN;
+use crate::tool::description::{HangingTool, StringDescription, TopDrive, TorsionalMode};
 
 type C = Complex<f64>;
 
@@ -32,24 +32,6 @@ const TURN: f64 = 0.7;
 const DEEPEST: u32 = 60;
 /// Most corrections by Newton's method; it ends at rounding after some eight.
 const MOST_CORRECTIONS: u32 = 60;
-
-/// A torsional mode of drive, string and tool.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TorsionalMode {
-    /// Rate of decay (1/s): the amplitude falls to e^-1 within 1 / decay.
-    pub decay: f64,
-    /// Angular frequency of the decaying vibration (rad/s).
-    pub frequency: f64,
-}
-
-/// What hangs below the string, in torsion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HangingTool {
-    /// Pieces of the tool's pipe from the top down.
-    pub pieces: Vec<Wave>,
-    /// Inertia at the lower end (kg m2): the bit's.
-    pub inertia: f64,
-}
 
 fn exp(x: C) -> C {
     let size = libm::exp(x.re);

@@ -9,28 +9,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The drive, as built and tuned.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub enum TopDrive {
-    /// Keeps the speed asked for under any torque.
-    Rigid,
-    /// An inertia with a speed controller.
-    Controlled(SpeedController),
-}
-
-/// A speed controller and what it turns.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct SpeedController {
-    /// Inertia of motor and gear, seen at the string (kg m2).
-    pub inertia: f64,
-    /// Torque per difference of speed, P (N m s).
-    pub proportional: f64,
-    /// Torque per difference of angle, I (N m).
-    pub integral: f64,
-    /// Largest torque, M_max (N m).
-    pub torque_limit: f64,
-}
+use crate::tool::description::{SpeedController, TopDrive};
 
 /// How the drive moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

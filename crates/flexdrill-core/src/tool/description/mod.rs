@@ -5,18 +5,18 @@
 
 mod joint;
 mod mud_and_pressure;
-mod torsion;
+mod rock;
+mod string;
 
 pub use flexdrill_base::{Body, Location};
 use serde::{Deserialize, Serialize};
 
-pub use joint::{HingeAngle, JointDescription, JointKind, JointPlay, PinFriction};
-pub use mud_and_pressure::{
-    AddedMass, MudDamping, MudDescription, MudFilm, PressureDescription, PressureEnd, PressureSource,
-};
+pub use joint::*;
+pub use mud_and_pressure::*;
+pub use rock::*;
+pub use string::*;
 
-use crate::elements::rock::RockLaw;
-use crate::elements::string::StringDescription;
+use crate::validation::{Bound, ValidationError, require};
 
 /// Everything the mechanics needs to know, in SI units and radians.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -97,6 +97,24 @@ pub struct ToolDescription {
     /// With a start from rest: the guide has been slid into the hole, so that the friction of the wall is at its limit
     /// against an advance that has just ended. Needs [`FrictionLaw::Bristle`] at the wall, which holds it.
     pub slid_in: bool,
+}
+
+impl ToolDescription {
+    /// Checks what a guide needs whose slots close as it bends.
+    pub(super) fn check_guide(&self) -> Result<(), ValidationError> {
+        if let Some(close_at) = self.guide_slots_close_at {
+            Bound::Positive.check("guide_slots_close_at", close_at, "1/m")?;
+            let needs_slots =
+                "leave it out, or set guide_bending_factor below 1: a tube without slots has none that close";
+            require(self.guide_bending_factor < 1.0, "guide_slots_close_at", needs_slots)?;
+            require(
+                !self.guide_fixed,
+                "guide_slots_close_at",
+                "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
+            )?;
+        }
+        Ok(())
+    }
 }
 
 /// The bore's centre line: sections one after another in the vertical X-Z plane.
@@ -209,7 +227,7 @@ pub struct FreeCurvature {
     pub phase: f64,
 }
 
-/// How a tilted span of the pipe shortens along its chord, see `elements::shortening`.
+/// How a tilted span of the pipe shortens along its chord, see `effects/shortening.rs`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shortening {

@@ -8,9 +8,9 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::state::{State, inner_lateral};
-use crate::dynamics::stepper::Stepper;
 use crate::elements::string::StringLine;
 use crate::model::Model;
+use crate::step::Stepper;
 use crate::tool::Body;
 use crate::twin::quality::{ModelQuality, QualityWatch};
 use crate::twin::schedule::EndsInterval;

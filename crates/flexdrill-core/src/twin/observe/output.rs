@@ -2,9 +2,9 @@
 
 use super::{Observer, gap_lateral};
 use crate::dynamics::state::{State, inner_lateral, translation};
-use crate::dynamics::stepper::Stepper;
 use crate::elements::gap::gap;
 use crate::model::Model;
+use crate::step::Stepper;
 use crate::tool::{Body, Direction};
 use crate::twin::fill::{fill_joints, fill_layer, fill_reactions, new_reactions};
 use crate::twin::snapshot::{Bit, ContactLayer, Contacts, Joints, Shape, Snapshot};

@@ -1,10 +1,11 @@
 //! What is taken from every step: contacts, loads, accelerations, samples of the whirl analysis and of the transfer.
 
 use super::{Observer, gap_lateral};
+use crate::chain::Effect;
 use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
-use crate::dynamics::stepper::Stepper;
 use crate::model::Model;
+use crate::step::Stepper;
 use crate::tool::{Body, Direction};
 use crate::twin::snapshot::Applied;
 use flexdrill_motion::{DriveState, EnergyTerms, StationSample, TransferSample};
@@ -100,7 +101,7 @@ impl Observer {
             self.samples.fill(StationSample::default());
             let elapsed = self.decimation as f64 * dt;
             if let Some(watch) = &mut self.guide_preload {
-                watch.push(time, elapsed, guide_moments(model, state), judged);
+                watch.push(time, elapsed, guide_moments(stepper, state), judged);
             }
             if let Some(watch) = &mut self.pressure_folding {
                 // Without pressure nothing of the compression is the pressure's.
@@ -194,13 +195,14 @@ fn transfer_sample(stepper: &Stepper, applied: &Applied, [inner, outer]: &[Rubbi
 }
 
 /// Bending moment of each element of a preloaded guide (N m).
-fn guide_moments<'a>(model: &'a Model, state: &'a State) -> impl Iterator<Item = f64> + 'a {
-    let slots = model.guide.iter().map(|element| element.slots.as_ref());
-    model.preloads().zip(slots).map(|((preload, [above, below]), slots)| {
+fn guide_moments<'a>(stepper: &'a Stepper, state: &'a State) -> impl Iterator<Item = f64> + 'a {
+    let stations = &stepper.model().stations;
+    stations.windows(2).enumerate().map(|(e, ends)| {
+        let [above, below] = [ends[0].guide, ends[1].guide];
         let of = |node: usize, direction: Direction| state.q[node + direction as usize];
         let spin = 0.5 * (of(above, Direction::Psi) + of(below, Direction::Psi));
         let bent = [Direction::PhiY, Direction::PhiZ].map(|about| of(below, about) - of(above, about));
-        preload.moment(spin, bent) + slots.map_or(0.0, |slots| slots.moment(spin, bent))
+        stepper.effects().guide_moment(e, spin, bent)
     })
 }
 

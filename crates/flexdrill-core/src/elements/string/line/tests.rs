@@ -3,9 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::*;
-use crate::elements::string::modes::HangingTool;
-use crate::elements::string::top_drive::SpeedController;
 use crate::support::{figure, scaled_figure};
+use crate::tool::{HangingTool, SpeedController, TopDrive, WallFriction};
 use crate::tool::{Material, Tube};
 
 const STEP: f64 = 5e-4;
@@ -305,7 +304,6 @@ fn the_energy_of_drive_friction_and_rotor_closes() {
 /// the decay, the ten lumps.
 #[test]
 fn analytic_losses_attenuate_waves_alone() {
-    use crate::elements::string::modes::HangingTool;
     let lossy = || {
         let part = Piece::of(&tube(0.0730, 0.0546, STEEL), 100.0).with_loss(0.015);
         let mut pieces = vec![part; 10];

@@ -2,15 +2,15 @@
 //! contacts, friction, stops and all joint kinds at work.
 
 use crate::Instructions;
-use crate::dynamics::factors::TangentFactors;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
+use crate::elements::factors::TangentFactors;
 use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::stations::Assembler;
+use crate::step::{SolverKind, Stepper, StepperSettings};
 use crate::support::{Random, small};
 use crate::tool::{
     AddedMass, Body, FreeCurvature, FrictionLaw, JointKind, Location, MudDamping, MudDescription, MudFilm, PointMass,

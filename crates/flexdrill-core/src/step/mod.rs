@@ -8,6 +8,11 @@ mod disturb;
 mod looks;
 mod outside;
 mod settings;
+mod statics;
+mod sub_steps;
+#[cfg(test)]
+mod tests;
+mod track;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -19,9 +24,8 @@ use crate::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure};
 use crate::dynamics::phases::{PhaseTimes, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::sub_steps::most_attempts;
 use crate::dynamics::tolerances::Tolerances;
-use crate::dynamics::track::Track;
+use crate::effects::{self, Effects};
 use crate::elements::rock::BitMark;
 use crate::elements::string::StringLine;
 use crate::inputs::{InputKind, Inputs};
@@ -30,16 +34,21 @@ use crate::simd::Instructions;
 use crate::tool::description::{Body, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
 
+use sub_steps::most_attempts;
+use track::Track;
+
 #[cfg(feature = "checkpoints")]
-pub use checkpoint::StepperCheckpoint;
-pub use settings::{Counters, Forcing, SolverKind, StepperSettings};
+pub(crate) use checkpoint::StepperCheckpoint;
+pub use settings::SolverKind;
+pub(crate) use settings::{Counters, Forcing, StepperSettings};
+pub use statics::StartError;
 
 /// Finest refinement: a step in four parts.
 pub const MOST_REFINEMENT: u32 = 2;
 
 /// Model, state and solver.
 #[derive(Clone)]
-pub struct Stepper {
+pub(crate) struct Stepper {
     model: Arc<Model>,
     tolerances: Tolerances,
     instructions: Instructions,
@@ -57,6 +66,8 @@ pub struct Stepper {
     stopwatch: Stopwatch,
     /// The tool over its nodes.
     chain: Chain,
+    /// What acts inside the chain's spans.
+    effects: Effects,
     /// Where the motion is, in the numbering of the chain.
     track: Track,
     /// The present state in the numbering of the model, as it was asked for last.
@@ -89,8 +100,8 @@ impl Stepper {
         } = *settings;
         let model = Arc::new(Model::new(description)?);
         let chain = match solver {
-            SolverKind::Chain => Chain::of(&model, &tolerances, h, instructions),
-            SolverKind::Stations => Chain::over_stations(&model, &tolerances, instructions),
+            SolverKind::Chain => Chain::of(&model, &tolerances, h, &effects::acting(&model), instructions),
+            SolverKind::Stations => Chain::over_stations(&model, &tolerances, &effects::acting(&model), instructions),
         };
         let track = Track::new(&model, chain.state(&model), chain.spans());
         let mut stepper = Self {
@@ -104,6 +115,7 @@ impl Stepper {
             string: description.string.as_ref().map(|string| StringLine::new(string, h)),
             bit_mark: None,
             stopwatch: Stopwatch::default(),
+            effects: Effects::of(&model, &chain),
             chain,
             track,
             view: State::at_rest(&model),
@@ -132,6 +144,11 @@ impl Stepper {
     /// When a step counts as solved.
     pub(super) fn tolerances(&self) -> &Tolerances {
         &self.tolerances
+    }
+
+    /// What acts inside the spans, at the end of the last step.
+    pub(crate) fn effects(&self) -> &Effects {
+        &self.effects
     }
 
     /// Energy since the start.
@@ -224,19 +241,27 @@ impl Stepper {
         self.live = live;
     }
 
-    /// The equations of `chain`, which is another one than that of the steps, with the contacts of this tool.
-    pub(super) fn equations_of<'a>(&'a mut self, chain: &'a mut Chain) -> ChainEquations<'a> {
+    /// The equations of a `chain` with its `effects`, which are others than those of the steps, with the contacts of this tool.
+    fn equations_of<'a>(&'a mut self, (chain, effects): &'a mut (Chain, Effects)) -> ChainEquations<'a, Effects> {
         ChainEquations {
             model: &self.model,
             chain,
+            effects,
             interactions: &mut self.interactions,
             stopwatch: &mut self.stopwatch,
         }
     }
 
-    /// A chain with a node at every station, on which the start is found.
-    pub(super) fn chain_over_stations(&self) -> Chain {
-        Chain::over_stations(&self.model, &self.tolerances, self.instructions)
+    /// A chain with a node at every station, on which the start is found, with its effects.
+    fn chain_over_stations(&self) -> (Chain, Effects) {
+        let chain = Chain::over_stations(
+            &self.model,
+            &self.tolerances,
+            &effects::acting(&self.model),
+            self.instructions,
+        );
+        let effects = Effects::of(&self.model, &chain);
+        (chain, effects)
     }
 
     /// Conditions at `time` under `inputs`.

@@ -20,8 +20,15 @@
 //! The terms of second order let a bent tube swing about its chord as a rigid body. Closed slots store energy and damp
 //! nothing. Signs as in the preload's file. SI.
 
-use super::preload::change_of_curvature;
-use crate::tool::FreeCurvature;
+use std::sync::Arc;
+
+use crate::chain::{Additions, Chain, Effect, GUIDE, NODE, Precision, Touching, Under};
+use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::newton::Iteration;
+use crate::dynamics::state::State;
+use crate::effects::preload::{change_of_curvature, path_curvature};
+use crate::model::Model;
+use crate::tool::{FreeCurvature, SectionProperties};
 
 /// The rotations of an element's nodes: psi, phi_y, phi_z of the upper one, then of the lower one (rad).
 pub type Rotations = [f64; 6];
@@ -60,7 +67,7 @@ pub struct Closed {
 
 impl Slots {
     /// The part of the closed slots in the bending moment (N m): to be added to that of open ones,
-    /// [`super::preload::Preload::moment`], whose arguments these are.
+    /// [`Preload::moment`](super::preload::Preload::moment), whose arguments these are.
     pub fn moment(&self, spin: f64, bent: [f64; 2]) -> f64 {
         let [in_plane, across] = change_of_curvature(self.path, self.free, self.length, spin, bent);
         self.stiffening * (libm::hypot(in_plane, across) - self.close_at).max(0.0)
@@ -149,6 +156,108 @@ impl Closed {
             }
         }
         out
+    }
+}
+
+/// Whether the slots of the guide close.
+pub(crate) fn is_on(model: &Model) -> bool {
+    model.description.guide_slots_close_at.is_some()
+}
+
+/// The slots of the guide's element `e`, where they close.
+pub(crate) fn of_element(model: &Model, e: usize) -> Option<Slots> {
+    let d = &model.description;
+    let close_at = d.guide_slots_close_at?;
+    let length = model.guide[e].beam.length;
+    let turn = model.stations[e + 1].inclination - model.stations[e].inclination;
+    let path = path_curvature(length, turn);
+    let whole = SectionProperties::of(d.guide_section, d.material, 1.0);
+    Some(Slots {
+        stiffening: whole.bending - model.guide[e].beam.section.bending,
+        close_at,
+        length,
+        path,
+        // A tube without stress in the path was made with its curvature.
+        free: d.guide_free_curvature.unwrap_or(FreeCurvature {
+            curvature: path,
+            phase: 0.0,
+        }),
+    })
+}
+
+/// First rotation of the guide among a node's unknowns.
+const FIRST: usize = GUIDE + 3;
+
+/// The slots of all elements, over a chain with a node at every station.
+#[derive(Clone)]
+pub(crate) struct SlottedGuide {
+    /// Per span, which is one element.
+    slots: Arc<[Slots]>,
+    /// What they do where they are closed.
+    closed: Vec<Option<Closed>>,
+}
+
+impl SlottedGuide {
+    /// Of a guide whose slots close.
+    pub(crate) fn of(model: &Model, chain: &Chain) -> Option<Self> {
+        let slots: Option<Arc<[Slots]>> = (0..chain.spans()).map(|e| of_element(model, e)).collect();
+        slots.map(|slots| Self {
+            closed: vec![None; slots.len()],
+            slots,
+        })
+    }
+}
+
+impl Effect for SlottedGuide {
+    fn force(&mut self, chain: &mut Chain, state: &mut State, _under: &Under<'_>) {
+        let (nodes, _) = state.q.as_chunks::<NODE>();
+        for (l, (slots, closed)) in self.slots.iter().zip(&mut self.closed).enumerate() {
+            if !chain.is_active(l) {
+                continue;
+            }
+            let rotations: Rotations = std::array::from_fn(|k| nodes[l + k / 3][FIRST + k % 3]);
+            *closed = slots.at(&rotations);
+            let Some(closed) = closed else { continue };
+            let [_, guide] = chain.inside(l);
+            for (k, moment) in closed.moments.iter().enumerate() {
+                // The bottom end's six begin at 8.
+                guide[3 + k + 5 * (k / 3)] += moment;
+            }
+        }
+    }
+
+    fn tangent<S: Precision>(&self, to: &mut Additions<S>, chain: &Chain, _state: &State, at: &Iteration<'_>) {
+        let factor = at.factors.stiffness;
+        let add = |to: &mut [S], from: &[f64]| {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to += S::of(factor * from);
+            }
+        };
+        for (l, closed) in self.closed.iter().enumerate().filter(|(l, _)| chain.is_active(*l)) {
+            let Some(closed) = closed else { continue };
+            let tangent = closed.tangent();
+            for end in 0..2 {
+                let block = to.block(l + end, Touching::Guide);
+                for j in 0..3 {
+                    let column = &tangent[3 * end + j][3 * end..3 * end + 3];
+                    add(&mut block[FIRST + j][FIRST..FIRST + 3], column);
+                }
+            }
+            // The guide's columns are the last six of twelve, its rotations the last three of those.
+            let coupling = to.coupling(l, Touching::Guide);
+            for j in 0..3 {
+                add(&mut coupling.upper[9 + j][FIRST..FIRST + 3], &tangent[3 + j][..3]);
+                add(&mut coupling.lower[9 + j][FIRST..FIRST + 3], &tangent[j][3..]);
+            }
+        }
+    }
+
+    fn energy(&self, _chain: &Chain, _point: &mut EnergyPoint) -> f64 {
+        self.closed.iter().flatten().map(|closed| closed.energy).sum()
+    }
+
+    fn guide_moment(&self, e: usize, spin: f64, bent: [f64; 2]) -> f64 {
+        self.slots[e].moment(spin, bent)
     }
 }
 

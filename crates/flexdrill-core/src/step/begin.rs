@@ -29,6 +29,7 @@ impl Stepper {
         let mut equations = ChainEquations {
             model: &self.model,
             chain: &mut self.chain,
+            effects: &mut self.effects,
             interactions: &mut self.interactions,
             stopwatch: &mut self.stopwatch,
         };
@@ -55,12 +56,12 @@ impl Stepper {
     }
 
     /// Lifts the bit off the bottom of the hole.
-    pub(in crate::dynamics) fn lift_off_bottom(&mut self) {
+    pub(super) fn lift_off_bottom(&mut self) {
         self.interactions.bit.start(0.0, OFF_BOTTOM);
     }
 
     /// Conditions with the string's end held, while the tool comes to rest.
-    pub(in crate::dynamics) fn held(&self, mut conditions: Conditions) -> Conditions {
+    pub(super) fn held(&self, mut conditions: Conditions) -> Conditions {
         if let Some(string) = &self.string {
             let axial = string.description().hoist.map(|_| TopEnd::held(HELD[1]));
             conditions.top = [Some(TopEnd::held(HELD[0])), axial];
@@ -96,6 +97,7 @@ impl Stepper {
         let Self {
             model,
             chain,
+            effects,
             interactions,
             stopwatch,
             track,
@@ -106,6 +108,7 @@ impl Stepper {
         let mut equations = ChainEquations {
             model,
             chain,
+            effects,
             interactions,
             stopwatch,
         };

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use super::Stepper;
 use super::settings::Forcing;
+use super::sub_steps::SubSteps;
 use crate::chain::ChainEquations;
 use crate::dynamics::conditions::{Conditions, TopEnd};
 use crate::dynamics::energy::StepEnds;
 use crate::dynamics::newton::{self, Rejected, Stride};
 use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::Phase;
-use crate::dynamics::sub_steps::SubSteps;
 use crate::dynamics::tolerances::Accuracy;
 use crate::elements::string::StringStep;
 
@@ -163,6 +163,7 @@ impl Stepper {
         let Self {
             model,
             chain,
+            effects,
             interactions,
             stopwatch,
             track,
@@ -181,6 +182,7 @@ impl Stepper {
         let mut equations = ChainEquations {
             model,
             chain,
+            effects,
             interactions,
             stopwatch,
         };

@@ -25,7 +25,9 @@
 //!
 //! Signs: phi_y = -dw/dx and phi_z = dv/dx; kb > 0 builds towards the high side, against z; psi turns y towards z. SI.
 
+use crate::chain::{Chain, Effect, Parts, Segment};
 use crate::elements::beam::{ElementMatrix, ElementVector};
+use crate::model::Model;
 use crate::tool::FreeCurvature;
 
 /// Index of (psi, phi_y, phi_z) of both nodes among an element's twelve values.
@@ -42,7 +44,7 @@ pub(crate) fn path_curvature(length: f64, turn: f64) -> f64 {
 /// Curvature of a tube against its shape as made (1/m), in the plane of the path and across it, at small tilts: in a path
 /// of curvature `path` (1/m), turned by `spin` (rad) and bent by `bent`, the changes of phi_y and phi_z (rad) over
 /// `length` (m).
-pub(super) fn change_of_curvature(path: f64, free: FreeCurvature, length: f64, spin: f64, bent: [f64; 2]) -> [f64; 2] {
+pub(crate) fn change_of_curvature(path: f64, free: FreeCurvature, length: f64, spin: f64, bent: [f64; 2]) -> [f64; 2] {
     let bent = [path + bent[0] / length, bent[1] / length];
     if free.curvature == 0.0 {
         return bent;
@@ -129,6 +131,47 @@ impl Preload {
     /// dU (J) at the displacements `q` of both nodes.
     pub fn energy(&self, q: &ElementVector) -> f64 {
         0.5 * q.dot(&(self.stiffness * q)) - self.force.dot(q)
+    }
+}
+
+/// The preload of the guide's element `e`, of a guide that is not without stress in the path.
+pub(crate) fn of_element(model: &Model, e: usize) -> Option<Preload> {
+    let free = model.description.guide_free_curvature?;
+    let beam = &model.guide[e].beam;
+    let turn = model.stations[e + 1].inclination - model.stations[e].inclination;
+    Some(Preload::of(free, beam.section.bending, beam.length, turn))
+}
+
+/// Adds couples and stiffness of the preload along a part of the tool. It turns with the guide: it does not damp.
+pub(crate) fn linear(at: &Segment<'_>, parts: &mut Parts) {
+    for e in 0..at.elements {
+        let Some(preload) = of_element(at.model, at.first + e) else {
+            return;
+        };
+        let mut part = at.matrix(&mut parts.undamped).view_mut((6 * e, 6 * e), (12, 12));
+        part += &preload.stiffness;
+        let mut part = at.vector(&mut parts.forces).rows_mut(6 * e, 12);
+        part += &preload.force;
+    }
+}
+
+/// The preloads of all elements.
+#[derive(Clone)]
+pub(crate) struct Preloaded {
+    elements: std::sync::Arc<[Preload]>,
+}
+
+impl Preloaded {
+    /// Of a guide with a preload.
+    pub(crate) fn of(model: &Model, _chain: &Chain) -> Option<Self> {
+        let elements: Option<_> = (0..model.guide.len()).map(|e| of_element(model, e)).collect();
+        elements.map(|elements| Self { elements })
+    }
+}
+
+impl Effect for Preloaded {
+    fn guide_moment(&self, e: usize, spin: f64, bent: [f64; 2]) -> f64 {
+        self.elements[e].moment(spin, bent)
     }
 }
 

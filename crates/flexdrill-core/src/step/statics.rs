@@ -1,5 +1,6 @@
 //! The start: the tool as given, or at rest under gravity and weight on bit.
 
+use super::Stepper;
 use crate::chain::Chain;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::EnergyPoint;
@@ -7,8 +8,8 @@ use crate::dynamics::newton::{self, Rejected, Singular, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
-use crate::dynamics::stepper::Stepper;
 use crate::dynamics::tolerances::Accuracy;
+use crate::effects::Effects;
 use crate::inputs::Inputs;
 
 /// Why the tool could not be started.
@@ -60,16 +61,16 @@ impl Stepper {
     /// # Errors
     /// [`StartError::Singular`].
     pub fn start_as_given(&mut self, inputs: &Inputs, h: f64) -> Result<State, StartError> {
-        let mut chain = self.chain_over_stations();
-        let mut state = self.as_given(&mut chain, inputs, h)?;
+        let mut tool = self.chain_over_stations();
+        let mut state = self.as_given(&mut tool, inputs, h)?;
         let conditions = self.held(self.conditions(0.0, inputs));
-        let state = self.in_full(&mut chain, &mut state, &conditions);
+        let state = self.in_full(&mut tool, &mut state, &conditions);
         self.start_from(&state, inputs);
         Ok(state)
     }
 
-    /// The state as given in the numbering of `chain`, its accelerations as far as steps of size `h` (s) can follow them.
-    fn as_given(&mut self, chain: &mut Chain, inputs: &Inputs, h: f64) -> Result<State, StartError> {
+    /// The state as given in the numbering of the chain of `tool`, its accelerations as far as steps of size `h` (s) can follow them.
+    fn as_given(&mut self, tool: &mut (Chain, Effects), inputs: &Inputs, h: f64) -> Result<State, StartError> {
         let conditions = self.held(self.conditions(0.0, inputs));
         self.lift_off_bottom();
         let model = self.model();
@@ -91,9 +92,9 @@ impl Stepper {
             given.q[unknown] = 0.0;
             given.v[unknown] = 0.0;
         }
-        let mut state = chain.state(model);
-        chain.take(model, &given, &mut state);
-        let mut equations = self.equations_of(chain);
+        let mut state = tool.0.state(model);
+        tool.0.take(model, &given, &mut state);
+        let mut equations = self.equations_of(tool);
         // Where the stiffness has no numbers, the mass may; the first step then says what is wrong.
         equations
             .balance_accelerations(&mut state, &conditions, h)
@@ -102,14 +103,14 @@ impl Stepper {
         Ok(state)
     }
 
-    /// A `state` of `chain` in the numbering of the model, with what its joints carry.
-    fn in_full(&mut self, chain: &mut Chain, state: &mut State, conditions: &Conditions) -> State {
+    /// A `state` of the chain of `tool` in the numbering of the model, with what its joints carry.
+    fn in_full(&mut self, tool: &mut (Chain, Effects), state: &mut State, conditions: &Conditions) -> State {
         let mut full = State::at_rest(self.model());
-        let mut point = EnergyPoint::new(self.model(), chain.unknowns(), chain.spans());
-        let mut equations = self.equations_of(chain);
+        let mut point = EnergyPoint::new(self.model(), tool.0.unknowns(), tool.0.spans());
+        let mut equations = self.equations_of(tool);
         equations.evaluate(state, conditions, false);
         equations.energy(&mut point, state, conditions);
-        chain.show(self.model(), state, &point.joints, &mut full);
+        tool.0.show(self.model(), state, &point.joints, &mut full);
         full
     }
 
@@ -124,8 +125,8 @@ impl Stepper {
             rate_of_penetration: 0.0,
             ..*inputs
         };
-        let mut chain = self.chain_over_stations();
-        let mut state = self.as_given(&mut chain, inputs, 0.0)?;
+        let mut tool = self.chain_over_stations();
+        let mut state = self.as_given(&mut tool, inputs, 0.0)?;
         // A guide that was slid in lies against friction at its limit along the hole, and keeps that as its history.
         let slid_in = self.model().description.slid_in;
         if slid_in {
@@ -138,7 +139,7 @@ impl Stepper {
         // Friction that vanishes at rest would slow the approach and change nothing of the end.
         let conditions = settling(self.held(self.conditions(0.0, inputs)), slid_in);
         let most_iterations = self.tolerances().max_iterations;
-        let mut equations = self.equations_of(&mut chain);
+        let mut equations = self.equations_of(&mut tool);
         let mut trial = state.clone();
         let mut h = STEPS[0];
         let mut speed = f64::INFINITY;
@@ -202,13 +203,13 @@ impl Stepper {
         rest.a.fill(0.0);
         rest.time = 0.0;
         let conditions = self.held(self.conditions(0.0, inputs));
-        let mut equations = self.equations_of(&mut chain);
+        let mut equations = self.equations_of(&mut tool);
         equations.polish_rest(&mut rest, &mut trial, &conditions);
         // The remaining unbalanced force becomes an acceleration, so that the first step begins in balance.
         equations
             .balance_accelerations(&mut rest, &conditions, 0.0)
             .map_err(StartError::Singular)?;
-        let rest = self.in_full(&mut chain, &mut rest, &conditions);
+        let rest = self.in_full(&mut tool, &mut rest, &conditions);
         self.start_from(&rest, inputs);
         Ok(rest)
     }

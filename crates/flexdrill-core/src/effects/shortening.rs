@@ -13,10 +13,23 @@
 //! link that turns as a rigid body is not damped. The linear element has (E A / L)(a . q + beta a . v) a of it; this
 //! file has the rest. Lengths in m, forces in N, tension positive.
 //!
-//! Under [pressure](super::pressure) N is the effective tension, N_p = - (1 - 2 nu) p A_i. A span that becomes longer by
+//! Under [pressure](crate::elements::pressure) N is the effective tension, N_p = - (1 - 2 nu) p A_i. A span that becomes longer by
 //! de has de more wall and A_i de more bore: the wall takes N_wall de = (E A e / L + 2 nu p A_i) de, the pressure gives
 //! p A_i de, so that pipe and mud resist by N_eff de = N_eff (a + G q) . dq, along and across. U is the strain's part;
 //! the pressure's work on a span is - N_p (d(a . q) + d s), of which - N_p d(a . q) is that of a force on its ends.
+//!
+//! The inner stations of a span of several elements move along it such that its axial force is the same everywhere, so that
+//! the law holds with the condensed geometric matrix.
+
+use crate::chain::columns::{EndColumn, TENSION, at_ends, product, store};
+use crate::chain::{Additions, BOTTOM, Chain, Effect, Precision, TOP, Touching, Under, row};
+use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::newton::Iteration;
+use crate::dynamics::state::State;
+use crate::model::Model;
+use crate::simd::Kernel;
+use crate::simd::vector::Vector;
+use crate::tool::Shortening;
 
 /// The law of a span at one state.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -99,6 +112,189 @@ impl StretchTangent {
         let turned = stiffness * stretch.across();
         for i in 0..12 {
             out[i] = (t[i] + self.axial * p[i]) * by_slope + p[i] * by_stretch + turned * geometric[i];
+        }
+    }
+}
+
+/// The twelve numbers of a column over both ends.
+#[inline(always)]
+fn twelve(column: &EndColumn) -> [f64; 12] {
+    std::array::from_fn(|k| column[row(k)])
+}
+
+#[inline(always)]
+fn dot(a: &[f64; 12], b: &[f64; 12]) -> f64 {
+    let mut sum = [0.0; 4];
+    for k in 0..12 {
+        sum[k % 4] += a[k] * b[k];
+    }
+    (sum[0] + sum[1]) + (sum[2] + sum[3])
+}
+
+/// The unknowns of a span's pipe at both ends.
+#[inline(always)]
+fn ends_of(values: &[f64], l: usize) -> [f64; 12] {
+    let (nodes, _) = values.as_chunks();
+    let [top, bottom] = at_ends(nodes, l, 0);
+    std::array::from_fn(|k| if k < 6 { top[k] } else { bottom[k - 6] })
+}
+
+/// The pipe whose spans shorten.
+#[derive(Clone)]
+pub(crate) struct Shortened {
+    /// Per span.
+    stretches: Vec<Stretch>,
+    /// Axial force across each span beyond that of the state (N).
+    beyond: Vec<f64>,
+}
+
+impl Shortened {
+    /// Of a pipe whose spans shorten to second order.
+    pub(crate) fn of(model: &Model, chain: &Chain) -> Option<Self> {
+        is_on(model).then(|| Self {
+            stretches: vec![Stretch::default(); chain.spans()],
+            beyond: vec![0.0; chain.spans()],
+        })
+    }
+}
+
+/// Whether the pipe's spans shorten to second order.
+pub(crate) fn is_on(model: &Model) -> bool {
+    model.description.shortening == Shortening::SecondOrder
+}
+
+/// `to` += factor column, over both ends.
+#[inline(always)]
+fn add_times(to: &mut EndColumn, column: &EndColumn, factor: f64) {
+    for k in (0..6).chain(8..14) {
+        to[k] += factor * column[k];
+    }
+}
+
+impl Effect for Shortened {
+    fn force(&mut self, chain: &mut Chain, state: &mut State, under: &Under<'_>) {
+        let at_top = under.model.pressure_at_top(under.conditions.standpipe_pressure);
+        for (l, (stretch, beyond)) in self.stretches.iter_mut().zip(&mut self.beyond).enumerate() {
+            if chain.is_active(l) {
+                let slopes = chain.geometric_forces[l][0];
+                let kind = chain.model.kind(l);
+                let tension = kind.tension[0];
+                let (p, t) = (twelve(&slopes), twelve(&tension));
+                let (q, v) = (ends_of(&state.q, l), ends_of(&state.v, l));
+                let linear = [slopes[TENSION], dot(&t, &v)];
+                let by_pressure = at_top * chain.model.links[l].on_strain;
+                let beta = under.conditions.rayleigh.beta;
+                *stretch = Stretch::of(kind.axial, beta, by_pressure, linear, [dot(&q, &p), dot(&v, &p)]);
+                // The chain has the axial force of the state across the span; the rest and what is along it are left.
+                *beyond = if under.keeps_axial {
+                    stretch.across() - state.pipe_axial[l]
+                } else {
+                    stretch.damped
+                };
+                let [pipe, _] = chain.inside(l);
+                add_times(pipe, &slopes, *beyond);
+                add_times(pipe, &tension, stretch.along());
+            }
+            if !under.keeps_axial {
+                state.pipe_axial[l] = stretch.tension;
+            }
+        }
+    }
+
+    fn tangent<S: Precision>(&self, to: &mut Additions<S>, chain: &Chain, state: &State, at: &Iteration<'_>) {
+        chain.model.instructions.run(Tangents {
+            to,
+            chain,
+            stretches: &self.stretches,
+            state,
+            at,
+        });
+    }
+
+    fn energy(&self, chain: &Chain, point: &mut EnergyPoint) -> f64 {
+        let mut energy = 0.0;
+        point.lifted_by_pressure = 0.0;
+        for (l, stretch) in self.stretches.iter().enumerate() {
+            energy += stretch.energy;
+            point.lifted_by_pressure += stretch.shortening * chain.model.links[l].on_strain;
+            let damping = &mut point.spans[l].damping[0];
+            add_times(damping, &chain.geometric_forces[l][0], stretch.damped);
+            add_times(damping, &chain.model.kind(l).tension[0], stretch.damped_shortening);
+        }
+        energy
+    }
+
+    fn has_tension(&self) -> bool {
+        true
+    }
+
+    fn tension_beyond(&self, l: usize) -> f64 {
+        self.beyond[l]
+    }
+}
+
+/// Adds the derivative of the active spans' forces beyond the linear ones.
+struct Tangents<'a, S> {
+    to: &'a mut Additions<S>,
+    chain: &'a Chain,
+    stretches: &'a [Stretch],
+    state: &'a State,
+    at: &'a Iteration<'a>,
+}
+
+impl<S: Precision> Kernel for Tangents<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            to,
+            chain,
+            stretches,
+            state,
+            at,
+        } = self;
+        let (rates, _) = state.v.as_chunks();
+        for (l, stretch) in stretches.iter().enumerate() {
+            if !chain.is_active(l) {
+                continue;
+            }
+            let kind = chain.model.kind(l);
+            let (p, t) = (twelve(&chain.geometric_forces[l][0]), twelve(&kind.tension[0]));
+            let mut turning = [0.0; 16];
+            store(product::<V>(&kind.geometric[0], &at_ends(rates, l, 0)), &mut turning);
+            let r = twelve(&turning);
+            let tangent = StretchTangent {
+                axial: kind.axial,
+                beta: at.conditions.rayleigh.beta,
+                factors: [at.factors.stiffness, at.factors.damping],
+            };
+            // The tangent is full over the twelve unknowns of the pipe: tension couples both ends.
+            let mut columns = [[0.0; 12]; 12];
+            for (j, column) in columns.iter_mut().enumerate() {
+                let geometric = twelve(&kind.geometric[0][j]);
+                tangent.column(stretch, [&t, &p], [t[j], p[j], r[j]], &geometric, column);
+            }
+            let add = |to: &mut [S], from: &[f64]| {
+                for (to, from) in to.iter_mut().zip(from) {
+                    *to += S::of(*from);
+                }
+            };
+            // The columns of each end are added to its node's block, the mixed ones to the coupling of both.
+            let (top, bottom) = (TOP[0], BOTTOM[0]);
+            let block = to.block(l, Touching::Both);
+            for j in 0..6 {
+                add(&mut block[TOP[j]][top..top + 6], &columns[j][..6]);
+            }
+            let block = to.block(l + 1, Touching::Both);
+            for j in 0..6 {
+                add(&mut block[BOTTOM[j]][bottom..bottom + 6], &columns[6 + j][6..]);
+            }
+            let coupling = to.coupling(l, Touching::Both);
+            for j in 0..6 {
+                add(&mut coupling.upper[j][top..top + 6], &columns[6 + j][..6]);
+                add(&mut coupling.lower[j][bottom..bottom + 6], &columns[j][6..]);
+            }
         }
     }
 }

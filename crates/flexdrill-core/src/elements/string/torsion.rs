@@ -1,8 +1,7 @@
 //! The tool as its string sees it in torsion.
 
-use super::ToolDescription;
-use crate::elements::string::{HangingTool, TorsionalMode};
-use crate::tool::{Piece, SectionProperties, WellPath};
+use crate::tool::description::{HangingTool, Piece, ToolDescription, TorsionalMode};
+use crate::tool::{SectionProperties, WellPath};
 
 impl ToolDescription {
     /// The pipe and the bit in torsion. Joints turn with the pipe, and friction is left out.

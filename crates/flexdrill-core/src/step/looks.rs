@@ -51,4 +51,10 @@ impl Stepper {
         let spin = chain.model.places.bit_spin;
         BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
     }
+
+    /// Energy that the tool stores at the end of the last step, as its audit has it (J).
+    #[cfg(test)]
+    pub(crate) fn stored_energy(&self) -> f64 {
+        self.track.energy.stored
+    }
 }

@@ -3,10 +3,10 @@
 use crate::Instructions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::scheme::Scheme;
-use crate::dynamics::stepper::{SolverKind, Stepper, StepperSettings};
 use crate::dynamics::tolerances::Tolerances;
 use crate::inputs::Inputs;
 use crate::stations::Assembler;
+use crate::step::{SolverKind, Stepper, StepperSettings};
 use crate::tool::{Body, Direction, JointKind, LoadHistory, Location, PointLoad, ToolDescription};
 use nalgebra::Vector3;
 

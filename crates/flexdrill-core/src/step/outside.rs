@@ -7,9 +7,10 @@ use nalgebra::Vector3;
 
 use super::Stepper;
 use crate::dynamics::energy::SpanForces;
-use crate::elements::string::{Feed, StringLine};
+use crate::elements::string::StringLine;
 use crate::model::HeldNode;
 use crate::tool::Body;
+use crate::tool::description::Feed;
 
 /// Forces on both pipes together, along the axes of the world (N).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -155,7 +156,8 @@ impl Stepper {
     /// Sum of the forces of the tensions in the geometric stiffness (N, along the axes of the world). Tensions alone have none:
     /// this is how far the wall's forces turn as the tool moves along the hole.
     fn turned_with_the_tool(&self) -> Vector3<f64> {
-        self.chain.turned_with_the_tool(&self.model, &self.track.energy)
+        self.chain
+            .turned_with_the_tool(&self.effects, &self.model, &self.track.state)
     }
 
     /// The sums of all forces on the tool from outside.

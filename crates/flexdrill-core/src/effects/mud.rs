@@ -29,8 +29,12 @@
 
 use std::f64::consts::PI;
 
-use super::mud_wall::NearWall;
-use crate::tool::{AddedMass, MudDamping, MudDescription, MudFilm, ToolDescription, Tube};
+use nalgebra::{DMatrix, Vector3};
+
+use crate::chain::{Chain, CoupledParts, Effect, Parts, Segment, Under};
+use crate::dynamics::state::State;
+use crate::model::Model;
+use crate::tool::{AddedMass, MudDamping, MudDescription, ToolDescription, Tube};
 
 /// A symmetric matrix over the lateral motion of pipe and guide, alike along y and z.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -76,9 +80,9 @@ pub struct MudLump {
 
 /// A fluid-filled annulus whose walls move.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Annulus {
+pub(crate) struct Annulus {
     /// m k' (kg/m).
-    mass: f64,
+    pub(crate) mass: f64,
     /// omega m k'' (N s/m2).
     drag: f64,
     /// rho pi a^2 and rho pi b^2 (kg/m).
@@ -87,7 +91,7 @@ struct Annulus {
 
 impl Annulus {
     /// Of inner radius `a` and bore `b` (m).
-    fn of(mud: &MudDescription, a: f64, b: f64) -> Self {
+    pub(crate) fn of(mud: &MudDescription, a: f64, b: f64) -> Self {
         let squares = [a * a, b * b];
         let displaced = squares.map(|square| mud.density * PI * square);
         let ideal = 2.0 * displaced[0] * squares[1] / (squares[1] - squares[0]);
@@ -124,66 +128,93 @@ fn slot(x: f64) -> [f64; 2] {
     [(re * (1.0 - re) - im * im) / square, -im / square]
 }
 
-/// The mud's part in the motion of the tool.
-#[derive(Debug, Clone)]
-pub struct Mud {
-    /// Half of each element's, lumped at either of its stations.
-    pub halves: Vec<MudLump>,
-    /// Of each station.
-    pub stations: Vec<MudLump>,
-    /// What there is beyond it near the walls of both annuli, [pipe in guide, guide in hole], at each station; empty
-    /// without it. The first station, where the tool is held, has none.
-    pub near_wall: Vec<[NearWall; 2]>,
-}
-
-impl Mud {
-    /// Of a tool whose elements have these lengths (m), top to bottom.
-    pub fn of(mud: &MudDescription, d: &ToolDescription, lengths: impl Iterator<Item = f64>) -> Self {
-        // Properties by section of a link, since all links are alike.
-        let per_link: Vec<MudLump> = d.pipe_sections.iter().map(|pipe| per_length(mud, d, pipe)).collect();
-        let half_lengths: Vec<f64> = lengths.map(|length| 0.5 * length).collect();
-        let halves: Vec<MudLump> = half_lengths
-            .iter()
-            .enumerate()
-            .map(|(e, half)| {
-                let MudLump { mass, drag } = per_link[e % d.elements_per_link];
-                MudLump {
-                    mass: mass.times(*half),
-                    drag: drag.times(*half),
-                }
-            })
-            .collect();
-        // Near walls only where it is asked for: the linear mud is cheaper and part of the constant matrices.
-        let mut near_wall: Vec<[NearWall; 2]> = Vec::new();
-        if mud.added_mass == AddedMass::Eccentric || mud.film == MudFilm::Squeeze {
-            let of_sections: Vec<[NearWall; 2]> = d.pipe_sections.iter().map(|pipe| beyond(mud, d, pipe)).collect();
-            near_wall = vec![[NearWall::default(); 2]; halves.len() + 1];
-            for (e, half) in half_lengths.iter().enumerate() {
-                // The first station has none: stations are evaluated inside their spans and at their lower ends.
-                for station in near_wall[e..e + 2].iter_mut().skip(usize::from(e == 0)) {
-                    for (to, of) in station.iter_mut().zip(&of_sections[e % d.elements_per_link]) {
-                        to.mass += half * of.mass;
-                        to.film += half * of.film;
-                        // Where two sections meet, the narrower one counts.
-                        to.per_square = to.per_square.max(of.per_square);
+/// Adds mass and damping of the mud along a part of the tool.
+pub(crate) fn linear(at: &Segment<'_>, parts: &mut Parts) {
+    let Some(mud) = &at.model.description.mud else {
+        return;
+    };
+    let size = 6 * (at.elements + 1);
+    let assembled = |matrix: fn(&MudLump) -> Lateral| {
+        let mut out: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(size, size));
+        for e in 0..at.elements {
+            let matrix = matrix(&half_of_element(mud, at.model, at.first + e));
+            for i in [e, e + 1] {
+                // Across the hole are y and z of the station, in which the guide's numbers are.
+                let turn = at.pipe_to_station(i);
+                for k in 1..3 {
+                    let (node, guide) = (6 * i, 6 * i + k);
+                    for row in 0..3 {
+                        for column in 0..3 {
+                            out[0][(node + row, node + column)] += turn[(k, row)] * turn[(k, column)] * matrix.pipe;
+                        }
+                        out[1][(node + row, guide)] += turn[(k, row)] * matrix.coupling;
                     }
+                    out[2][(guide, guide)] += matrix.guide;
                 }
             }
         }
-        // Each station has half of the element above and half of that below, the lumping of a mass to its nodes.
-        let mut stations = vec![MudLump::default(); halves.len() + 1];
-        for (e, half) in halves.iter().enumerate() {
+        out
+    };
+    parts.coupled = Some(CoupledParts {
+        mass: assembled(|mud| mud.mass),
+        damping: assembled(|mud| mud.drag),
+    });
+}
+
+/// The mud's part in the motion of the tool.
+#[derive(Debug, Clone)]
+pub(crate) struct Mud {
+    /// Of each station.
+    pub stations: Vec<MudLump>,
+}
+
+impl Mud {
+    /// Of a tool with mud, on any chain.
+    pub(crate) fn of(model: &Model, _chain: &Chain) -> Option<Self> {
+        Self::around(model)
+    }
+
+    /// Of a tool with mud.
+    pub(crate) fn around(model: &Model) -> Option<Self> {
+        let mud = model.description.mud.as_ref()?;
+        let mut stations = vec![MudLump::default(); model.guide.len() + 1];
+        for e in 0..model.guide.len() {
+            let half = half_of_element(mud, model, e);
             for station in &mut stations[e..e + 2] {
                 station.mass = station.mass.plus(half.mass);
                 station.drag = station.drag.plus(half.drag);
             }
         }
+        Some(Self { stations })
+    }
+}
+
+impl MudLump {
+    /// This times `x`.
+    fn times(self, x: f64) -> Self {
         Self {
-            halves,
-            stations,
-            near_wall,
+            mass: self.mass.times(x),
+            drag: self.drag.times(x),
         }
     }
+}
+
+impl Effect for Mud {
+    fn on_guide(&self, chain: &Chain, station: usize, state: &State, under: &Under<'_>) -> [f64; 2] {
+        let at = &under.model.stations[station];
+        let moving = |values: &[f64]| -> Vector3<f64> { at.pipe_to_station * chain.pipe_translation(values, station) };
+        let (v, a) = (moving(&state.v), moving(&state.a));
+        let MudLump { mass, drag } = self.stations[station];
+        let alpha = under.conditions.rayleigh.alpha;
+        [1, 2].map(|k| -(mass.coupling * (a[k] + alpha * v[k]) + drag.coupling * v[k]))
+    }
+}
+
+/// Half of that of element `e`, which is lumped at either of its stations.
+fn half_of_element(mud: &MudDescription, model: &Model, e: usize) -> MudLump {
+    let d = &model.description;
+    let pipe = &d.pipe_sections[e % d.elements_per_link];
+    per_length(mud, d, pipe).times(0.5 * model.guide[e].beam.length)
 }
 
 /// Of an element with this `pipe`, per length.
@@ -209,34 +240,10 @@ fn per_length(mud: &MudDescription, d: &ToolDescription, pipe: &Tube) -> MudLump
     }
 }
 
-/// Of both annuli along an element with this `pipe`, per length: what there is beyond near their walls.
-fn beyond(mud: &MudDescription, d: &ToolDescription, pipe: &Tube) -> [NearWall; 2] {
-    let annuli = [
-        [pipe.outer_diameter, d.guide_section.inner_diameter],
-        [d.guide_section.outer_diameter, d.hole_diameter],
-    ];
-    annuli.map(|diameters| {
-        let [a, b] = diameters.map(|diameter| 0.5 * diameter);
-        let width = b - a;
-        NearWall {
-            mass: if mud.added_mass == AddedMass::Eccentric {
-                Annulus::of(mud, a, b).mass
-            } else {
-                0.0
-            },
-            film: if mud.film == MudFilm::Squeeze {
-                12.0 * PI * mud.viscosity * (a / width).powi(3)
-            } else {
-                0.0
-            },
-            per_square: 1.0 / (width * width),
-        }
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tool::MudFilm;
 
     /// The paper's annuli: pipe of 63 mm in 80 mm, guide of 102 mm in 118 mm; radii (m).
     const ANNULI: [[f64; 2]; 2] = [[0.0315, 0.040], [0.051, 0.059]];

@@ -1,0 +1,60 @@
+//! What acts inside the spans of a chain, as the chain sees it. The chain has no word of physics for it: it hands an effect its
+//! motion, and gathers forces on the ends of spans, their derivative, and energies.
+
+use super::Chain;
+use super::precision::Precision;
+use super::tangent::Additions;
+use crate::dynamics::conditions::Conditions;
+use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::newton::Iteration;
+use crate::dynamics::state::State;
+use crate::model::Model;
+
+/// What a residual is evaluated under.
+pub(crate) struct Under<'a> {
+    pub model: &'a Model,
+    pub conditions: &'a Conditions,
+    /// Whether the axial forces of the state count as they are.
+    pub keeps_axial: bool,
+}
+
+/// Something that acts inside spans, beyond their beams and contacts. It keeps what it found at the last residual, which its
+/// tangent and its energy read. Where it is not said otherwise, an effect takes spans as [`Chain::is_active`] says: what a
+/// correction did not move keeps its forces. One that is linear along spans is data of theirs ([`Acting`](super::Acting)) and has
+/// no force here.
+pub(crate) trait Effect {
+    /// Evaluates it at `state`, and adds its forces to [`Chain::inside`]. Unless it keeps axial forces, an effect with a
+    /// [tension](Effect::has_tension) sets the axial forces of the state.
+    fn force(&mut self, _chain: &mut Chain, _state: &mut State, _under: &Under<'_>) {}
+
+    /// Adds the derivative of these forces by the motion at `state`, with the factors of the iteration `at`.
+    fn tangent<S: Precision>(&self, _to: &mut Additions<S>, _chain: &Chain, _state: &State, _at: &Iteration<'_>) {}
+
+    /// Adds to `point` what it stores, takes and moves in the whole tool. Gives the energy that it stores (J), the kinetic one
+    /// left out, which it adds to `point`.
+    fn energy(&self, _chain: &Chain, _point: &mut EnergyPoint) -> f64 {
+        0.0
+    }
+
+    /// Whether the axial forces of the pipe's spans are its own: those of an energy, which the geometric stiffness then has no
+    /// part in, and with a part in the tangent.
+    fn has_tension(&self) -> bool {
+        false
+    }
+
+    /// Factor of the geometric forces of the pipe in span `l` beyond the axial force of the state (N).
+    fn tension_beyond(&self, _l: usize) -> f64 {
+        0.0
+    }
+
+    /// Force on the guide by the motion of the pipe at a station inside a span of a guide that is held, along y and z there (N).
+    fn on_guide(&self, _chain: &Chain, _station: usize, _state: &State, _under: &Under<'_>) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// What it adds to the bending moment of the guide's element `e` (N m), with the mean `spin` of its nodes (rad) and the
+    /// differences of their tilts `bent` (rad).
+    fn guide_moment(&self, _e: usize, _spin: f64, _bent: [f64; 2]) -> f64 {
+        0.0
+    }
+}

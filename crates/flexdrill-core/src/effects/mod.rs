@@ -1,0 +1,114 @@
+//! What acts inside the spans of the tool beyond beams and contacts: a file each, with law, switch, force, tangent and energy.
+//!
+//! The list below is the only place that names them all. They act in its order, so that sums have one order too. A new effect
+//! is a file that implements [`Effect`] with a constructor `of`, which gives none where the tool has it not, and a line here.
+
+pub(crate) mod mud;
+pub(crate) mod mud_wall;
+pub(crate) mod preload;
+pub(crate) mod shortening;
+pub(crate) mod slots;
+#[cfg(test)]
+mod spring;
+
+use crate::chain::{Acting, Additions, Chain, Effect, Precision, Under};
+use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::newton::Iteration;
+use crate::dynamics::state::State;
+use crate::model::Model;
+
+/// Makes [`Effects`] of a list of names and types.
+macro_rules! effects {
+    ($($(#[$attribute:meta])* $name:ident: $effect:ty,)+) => {
+        /// All effects that the tool has, with what they found at the last residual.
+        #[derive(Clone)]
+        pub(crate) struct Effects {
+            $($(#[$attribute])* pub(crate) $name: Option<$effect>,)+
+        }
+
+        impl Effects {
+            /// Those of `model`, on the nodes of `chain`.
+            pub(crate) fn of(model: &Model, chain: &Chain) -> Self {
+                Self {
+                    $($(#[$attribute])* $name: <$effect>::of(model, chain),)+
+                }
+            }
+        }
+
+        impl Effect for Effects {
+            fn force(&mut self, chain: &mut Chain, state: &mut State, under: &Under<'_>) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.force(chain, state, under);
+                })+
+            }
+
+            fn tangent<S: Precision>(&self, to: &mut Additions<S>, chain: &Chain, state: &State, at: &Iteration<'_>) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.tangent(to, chain, state, at);
+                })+
+            }
+
+            fn energy(&self, chain: &Chain, point: &mut EnergyPoint) -> f64 {
+                let mut stored = 0.0;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    stored += effect.energy(chain, point);
+                })+
+                stored
+            }
+
+            fn has_tension(&self) -> bool {
+                let mut any = false;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    any |= effect.has_tension();
+                })+
+                any
+            }
+
+            fn tension_beyond(&self, l: usize) -> f64 {
+                let mut sum = 0.0;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    sum += effect.tension_beyond(l);
+                })+
+                sum
+            }
+
+            fn on_guide(&self, chain: &Chain, station: usize, state: &State, under: &Under<'_>) -> [f64; 2] {
+                let mut sum = [0.0; 2];
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    let force = effect.on_guide(chain, station, state, under);
+                    sum = [sum[0] + force[0], sum[1] + force[1]];
+                })+
+                sum
+            }
+
+            fn guide_moment(&self, e: usize, spin: f64, bent: [f64; 2]) -> f64 {
+                let mut sum = 0.0;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    sum += effect.guide_moment(e, spin, bent);
+                })+
+                sum
+            }
+        }
+    };
+}
+
+effects! {
+    mud: mud::Mud,
+    preload: preload::Preloaded,
+    mud_wall: mud_wall::MudWall,
+    shortening: shortening::Shortened,
+    slots: slots::SlottedGuide,
+    #[cfg(test)]
+    springs: spring::Springs,
+}
+
+/// What effects add to the chain of `model` that is built.
+pub(crate) fn acting(model: &Model) -> Acting {
+    Acting {
+        every_station: slots::is_on(model),
+        linear: |at, parts| {
+            mud::linear(at, parts);
+            preload::linear(at, parts);
+        },
+    }
+}

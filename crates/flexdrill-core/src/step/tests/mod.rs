@@ -1,0 +1,3 @@
+//! Tests of the steps that look at their insides.
+
+mod balance;
