@@ -92,6 +92,8 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
     let case = case(args)?;
     let run = recorded(&case, "run")?;
     let found = findings(&run);
+    // The run at the configured step is the one that is shown; the same at half the step says how far its findings
+    // depend on it.
     let half: Option<Vec<Finding>> = if args.no_step_check {
         None
     } else {
@@ -102,6 +104,7 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
         };
         Some(findings(&recorded(&half, "the same at half the step")?))
     };
+    // The hinge of Fig. 9 is a separate case, a hinged beam in a tube, and takes some seconds.
     tell!("the hinge of Fig. 9");
     let hinge = Hinge::run()?;
     let figures = write_figures(&args.out, figures::figures(&run, &hinge))?;
@@ -113,9 +116,12 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
         hinge: &hinge,
         figures: &figures,
     };
+    // The findings are written before the pages that refer to them: the table then exists even if a page cannot be
+    // written.
     write_text(&args.out, "findings.csv", &findings_csv(&found))?;
     write_text(&args.out, "report.md", &report.markdown())?;
     write_text(&args.out, "report.html", &report.html())?;
+    // Verdicts in the terminal too: they are the result, and the files are their evidence.
     say!("{:<16} {:<6} {:<8} ours", "finding", "figure", "agrees?");
     for finding in &found {
         say!(

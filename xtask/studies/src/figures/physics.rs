@@ -237,6 +237,7 @@ fn run_all() -> anyhow::Result<Vec<Found>> {
 }
 
 fn run(case: &Case) -> anyhow::Result<Found> {
+    // All runs begin from one file and one load, so that a difference is that of the changed keys.
     let changes: Vec<String> = case.changes.iter().map(|change| (*change).to_owned()).collect();
     let config = changed(Config::load("config/default.yaml")?, None, &changes)?
         .with_value("inputs.rotary_speed.initial_rpm", case.rpm)?
@@ -252,9 +253,11 @@ fn run(case: &Case) -> anyhow::Result<Found> {
     let every = (SPACING / step).round() as usize;
     ensure!(every > 0, "the step is longer than {SPACING} s");
     let joints = simulation.joint_stations().to_vec();
+    // The joint in the middle stands for the orbit: it is far from the supports at both ends.
     let middle = joints[joints.len() / 2];
     let (last, stations) = (simulation.last_station(), simulation.last_station() + 1);
     let mut snapshot = simulation.new_snapshot();
+    // Sums first, over the time that is judged; they become means below.
     let mut found = Found {
         clearance: 1e3 * simulation.clearance(middle, Body::Pipe).unwrap_or(f64::NAN),
         wall: vec![(0.0, 0.0); stations],
@@ -272,6 +275,7 @@ fn run(case: &Case) -> anyhow::Result<Found> {
         if number % every != 0 {
             continue;
         }
+        // Each snapshot ends its interval, so that peaks between two samples are not lost.
         simulation.snapshot(&mut snapshot, true);
         let spin = |station| {
             simulation
@@ -290,6 +294,7 @@ fn run(case: &Case) -> anyhow::Result<Found> {
         found
             .orbit
             .push((1e3 * (pipe[0] - guide[0]), 1e3 * (pipe[1] - guide[1])));
+        // The histories begin with the start; means leave its transient out.
         if snapshot.time < JUDGED_FROM {
             continue;
         }
@@ -319,6 +324,7 @@ fn run(case: &Case) -> anyhow::Result<Found> {
             .copied()
             .fold(found.peak, f64::max);
     }
+    // All lists hold pairs of inclination and sum, and are divided alike.
     let lists = [
         &mut found.wall,
         &mut found.drag,
@@ -330,6 +336,7 @@ fn run(case: &Case) -> anyhow::Result<Found> {
         *sum /= judged;
     }
     found.stops /= judged;
+    // The transfer has its own window, of which the last one is taken.
     found.top_torque = snapshot.transfer.torque.mean[1];
     found.kick_off = 1e-3 * snapshot.transfer.weight.mean[1];
     let energy = &snapshot.energy;
@@ -364,6 +371,7 @@ fn figures(found: &[Found]) -> Vec<Figure> {
         ADVANCE, AS_BUILT, CLOSED, DEPTH_OF_CUT, MUD, PAPER, PINS, PLAY, SEALED, SHORTENING, SLIDING, SOFT_TORQUE,
         STIFF, STRAIGHT, WEAKENING, WORN_PINS,
     };
+    // Lines are named by their runs, so that a legend cannot name another one.
     let line = |at: usize, points: Vec<(f64, f64)>| Line::new(CASES[at].name, points);
     let history = |values: fn(&Found) -> &[f64], at: usize, from, to| {
         let found = &found[at];
@@ -376,6 +384,7 @@ fn figures(found: &[Found]) -> Vec<Figure> {
     let by_inclination = "inclination (deg)";
     let over_time = |title, y| Panel::new(title, "time (s)", y).legend(Legend::Stacked);
     let along = |title, y| Panel::new(title, by_inclination, y).legend(Legend::Stacked);
+    // Two turns at 40 r/min, the last ones: the start would cover the orbit.
     let orbit = |at: usize, to: f64| {
         let found = &found[at];
         let shown = found.time.iter().zip(&found.orbit);
@@ -384,6 +393,7 @@ fn figures(found: &[Found]) -> Vec<Figure> {
             .map(|(_, at)| *at)
             .collect::<Vec<_>>()
     };
+    // The clearance is drawn as an area behind the orbits, since the pipe may press a little into the guide.
     let circle = (0..=120).map(|k| {
         let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / 120.0).sin_cos();
         (found[PAPER].clearance * cos, found[PAPER].clearance * sin)
@@ -401,6 +411,7 @@ fn figures(found: &[Found]) -> Vec<Figure> {
     for (at, color) in [(MUD, 1), (PAPER, 0)] {
         mud = mud.line(line(at, orbit(at, DURATION)).thin().color(color));
     }
+    // One panel per effect, each with the quantity that the effect changes most and with the run without it.
     vec![
         drawn(
             "physics_string",

@@ -27,8 +27,10 @@ pub(crate) fn draw(to: &Path) -> anyhow::Result<()> {
         .deserialize()
         .collect::<Result<_, _>>()
         .with_context(|| format!("{from}: a row that cannot be read"))?;
+    // Factors of different machines cannot be compared, so the newest row decides on one.
     let processor = rows.last().context("no rows")?.processor.clone();
     rows.retain(|row| row.processor == processor);
+    // In the order of the table, which is that of time.
     let (mut versions, mut cases) = (Vec::<&str>::new(), Vec::<&str>::new());
     for row in &rows {
         for (list, name) in [(&mut versions, &row.version), (&mut cases, &row.case)] {
@@ -37,6 +39,7 @@ pub(crate) fn draw(to: &Path) -> anyhow::Result<()> {
             }
         }
     }
+    // A missing case would draw a bar of nothing, which reads as a factor of zero.
     ensure!(
         rows.len() == versions.len() * cases.len(),
         "{from}: not every version has every case on {processor}"

@@ -121,12 +121,14 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
     let mut snapshot = simulation.new_snapshot();
     let mut history: Vec<Vec<[f64; 2]>> = Vec::new();
     let steps = (case.duration / step).round() as usize;
+    // The orbit is drawn over whole turns of the tool at its speed.
     let window = (TURNS * 60.0 / case.rpm / SPACING).round() as usize;
     ensure!(steps / every > window, "the run is shorter than the window");
     for number in 1..=steps {
         if let StepOutcome::Failed(failure) = simulation.advance(&inputs) {
             bail!("a step failed: {failure}");
         }
+        // Only the last turns are kept, for all stations: which of them is shown is known at the end.
         if number % every == 0 && (steps - number) / every < window {
             simulation.snapshot(&mut snapshot, false);
             history.push(
@@ -137,6 +139,7 @@ fn run(case: &Case) -> anyhow::Result<Orbit> {
         }
     }
     let whirl = &snapshot.whirl;
+    // The clearest example of the kind, and not the largest: the figure explains what the kind looks like.
     let entry = (0..whirl.kind.len())
         .filter(|&entry| whirl.kind[entry] == case.kind && whirl.body[entry] == Body::Pipe)
         .max_by(|&a, &b| whirl.confidence[a].total_cmp(&whirl.confidence[b]))

@@ -51,6 +51,7 @@ impl Descent {
 
     /// Learns from a generation, best first.
     pub(super) fn learn(&mut self, ranked: &[&[f64]]) {
+        // Half of a generation are parents, weighted by the logarithm of their rank, as in the source.
         let parents = ranked.len() / 2;
         if parents == 0 || self.free.is_empty() {
             return;
@@ -61,6 +62,7 @@ impl Descent {
             .collect();
         let sum: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|weight| weight / sum).collect();
+        // The number of parents that count after weighting; all rates depend on it.
         let effective = 1.0 / weights.iter().map(|weight| weight * weight).sum::<f64>();
         let deviation_rate = (effective + 2.0) / (n + effective + 5.0);
         let damping = 1.0 + 2.0 * (((effective - 1.0) / (n + 1.0)).sqrt() - 1.0).max(0.0) + deviation_rate;
@@ -86,8 +88,10 @@ impl Descent {
             self.deviation_path[i] = (1.0 - deviation_rate) * self.deviation_path[i]
                 + (deviation_rate * (2.0 - deviation_rate) * effective).sqrt() * mean / self.variance[i].sqrt();
         }
+        // A long path means that successive moves agree, so the deviation may grow; a short one that they cancel.
         let length = self.deviation_path.iter().map(|x| x * x).sum::<f64>().sqrt();
         self.generation += 1;
+        // The path needs some generations to reach its usual length.
         let grown = (1.0 - (1.0 - deviation_rate).powi(2 * self.generation)).sqrt();
         let calm = f64::from(u8::from(length / grown < (1.4 + 2.0 / (n + 1.0)) * usual));
         for (i, [mean, square]) in moves.iter().enumerate() {

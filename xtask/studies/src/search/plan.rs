@@ -89,6 +89,7 @@ pub fn run<E>(
     let mut random = Random::new(plan.seed);
     let mut trials: Vec<Trial> = Vec::new();
     let mut try_one = |trials: &mut Vec<Trial>, stage: Stage, point: Vec<f64>| {
+        // Parameters are compared as written: a table read back has no more digits than it was written with.
         let parameters: Vec<String> = DIMENSIONS.iter().zip(&point).map(|(d, &at)| written(d, at)).collect();
         let outcome = match known(trials.len(), stage, &parameters)? {
             Some(outcome) => outcome,
@@ -104,6 +105,7 @@ pub fn run<E>(
         trials.push(trial);
         Ok(())
     };
+    // The order of the plan fixes the numbers of the trials, by which an earlier table is recognised.
     for point in starts() {
         try_one(&mut trials, Stage::Start, point)?;
     }
@@ -124,6 +126,7 @@ pub fn run<E>(
             descent.learn(&ranked.iter().map(|trial| trial.point.as_slice()).collect::<Vec<_>>());
         }
     }
+    // Finalists come from the full mesh only, since the order of coarse trials may differ.
     let on_full_mesh = trials.iter().filter(|trial| trial.stage == Stage::Descent.word());
     let finalists: Vec<Vec<f64>> = best(on_full_mesh, plan.finalists)
         .into_iter()

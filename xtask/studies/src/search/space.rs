@@ -312,6 +312,8 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
     let at = |name: &str| DIMENSIONS.iter().position(|d| d.name == name).unwrap_or_default();
     let number = |name: &str| value(&DIMENSIONS[at(name)], point[at(name)]);
     let word = |name: &str| written(&DIMENSIONS[at(name)], point[at(name)]);
+    // Diameters depend on each other: the guide follows from the hole, and the pipe must fit into the guide with its
+    // wall.
     let hole = base.well.hole_diameter;
     let guide_od = hole - 2.0 * number("outer_clearance");
     let most = guide_od - 2.0 * WALL - 2.0 * number("inner_clearance");
@@ -337,6 +339,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
         ("contact.outer.friction_tangential", number("outer_friction")),
         ("contact.outer.friction_axial", number("outer_friction")),
     ];
+    // `as_built` is a revolute joint whose hinge keeps its angle in the curved tool.
     let (kind, hinge) = match word("joint").as_str() {
         "as_built" => ("revolute".to_owned(), "as_built"),
         kind => (kind.to_owned(), "straight"),
@@ -354,6 +357,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
             ("tool.links", json!(number("links") as u64)),
             ("boundary.supports", supports(&word("guide_top"))),
         ]);
+    // Checked as a whole: combinations that no tool can have are refused here.
     let mut case = Case::new(base.with_values("parameter", values)?);
     case.weight_on_bit_kn = number("wob_kn");
     case.settling_turns = 1.0;
