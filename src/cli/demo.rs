@@ -6,7 +6,7 @@ use std::os::unix::fs::DirBuilderExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use anyhow::{Context as _, bail};
 use clap::Args;
@@ -141,7 +141,12 @@ impl Drop for Demo {
 
 impl Demo {
     fn new() -> anyhow::Result<Self> {
-        let folder = std::env::temp_dir().join(format!("flexdrill_demo_{}", std::process::id()));
+        // Of an earlier process with the same number a folder may remain.
+        let now = SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .unwrap_or_default()
+            .as_nanos();
+        let folder = std::env::temp_dir().join(format!("flexdrill_demo_{}_{now}", std::process::id()));
         // A folder that exists is not ours.
         DirBuilder::new()
             .mode(0o700)

@@ -1,7 +1,7 @@
 //! `flexdrill demo`: the twin drills, and nothing outlives the demonstration.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::common::{Network, Program, small_config};
@@ -61,6 +61,19 @@ fn all_end(family: &BTreeSet<u32>) {
     }
 }
 
+/// What a demonstration has left in the folder of temporary files.
+fn folders(id: u32) -> Vec<PathBuf> {
+    let begin = format!("flexdrill_demo_{id}_");
+    let entries = std::fs::read_dir(std::env::temp_dir()).unwrap();
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    paths
+        .filter(|path| {
+            path.file_name()
+                .is_some_and(|name| name.to_string_lossy().starts_with(&begin))
+        })
+        .collect()
+}
+
 /// The number before a unit in a line of the view.
 fn before(line: &str, unit: &str) -> Option<f64> {
     line.split(unit).next()?.split_whitespace().next_back()?.parse().ok()
@@ -95,7 +108,7 @@ fn the_demonstration_drills_and_leaves_nothing_behind() {
     // The recording is complete.
     let bag = flexdrill::bag::open(&bag).unwrap();
     assert_eq!(bag.cuts().count(), 0);
-    assert!(!Path::new(&std::env::temp_dir().join(format!("flexdrill_demo_{}", demo.id()))).exists());
+    assert_eq!(folders(demo.id()), Vec::<PathBuf>::new());
 }
 
 #[test]
@@ -111,7 +124,11 @@ fn a_demonstration_that_is_ended_or_killed_takes_its_processes_along() {
         demo.signal(signal);
         assert_eq!(demo.end(), code, "{signal}: {}", demo.said());
         all_end(&family);
-        let _ = std::fs::remove_dir_all(std::env::temp_dir().join(format!("flexdrill_demo_{}", demo.id())));
+        // What is killed cannot remove its folder.
+        for folder in folders(demo.id()) {
+            assert_eq!(signal, "KILL", "{}", folder.display());
+            std::fs::remove_dir_all(folder).unwrap();
+        }
     }
 }
 
