@@ -23,7 +23,7 @@ fn main() -> anyhow::Result<()> {
         arguments.next().context("which file for the state?")?,
     );
     let config = Config::load(Path::new(&config))?;
-    let mut twin = Simulation::new(&config.tool(), &config.simulation_settings())?;
+    let mut twin = Simulation::new(&config.tool(), &config.simulation())?;
     let inputs = Inputs {
         rotary_speed: rpm_to_rad_per_s(40.0),
         weight_on_bit: kn_to_n(10.0),
