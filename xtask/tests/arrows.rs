@@ -199,7 +199,8 @@ fn no_room_of_the_core_uses_a_room_above_it() {
 
 /// An effect: the words by which code names it, and how many files of the core other than its own do, tests and the witness
 /// left out. Three is what an effect should cost: its description, the description of the paper's tool, the list of effects.
-/// Mud is a row of the energy audit and of its report too.
+/// The shape of the guide as made is that of its slots too, and has a rating; mud is a row of the energy audit and of its
+/// report.
 const EFFECTS: [(&str, &[&str], usize); 5] = [
     (
         "mud_wall.rs",
@@ -211,7 +212,7 @@ const EFFECTS: [(&str, &[&str], usize); 5] = [
     (
         "preload.rs",
         &["free_curvature", "FreeCurvature", "preload::", "Preloaded"],
-        5,
+        6,
     ),
     ("mud.rs", &["mud", "Mud"], 13),
 ];

@@ -9,7 +9,7 @@ pub(crate) mod preload;
 pub(crate) mod shortening;
 pub(crate) mod slots;
 #[cfg(test)]
-mod spring;
+mod tests;
 
 use crate::chain::{Acting, Additions, Chain, Effect, Precision, Under};
 use crate::dynamics::energy::EnergyPoint;
@@ -99,7 +99,7 @@ effects! {
     shortening: shortening::Shortened,
     slots: slots::SlottedGuide,
     #[cfg(test)]
-    springs: spring::Springs,
+    springs: tests::spring::Springs,
 }
 
 /// What effects add to the chain of `model` that is built.

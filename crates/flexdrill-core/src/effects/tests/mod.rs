@@ -1,0 +1,3 @@
+//! An effect that only tests have.
+
+pub(super) mod spring;
