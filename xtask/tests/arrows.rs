@@ -214,7 +214,7 @@ const EFFECTS: [(&str, &[&str], usize); 5] = [
         &["free_curvature", "FreeCurvature", "preload::", "Preloaded"],
         6,
     ),
-    ("mud.rs", &["mud", "Mud"], 13),
+    ("mud.rs", &["mud", "Mud"], 14),
 ];
 
 #[test]
