@@ -203,7 +203,7 @@ impl Publisher {
                 recording.lose(topic, samples);
             }
         }
-        // What follows is paced by the wall clock, because it must continue when the model stands still or fails.
+        // The rest runs by the wall clock: it must continue when the model stops or fails.
         let now = monotonic::now();
         self.status.note(self.pace_time(), &self.parts.gauges);
         let rates = self.parts.config.outputs.rates;

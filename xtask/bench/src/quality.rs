@@ -1,4 +1,4 @@
-//! `--cases quality`: what the model says of its own motion, next to how far that motion is off.
+//! `--cases quality`: the model's own estimate of its error, next to the error against finer steps.
 
 use flexdrill_bench::cases::{Case, hard};
 use flexdrill_bench::table::Table;

@@ -18,13 +18,12 @@ pub(crate) struct Under<'a> {
     pub keeps_axial: bool,
 }
 
-/// Something that acts inside spans, beyond their beams and contacts. It keeps what it found at the last residual, which its
-/// tangent and its energy read. Where it is not said otherwise, an effect takes spans as [`Chain::is_active`] says: what a
-/// correction did not move keeps its forces. One that is linear along spans is data of theirs ([`Acting`](super::Acting)) and has
-/// no force here.
+/// Something that acts inside spans, beyond their beams and contacts. It keeps what it found at the last residual: its tangent
+/// and its energy read that. It evaluates the spans that a correction has moved ([`Chain::is_active`]); the others keep their
+/// forces. An effect that is linear along spans is data of theirs ([`Acting`](super::Acting)) and needs no force here.
 pub(crate) trait Effect {
-    /// Evaluates it at `state`, and adds its forces to [`Chain::inside`]. Unless it keeps axial forces, an effect with a
-    /// [tension](Effect::has_tension) sets the axial forces of the state.
+    /// Evaluates the effect at `state`, and adds its forces to [`Chain::inside`]. An effect with a
+    /// [tension](Effect::has_tension) sets the axial forces of the state, unless they count as they are.
     fn force(&mut self, _chain: &mut Chain, _state: &mut State, _under: &Under<'_>) {}
 
     /// Adds the derivative of these forces by the motion at `state`, with the factors of the iteration `at`.
@@ -36,8 +35,8 @@ pub(crate) trait Effect {
         0.0
     }
 
-    /// Whether the axial forces of the pipe's spans are its own: those of an energy, which the geometric stiffness then has no
-    /// part in, and with a part in the tangent.
+    /// Whether the axial forces of the pipe's spans come from the energy of this effect. Its tangent then has their geometric
+    /// stiffness, and the energy of the spans has none.
     fn has_tension(&self) -> bool {
         false
     }

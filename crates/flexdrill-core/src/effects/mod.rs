@@ -1,7 +1,7 @@
 //! What acts inside the spans of the tool beyond beams and contacts: a file each, with law, switch, force, tangent and energy.
 //!
 //! The list below is the only place that names them all. They act in its order, so that sums have one order too. A new effect
-//! is a file that implements [`Effect`] with a constructor `of`, which gives none where the tool has it not, and a line here.
+//! is a file that implements [`Effect`], with a constructor `of` that gives `None` for a tool without it, and a line here.
 
 pub(crate) mod mud;
 pub(crate) mod mud_wall;

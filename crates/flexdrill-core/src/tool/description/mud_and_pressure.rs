@@ -38,7 +38,7 @@ pub enum PressureEnd {
     Held,
 }
 
-/// The mud around the pipes, in `elements/mud.rs`.
+/// The mud around the pipes, in `effects/mud.rs`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MudDescription {
     /// Density (kg/m3).
@@ -64,7 +64,7 @@ pub enum AddedMass {
     None,
     /// As with small motion about the centre of each annulus.
     Concentric,
-    /// More near the wall, in `elements/mud_wall.rs`.
+    /// More near the wall, in `effects/mud_wall/`.
     Eccentric,
 }
 
@@ -86,6 +86,6 @@ pub enum MudFilm {
     /// As about the centre.
     #[default]
     None,
-    /// The full film of lubrication, in `elements/mud_wall.rs`.
+    /// The full film of lubrication, in `effects/mud_wall/`.
     Squeeze,
 }

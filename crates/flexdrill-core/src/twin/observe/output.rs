@@ -63,7 +63,7 @@ impl Observer {
                 guide: vec![[0.0; 2]; model.stations.len()],
             },
             reactions: new_reactions(model),
-            // What is left keeps its default until the first fill.
+            // All other fields keep their defaults until the first fill.
             ..Snapshot::default()
         };
         // Reports of the analysis have their own arrays, which take their sizes in the same way.
