@@ -11,8 +11,8 @@ need_rust
 cd "$root"
 target=${CARGO_TARGET_DIR:-target}/step_path
 # Valgrind reads the fourth version of debugging information; inlined functions keep their files in it.
-RUSTFLAGS="-C dwarf-version=4" CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_DEBUG=2 CARGO_PROFILE_RELEASE_LTO=off \
-    cargo build --quiet --release --locked --package flexdrill-measurements --example step_path --target-dir "$target"
+RUSTFLAGS="-C dwarf-version=4" CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_DEBUG=2 CARGO_PROFILE_RELEASE_STRIP=none \
+    CARGO_PROFILE_RELEASE_LTO=off cargo build --quiet --release --locked --package flexdrill-measurements --example step_path --target-dir "$target"
 program=$target/release/examples/step_path
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -26,12 +26,14 @@ calls, core = sys.argv[1:]
 names, cost, current, inherited = {}, collections.Counter(), None, False
 for line in open(calls, errors="replace"):
     line = line.rstrip("\n")
-    found = re.match(r"(fl|fi|fe)=\((\d+)\)(?: (.*))?$", line)
+    # A file gets its number where it is first named, which may be where a function of it is called.
+    found = re.match(r"c?f[lie]=\((\d+)\)(?: (.*))?$", line)
     if found:
-        _, number, name = found.groups()
+        number, name = found.groups()
         if name:
             names[number] = name
-        current = names.get(number)
+        if not line.startswith("c"):
+            current = names.get(number)
     elif line.startswith("calls="):
         # The next line is the cost of what is called, which is counted there.
         inherited = True

@@ -12,7 +12,7 @@ use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Intake;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::phases::{Phase as StepPhase, PhaseTimes};
-use flexdrill_core::dynamics::{EnergyAudit, StepFailure};
+use flexdrill_core::dynamics::{Energies, StepFailure};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{ModelQuality, Snapshot, SolverCounters};
 use flexdrill_realtime::link::{Gauges, RunState};
@@ -40,7 +40,7 @@ pub struct StatusKeeper {
     phases_before: (PhaseTimes, u64),
     /// Encoding and sending frames since the message before (ns).
     publishing: u64,
-    energy: EnergyAudit,
+    energy: Energies,
     quality: ModelQuality,
     depths: Vec<f64>,
     counters_step: u64,
@@ -99,7 +99,7 @@ impl StatusKeeper {
             counters_before: Default::default(),
             phases_before: Default::default(),
             publishing: 0,
-            energy: EnergyAudit::default(),
+            energy: Energies::default(),
             quality: ModelQuality::default(),
             depths: Vec::new(),
             counters_step: 0,

@@ -1,6 +1,7 @@
 //! What the mechanics, the analysis of its motion and their users share: unit conversions, the two pipes and locations on
-//! them, and the checks of numbers. The crate depends on no other of the workspace.
+//! them, the terms of the energy ledger, and the checks of numbers. The crate depends on no other of the workspace.
 
+pub mod energies;
 mod location;
 pub mod units;
 pub mod validation;

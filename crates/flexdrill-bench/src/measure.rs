@@ -6,7 +6,7 @@ use super::figures::Figures;
 use flexdrill_config::Config;
 use flexdrill_core::Instructions;
 use flexdrill_core::dynamics::phases::{Phase, PhaseTimes};
-use flexdrill_core::dynamics::{EnergyAudit, StepFailure, StepOutcome};
+use flexdrill_core::dynamics::{Energies, StepFailure, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::step::SolverKind;
 use flexdrill_core::twin::{Simulation, Snapshot, SolverCounters};
@@ -54,7 +54,7 @@ pub struct Measured {
     /// Most corrections of a step.
     pub most_iterations: u32,
     /// Energy since the start.
-    pub energy: EnergyAudit,
+    pub energy: Energies,
     /// Figures of the motion.
     pub figures: Figures,
     /// The last snapshot.

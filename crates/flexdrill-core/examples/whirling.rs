@@ -7,7 +7,7 @@
 //!
 //! PARTS is 0 for whole steps, 1 for halves, 2 for quarters. Three runs, whose weights on bit differ by 1 N.
 
-use flexdrill_core::dynamics::EnergyAudit;
+use flexdrill_core::dynamics::Energies;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::ToolDescription;
 use flexdrill_core::twin::{Simulation, SimulationSettings, Snapshot};
@@ -118,8 +118,8 @@ impl Motion {
 }
 
 /// Power of what takes energy, and the audit's error over the drive's work.
-fn losses(before: &EnergyAudit, after: &EnergyAudit) -> String {
-    let power = |of: fn(&EnergyAudit) -> f64| (of(after) - of(before)) / JUDGED;
+fn losses(before: &Energies, after: &Energies) -> String {
+    let power = |of: fn(&Energies) -> f64| (of(after) - of(before)) / JUDGED;
     format!(
         "drive {:.0} W, friction {:.1}, collisions {:.1}, Rayleigh {:.1}, numerical {:.1}, error {:.2} %",
         power(|e| e.drive),

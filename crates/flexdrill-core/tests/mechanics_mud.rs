@@ -156,7 +156,7 @@ fn the_audit_closes_while_drilling_in_mud() {
         *simulation.energy()
     };
     let (dry, wet) = (run(None), run(Some(MUD)));
-    let share = |audit: &flexdrill_core::dynamics::EnergyAudit| (audit.error / audit.drive).abs();
+    let share = |audit: &flexdrill_core::dynamics::Energies| (audit.error / audit.drive).abs();
     assert_eq!(dry.mud, 0.0);
     assert!(wet.mud > 0.0, "{wet:?}");
     // Collisions make the error, of either sign: 1 % of the drive's work is ten times what either run has.

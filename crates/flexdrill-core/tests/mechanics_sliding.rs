@@ -10,7 +10,7 @@
 mod support;
 
 use flexdrill_core::Instructions;
-use flexdrill_core::dynamics::{EnergyAudit, StepOutcome};
+use flexdrill_core::dynamics::{Energies, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::step::SolverKind;
 use flexdrill_core::tool::{FrictionLaw, ToolDescription, WeightPlace};
@@ -51,7 +51,7 @@ fn advance(simulation: &mut Simulation, inputs: &Inputs, steps: u64) {
     }
 }
 
-fn balance(audit: &EnergyAudit) -> f64 {
+fn balance(audit: &Energies) -> f64 {
     let into = audit.drive + audit.weight_on_bit + audit.gravity + audit.loads + audit.feed + audit.axial_update;
     let taken = audit.bit + audit.friction + audit.contact_damping + audit.rayleigh_damping + audit.numerical_damping;
     into - taken - audit.stored

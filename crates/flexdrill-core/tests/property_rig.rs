@@ -10,7 +10,7 @@
 
 mod support;
 
-use flexdrill_core::dynamics::{EnergyAudit, StepOutcome};
+use flexdrill_core::dynamics::{Energies, StepOutcome};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
     AddedMass, DepthOfCut, Direction, Feed, FrictionLaw, Hoist, Location, MudDamping, MudDescription, MudFilm, Piece,
@@ -172,7 +172,7 @@ struct Seen {
 }
 
 /// Sum of the magnitudes of what was put in and taken (J).
-fn moved(energy: &EnergyAudit) -> f64 {
+fn moved(energy: &Energies) -> f64 {
     [
         energy.drive,
         energy.hoist,

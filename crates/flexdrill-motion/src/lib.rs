@@ -57,8 +57,7 @@ pub use settings::{InputTrust, WhirlSettings};
 pub use shock::{MOST_REPEATS, ShockSettings, ShockWatch, Shocks};
 pub use stick_slip::{StickSlip, StickSlipSettings};
 pub use transfer::{
-    Along, BIT, EnergyTerms, KICK_OFF, SURFACE, Transfer, TransferLevel, TransferSample, TransferSettings,
-    TransferWatch,
+    Along, BIT, KICK_OFF, SURFACE, Transfer, TransferLevel, TransferSample, TransferSettings, TransferWatch,
 };
 pub use watched_station::{StationSample, WatchedStation};
 pub use whirl::WhirlAnalysis;

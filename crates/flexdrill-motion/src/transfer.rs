@@ -13,12 +13,13 @@ mod figures;
 #[cfg(test)]
 mod tests;
 
-pub use figures::{Along, EnergyTerms, Transfer, TransferLevel, TransferSample};
-use figures::{TERMS, VALUES};
+use figures::VALUES;
+pub use figures::{Along, Transfer, TransferLevel, TransferSample};
 
 use serde::{Deserialize, Serialize};
 
 use super::hysteresis::{Alarm, AlarmThresholds};
+use flexdrill_base::energies::Energies;
 use flexdrill_base::units::kn_to_n;
 
 /// Blocks per window: a tenth of a second each in the default window of 5 s.
@@ -151,7 +152,7 @@ struct Block {
     integrals: [f64; VALUES],
     /// Of the squares of torques, weights and the speed of the tool's top.
     squares: [f64; 7],
-    energies: [f64; TERMS],
+    energies: [f64; Energies::COUNT],
 }
 
 impl Block {
@@ -159,7 +160,7 @@ impl Block {
         duration: 0.0,
         integrals: [0.0; VALUES],
         squares: [0.0; 7],
-        energies: [0.0; TERMS],
+        energies: [0.0; Energies::COUNT],
     };
 
     fn add(&mut self, other: &Self) {
@@ -190,7 +191,7 @@ pub struct TransferWatch {
     filled: usize,
     current: Block,
     /// The audit at the start of the current block (J).
-    before: [f64; TERMS],
+    before: [f64; Energies::COUNT],
     /// Time for which the drive has turned steadily (s).
     judged_for: f64,
     /// Response time of the hoist (s).
@@ -217,7 +218,7 @@ impl TransferWatch {
             next: 0,
             filled: 0,
             current: Block::EMPTY,
-            before: [0.0; TERMS],
+            before: [0.0; Energies::COUNT],
             judged_for: 0.0,
             response,
             asked: 0.0,
@@ -233,7 +234,7 @@ impl TransferWatch {
 
     /// Takes the readings of a step of `dt` (s) that ends at model time `time` (s), with the energies since the start (J)
     /// then. While the drive does not turn steadily (`judged` is false) no level rises.
-    pub fn push(&mut self, time: f64, dt: f64, sample: &TransferSample, energies: &EnergyTerms, judged: bool) {
+    pub fn push(&mut self, time: f64, dt: f64, sample: &TransferSample, energies: &Energies, judged: bool) {
         let values = sample.values();
         let block = &mut self.current;
         block.duration += dt;
@@ -316,7 +317,7 @@ impl TransferWatch {
             } else {
                 f64::NAN
             },
-            power: EnergyTerms::of(total.energies.map(|energy| energy / total.duration)),
+            power: Energies::of(total.energies.map(|energy| energy / total.duration)),
         };
     }
 
@@ -445,7 +446,7 @@ impl TransferWatch {
     pub fn reset(&mut self) {
         self.blocks.fill(Block::EMPTY);
         (self.next, self.filled, self.judged_for) = (0, 0, 0.0);
-        (self.current, self.before) = (Block::EMPTY, [0.0; TERMS]);
+        (self.current, self.before) = (Block::EMPTY, [0.0; Energies::COUNT]);
         let settings = &self.settings;
         (self.asked, self.asked_for, self.stalled_for) = (0.0, 0.0, 0.0);
         (self.weight, self.short) = (Condition::calm(&settings.weight), Condition::calm(&settings.short));

@@ -1,6 +1,6 @@
 //! The record of a run for the figures: sampled series at every station, and sums over every step.
 
-use flexdrill_core::dynamics::EnergyAudit;
+use flexdrill_core::dynamics::Energies;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{Simulation, SolverCounters, StationGeometry};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
@@ -162,7 +162,7 @@ pub struct Record {
     /// Torque of the drive (N m).
     pub drive_torque: Vec<f64>,
     /// Energy from the start of the run to its end.
-    pub energy: EnergyAudit,
+    pub energy: Energies,
     /// Counters of the solver.
     pub solver: SolverCounters,
     /// Steps of the whole run.

@@ -54,7 +54,7 @@ pub enum Values {
 impl Values {
     fn of(read: Read) -> Self {
         match read {
-            Read::Number(_) | Read::List(_) | Read::Pairs(_) | Read::Triples(_) | Read::Few(_) => {
+            Read::Number(_) | Read::Energy(_) | Read::List(_) | Read::Pairs(_) | Read::Triples(_) | Read::Few(_) => {
                 Self::Real(Vec::new())
             }
             Read::Code(_) | Read::Codes(_) => Self::Code(Vec::new()),
@@ -65,6 +65,7 @@ impl Values {
     fn take(&mut self, read: Read, snapshot: &Snapshot) {
         match (self, read) {
             (Self::Real(out), Read::Number(read)) => out.push(read(snapshot)),
+            (Self::Real(out), Read::Energy(read)) => out.push(read(&snapshot.energy)),
             (Self::Real(out), Read::List(read)) => out.extend_from_slice(read(snapshot)),
             (Self::Real(out), Read::Pairs(read)) => out.extend_from_slice(read(snapshot).as_flattened()),
             (Self::Real(out), Read::Triples(read)) => out.extend_from_slice(read(snapshot).as_flattened()),
@@ -217,7 +218,7 @@ impl Kept {
         let of_sample = self.values.len().checked_div(along_time).unwrap_or(0);
         let mut shape = if self.column.fixed { Vec::new() } else { vec![samples] };
         match self.column.read {
-            Read::Number(_) | Read::Code(_) | Read::Count(_) => {}
+            Read::Number(_) | Read::Energy(_) | Read::Code(_) | Read::Count(_) => {}
             Read::List(_) | Read::Codes(_) | Read::Few(_) | Read::Indices(_) => shape.push(of_sample),
             Read::Pairs(_) => shape.extend([of_sample / 2, 2]),
             Read::Triples(_) => shape.extend([of_sample / 3, 3]),

@@ -10,7 +10,7 @@
 use super::nodes::Node;
 use super::precision::{Lanes, Precision};
 use super::{Chain, GUIDE, NODE, U};
-use crate::dynamics::energy::JointForces;
+use crate::dynamics::carried::JointForces;
 use crate::dynamics::interactions::{Joints, pin_lanes, rotations};
 use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;

@@ -5,7 +5,7 @@ use super::Chain;
 use super::precision::Precision;
 use super::tangent::Additions;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
@@ -31,7 +31,7 @@ pub(crate) trait Effect {
 
     /// Adds to `point` what it stores, takes and moves in the whole tool. Gives the energy that it stores (J), the kinetic one
     /// left out, which it adds to `point`.
-    fn energy(&self, _chain: &Chain, _point: &mut EnergyPoint) -> f64 {
+    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint) -> f64 {
         0.0
     }
 

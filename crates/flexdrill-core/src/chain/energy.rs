@@ -1,4 +1,5 @@
-//! The energy audit's point over the chain: elements and friction; the rest is shared with the whole tool.
+//! What the chain carries, and its point of the energy ledger: elements and friction; the rest is shared with the whole
+//! tool.
 
 use nalgebra::Vector3;
 
@@ -6,8 +7,9 @@ use super::columns::{EndColumn, TENSION, around, at_ends, ends, load, product, s
 use super::contacts::{OnSpan, at_radius, plus_rows};
 use super::{Chain, Effect, Under};
 
+use crate::dynamics::carried::{Carried, JointForces};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::{EnergyPoint, SpanForces, SpanWorks};
+use crate::dynamics::energy::{LedgerPoint, SpanForces, SpanWorks};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
 use crate::model::{HeldNode, Model};
@@ -15,11 +17,13 @@ use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
 impl Chain {
-    /// Evaluates `point` at `state`, at which the residual was evaluated last.
+    /// Evaluates `carried` and `point` at `state`, at which the residual was evaluated last.
+    #[expect(clippy::too_many_arguments, reason = "two results, from all that the residual had")]
     pub(crate) fn energy(
         &mut self,
         effects: &impl Effect,
-        point: &mut EnergyPoint,
+        carried: &mut Carried,
+        point: &mut LedgerPoint,
         model: &Model,
         state: &State,
         conditions: &Conditions,
@@ -31,6 +35,7 @@ impl Chain {
             at_top: model.pressure_at_top(conditions.standpipe_pressure),
             has_tension: effects.has_tension(),
             chain: self,
+            joints: &mut carried.joints,
             point,
             state,
             conditions,
@@ -45,20 +50,20 @@ impl Chain {
             stored -= force * q;
         }
         stored += of_effects;
-        stored += point.kinetic + self.model.numbered(model).hanger_energy(state);
+        stored += point.sums.kinetic + self.model.numbered(model).hanger_energy(state);
         point.friction.fill(0.0);
-        point.contact_dissipation = 0.0;
+        point.sums.contact_dissipation = 0.0;
         stored += instructions.run(Friction {
             chain: self,
             point,
             model,
             interactions,
         });
-        self.deflect_spans(&mut point.deflection, model, interactions);
-        point.joints.multipliers.copy_from_slice(&self.multipliers);
+        self.deflect_spans(&mut carried.deflection, model, interactions);
+        carried.joints.multipliers.copy_from_slice(&self.multipliers);
         let numbered = self.model.numbered(model);
-        point.finish(stored, &numbered, conditions, interactions, &self.residual);
-        self.reactions_inside_a_fixed_guide(effects, point, model, state, conditions, interactions);
+        point.finish(stored, &numbered, conditions, interactions, &self.residual, carried);
+        self.reactions_inside_a_fixed_guide(effects, carried, model, state, conditions, interactions);
     }
 }
 
@@ -68,7 +73,7 @@ impl Chain {
     fn reactions_inside_a_fixed_guide(
         &self,
         effects: &impl Effect,
-        point: &mut EnergyPoint,
+        carried: &mut Carried,
         model: &Model,
         state: &State,
         conditions: &Conditions,
@@ -87,14 +92,14 @@ impl Chain {
         // The weight begins the sum: without contacts and effects the support carries nothing else.
         for at in model.held_nodes.iter().filter(inside) {
             for index in at.held.clone() {
-                point.reactions[index] = -model.weight[model.held[index]];
+                carried.reactions[index] = -model.weight[model.held[index]];
             }
             let on_guide = effects.on_guide(self, at.station, state, &under);
             for index in at.held.clone() {
                 let k = model.held[index] - at.node;
                 // Effects act across the hole only.
                 if matches!(k, 1 | 2) {
-                    point.reactions[index] -= on_guide[k - 1];
+                    carried.reactions[index] -= on_guide[k - 1];
                 }
             }
         }
@@ -109,7 +114,7 @@ impl Chain {
                 };
                 // Where the chain has the node, its reaction comes from the residual.
                 if self.model.places.held[first].is_none() {
-                    let reactions = &mut point.reactions[first..first + 6];
+                    let reactions = &mut carried.reactions[first..first + 6];
                     for (reaction, force) in reactions.iter_mut().zip(at_radius(&touch.force(), radius)) {
                         *reaction += sign * force;
                     }
@@ -139,12 +144,13 @@ static SPIN: [[f64; 8]; 2] = [
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
 ];
 
-/// Forces of the spans and their kinetic energy into `point`. Gives the elastic and geometric energy (J).
+/// Forces of the spans and their kinetic energy into `point`, what their tops carry into `joints`. Gives the elastic and geometric energy (J).
 struct SpanEnergies<'a> {
     chain: &'a mut Chain,
     /// Whether the axial forces of the pipe's spans are those of an effect's energy.
     has_tension: bool,
-    point: &'a mut EnergyPoint,
+    joints: &'a mut JointForces,
+    point: &'a mut LedgerPoint,
     state: &'a State,
     conditions: &'a Conditions,
     /// Pressure in the pipe at the tool's top (Pa).
@@ -159,6 +165,7 @@ impl Kernel for SpanEnergies<'_> {
         let Self {
             chain,
             has_tension,
+            joints,
             point,
             state,
             conditions,
@@ -250,7 +257,7 @@ impl Kernel for SpanEnergies<'_> {
                     let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
                     // A joint carries what the span below needs at its top,
                     // contacts included, less weight and pressure there.
-                    for (i, top) in point.joints.on_top[l].iter_mut().enumerate() {
+                    for (i, top) in joints.on_top[l].iter_mut().enumerate() {
                         let inside = if chain.has_inside[l] {
                             chain.inside[l][0][i]
                         } else {
@@ -267,10 +274,10 @@ impl Kernel for SpanEnergies<'_> {
             }
         }
         // Quadratic forms: half of displacement times force, and of velocity times momentum.
-        point.kinetic = 0.5 * sum(kinetic);
-        point.geometric_energy = 0.5 * sum(geometric);
-        point.foresight = sum(foreseen);
-        0.5 * sum(elastic) + point.geometric_energy
+        point.sums.kinetic = 0.5 * sum(kinetic);
+        point.sums.geometric_energy = 0.5 * sum(geometric);
+        point.sums.foresight = sum(foreseen);
+        0.5 * sum(elastic) + point.sums.geometric_energy
     }
 }
 
@@ -336,7 +343,7 @@ impl Kernel for MeanSpanWorks<'_> {
 /// Friction of all contacts into `point`, with the power of their damping. Gives the energy in their springs (J).
 struct Friction<'a> {
     chain: &'a Chain,
-    point: &'a mut EnergyPoint,
+    point: &'a mut LedgerPoint,
     model: &'a Model,
     interactions: &'a Interactions,
 }
@@ -363,7 +370,7 @@ impl Kernel for Friction<'_> {
             on.iter_mut().for_each(|x| *x = -*x);
             add_to_ends(&mut point.friction, l, 1, &on);
             stored += touch.energy;
-            point.contact_dissipation += touch.dissipation;
+            point.sums.contact_dissipation += touch.dissipation;
         }
         let mut sum = OnSpan::<V>::new();
         let mut on = [0.0; 16];
@@ -377,7 +384,7 @@ impl Kernel for Friction<'_> {
             let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
             sum.add(rows, &at_radius(&touch.friction_force(), model.guide_radii[1]));
             stored += touch.energy;
-            point.contact_dissipation += touch.dissipation;
+            point.sums.contact_dissipation += touch.dissipation;
         }
         let span = sum.span;
         store(sum.next(span), &mut on);

@@ -6,8 +6,9 @@ use super::geometric::add_geometric;
 use super::precision::Precision;
 use super::residual::Evaluation;
 use super::{Chain, NODE};
+use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
@@ -41,11 +42,24 @@ impl<E: Effect> ChainEquations<'_, E> {
         self.residual_by(evaluation, to, conditions);
     }
 
-    /// Evaluates `point` at `state`, at which the residual was evaluated last.
-    pub(crate) fn energy(&mut self, point: &mut EnergyPoint, state: &State, conditions: &Conditions) {
+    /// Evaluates what the tool carries, and the `point` of the ledger, at `state`, at which the residual was evaluated last.
+    pub(crate) fn energy(
+        &mut self,
+        carried: &mut Carried,
+        point: &mut LedgerPoint,
+        state: &State,
+        conditions: &Conditions,
+    ) {
         self.stopwatch.lap(Phase::Assembly);
-        self.chain
-            .energy(self.effects, point, self.model, state, conditions, self.interactions);
+        self.chain.energy(
+            self.effects,
+            carried,
+            point,
+            self.model,
+            state,
+            conditions,
+            self.interactions,
+        );
     }
 
     /// Evaluates the residual at `to`: spans, contacts, effects, what is attached, joints, in this order.

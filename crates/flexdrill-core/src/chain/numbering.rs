@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::columns::{EndForces, ends};
 use super::nodes::Nodes;
 use super::{Chain, ChainModel, GUIDE, NODE, TIE, U};
-use crate::dynamics::energy::JointForces;
+use crate::dynamics::carried::JointForces;
 use crate::dynamics::state::{State, bristles};
 use crate::model::Model;
 use crate::simd::Kernel;

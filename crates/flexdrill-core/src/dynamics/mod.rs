@@ -1,5 +1,6 @@
 //! The tool in motion: state, time scheme, Newton, interactions, energy.
 
+pub(crate) mod carried;
 pub(crate) mod conditions;
 pub(crate) mod energy;
 pub(crate) mod interactions;
@@ -12,6 +13,7 @@ pub(crate) mod state;
 pub(crate) mod tolerances;
 pub(crate) mod view;
 
-pub use outcome::{EnergyAudit, FailureCause, StepFailure, StepOutcome};
+pub use flexdrill_base::energies::Energies;
+pub use outcome::{FailureCause, StepFailure, StepOutcome};
 pub use scheme::Scheme;
 pub use state::State;

@@ -12,7 +12,7 @@ pub(crate) mod slots;
 mod tests;
 
 use crate::chain::{Acting, Additions, Chain, Effect, Precision, Under};
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
@@ -48,7 +48,7 @@ macro_rules! effects {
                 })+
             }
 
-            fn energy(&self, chain: &Chain, point: &mut EnergyPoint) -> f64 {
+            fn energy(&self, chain: &Chain, point: &mut LedgerPoint) -> f64 {
                 let mut stored = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
                     stored += effect.energy(chain, point);

@@ -23,7 +23,7 @@
 
 use crate::chain::columns::{EndColumn, TENSION, at_ends, product, store};
 use crate::chain::{Additions, BOTTOM, Chain, Effect, Precision, TOP, Touching, Under, row};
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
@@ -211,12 +211,12 @@ impl Effect for Shortened {
         });
     }
 
-    fn energy(&self, chain: &Chain, point: &mut EnergyPoint) -> f64 {
+    fn energy(&self, chain: &Chain, point: &mut LedgerPoint) -> f64 {
         let mut energy = 0.0;
-        point.lifted_by_pressure = 0.0;
+        point.sums.lifted_by_pressure = 0.0;
         for (l, stretch) in self.stretches.iter().enumerate() {
             energy += stretch.energy;
-            point.lifted_by_pressure += stretch.shortening * chain.model.links[l].on_strain;
+            point.sums.lifted_by_pressure += stretch.shortening * chain.model.links[l].on_strain;
             let damping = &mut point.spans[l].damping[0];
             add_times(damping, &chain.geometric_forces[l][0], stretch.damped);
             add_times(damping, &chain.model.kind(l).tension[0], stretch.damped_shortening);

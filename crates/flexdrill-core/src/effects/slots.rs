@@ -23,7 +23,7 @@
 use std::sync::Arc;
 
 use crate::chain::{Additions, Chain, Effect, GUIDE, NODE, Precision, Touching, Under};
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::effects::preload::{change_of_curvature, path_curvature};
@@ -252,7 +252,7 @@ impl Effect for SlottedGuide {
         }
     }
 
-    fn energy(&self, _chain: &Chain, _point: &mut EnergyPoint) -> f64 {
+    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint) -> f64 {
         self.closed.iter().flatten().map(|closed| closed.energy).sum()
     }
 

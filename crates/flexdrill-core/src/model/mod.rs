@@ -206,6 +206,15 @@ impl Model {
             .map_or(0.0, |pressure| pressure.at_top(standpipe))
     }
 
+    /// Number of joints whose pins have friction.
+    pub fn joints_with_friction(&self) -> usize {
+        if self.description.joint.friction.coefficient > 0.0 {
+            self.joints.len()
+        } else {
+            0
+        }
+    }
+
     /// Number of unknowns, padding included.
     pub fn unknowns(&self) -> usize {
         self.layout.unknowns()

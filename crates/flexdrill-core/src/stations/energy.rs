@@ -4,13 +4,14 @@ use super::Assembler;
 use super::axial::{add, element_values};
 use super::contacts::{add_mud_forces, inner_forces, mud_motions, outer_force};
 use super::slots::slots_energy;
+use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, joint_rotations};
 use crate::model::Model;
 
-impl EnergyPoint {
+impl LedgerPoint {
     /// Forces and kinetic energy of the elements. Gives their elastic and geometric energy (J).
     fn add_elements(&mut self, assembler: &Assembler, model: &Model, state: &State, conditions: &Conditions) -> f64 {
         self.geometric.fill(0.0);
@@ -58,15 +59,16 @@ impl EnergyPoint {
             );
             add(&mut self.inertia, element.nodes, &(element.mass * a));
         }
-        self.kinetic = 0.5 * kinetic;
-        self.geometric_energy = 0.5 * geometric;
-        self.foresight = foreseen;
-        0.5 * elastic + self.geometric_energy
+        self.sums.kinetic = 0.5 * kinetic;
+        self.sums.geometric_energy = 0.5 * geometric;
+        self.sums.foresight = foreseen;
+        0.5 * elastic + self.sums.geometric_energy
     }
 
     /// Evaluates at `state`, whose residual (reactions still in it) the assembler holds.
     pub fn evaluate(
         &mut self,
+        carried: &mut Carried,
         model: &Model,
         state: &State,
         conditions: &Conditions,
@@ -86,9 +88,9 @@ impl EnergyPoint {
         }
         self.add_mud(model, state, conditions);
         self.add_masses(&numbered, state, conditions);
-        stored += self.kinetic + numbered.hanger_energy(state);
+        stored += self.sums.kinetic + numbered.hanger_energy(state);
         self.friction.fill(0.0);
-        self.contact_dissipation = 0.0;
+        self.sums.contact_dissipation = 0.0;
         for (s, touch) in interactions.inner.iter() {
             let station = &model.stations[s];
             let (pipe, guide) = inner_forces(model, station, &touch.friction_force().into());
@@ -97,16 +99,23 @@ impl EnergyPoint {
                 self.friction[station.guide + k] += guide[k];
             }
             stored += touch.energy;
-            self.contact_dissipation += touch.dissipation;
+            self.sums.contact_dissipation += touch.dissipation;
         }
         for (s, touch) in interactions.outer.iter() {
             let guide = outer_force(model, &touch.friction_force().into());
             let first = model.stations[s].guide;
             (0..6).for_each(|k| self.friction[first + k] += guide[k]);
             stored += touch.energy;
-            self.contact_dissipation += touch.dissipation;
+            self.sums.contact_dissipation += touch.dissipation;
         }
-        self.finish(stored, &numbered, conditions, interactions, &assembler.residual);
+        self.finish(
+            stored,
+            &numbered,
+            conditions,
+            interactions,
+            &assembler.residual,
+            carried,
+        );
     }
 
     /// Adds kinetic energy, inertia and damping of the mud at all stations, in the numbering of the model.
@@ -118,7 +127,7 @@ impl EnergyPoint {
         // The momentum first, from which the kinetic energy follows.
         self.mud.fill(0.0);
         model.add_mud_forces(&mut self.mud, |mud| mud.mass, |unknown| state.v[unknown]);
-        self.kinetic += 0.5 * self.mud.iter().zip(&state.v).map(|(p, v)| p * v).sum::<f64>();
+        self.sums.kinetic += 0.5 * self.mud.iter().zip(&state.v).map(|(p, v)| p * v).sum::<f64>();
         let damped = self.damping.iter_mut().zip(&self.mud);
         damped.for_each(|(force, momentum)| *force += alpha * momentum);
         model.add_mud_forces(&mut self.inertia, |mud| mud.mass, |unknown| state.a[unknown]);
@@ -128,7 +137,7 @@ impl EnergyPoint {
         for (station, near) in model.stations.iter().zip(near_wall) {
             let motions = mud_motions(model, station, state);
             let taken = [0, 1].map(|k| near[k].take(&motions[k]));
-            self.kinetic += taken[0].energy + taken[1].energy;
+            self.sums.kinetic += taken[0].energy + taken[1].energy;
             add_mud_forces(&mut self.inertia, station, taken.map(|taken| taken.inertia));
             add_mud_forces(&mut self.mud, station, taken.map(|taken| taken.film));
         }

@@ -4,7 +4,7 @@ use super::assembler::Assembler;
 use super::linear::BlockSystem;
 use super::tangent::add_pipe_element;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::state::State;
 use crate::effects::shortening::{Stretch, StretchTangent};
 use crate::elements::beam::ElementVector;
@@ -103,12 +103,12 @@ pub(crate) fn add_shortening_tangent(
     }
 }
 
-impl EnergyPoint {
+impl LedgerPoint {
     /// Adds the damping of the pipe's elements beyond that of the linear ones, and what their shortening lifts of the
     /// pressure's force. Gives their elastic energy beyond that (J).
     pub(crate) fn add_shortening(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
         let mut energy = 0.0;
-        self.lifted_by_pressure = 0.0;
+        self.sums.lifted_by_pressure = 0.0;
         for e in 0..model.pipe.len() {
             let at = Stretched::of(model, e, state, conditions);
             let (along, across) = (at.stretch.damped_shortening, at.stretch.damped);
@@ -117,7 +117,7 @@ impl EnergyPoint {
             });
             energy += at.stretch.energy;
             if let Some(pressure) = &model.pressure {
-                self.lifted_by_pressure += pressure.unstrained[e] * at.stretch.shortening;
+                self.sums.lifted_by_pressure += pressure.unstrained[e] * at.stretch.shortening;
             }
         }
         energy

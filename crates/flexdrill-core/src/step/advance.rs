@@ -7,7 +7,7 @@ use super::settings::Forcing;
 use super::sub_steps::SubSteps;
 use crate::chain::ChainEquations;
 use crate::dynamics::conditions::{Conditions, TopEnd};
-use crate::dynamics::energy::StepEnds;
+use crate::dynamics::energy::{StepEnd, StepWork};
 use crate::dynamics::newton::{self, Rejected, Stride};
 use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::Phase;
@@ -170,13 +170,13 @@ impl Stepper {
             string,
             ..
         } = self;
-        let (from, to, energy) = (&track.state, &mut track.trial, &mut track.trial_energy);
+        let (from, to) = (&track.state, &mut track.trial);
         // Spans are deflected by the forces at the start of the step.
-        to.deflection.copy_from_slice(&track.energy.deflection);
+        to.deflection.copy_from_slice(&track.carried.deflection);
         // Pins resist by the forces there, too.
         chain.set_pin_moments(
             &model.description.joint.friction,
-            &track.energy.joints,
+            &track.carried.joints,
             &mut to.pin_moments,
         );
         let mut equations = ChainEquations {
@@ -189,10 +189,10 @@ impl Stepper {
         // On failure nothing of the track has been taken, and the caller halves.
         let iterations = newton::step(&mut equations, &stride, &conditions, from, to)?;
         equations.interactions.keep_bristles(to);
-        equations.energy(energy, to, &conditions);
-        // The works of the audit are over these displacements.
+        equations.energy(&mut track.trial_carried, &mut track.trial_ledger, to, &conditions);
+        // The works of the ledger are over these displacements.
         track.measure_displacements();
-        let spans = chain.span_works(&track.moved, &track.energy.spans, &track.trial_energy.spans);
+        let spans = chain.span_works(&track.moved, &track.ledger.spans, &track.trial_ledger.spans);
         let numbered = chain.model.numbered(model);
         // From here on the part is accepted: bit and string take over their trial states.
         interactions.bit.accept();
@@ -200,17 +200,25 @@ impl Stepper {
             let (trial, places) = (&track.trial, numbered.places);
             let top = places.guide_top;
             string.accept(trial.v[places.top_spin], [trial.q[top], trial.v[top]]);
-            track.trial_energy.add_string(string);
+            track.trial_ledger.add_string(string);
         }
-        // The audit compares the ends of the part with their forces.
-        let ends = StepEnds {
+        // The ledger compares the ends of the part with their forces.
+        let work = StepWork {
             h: step,
             moved: &track.moved,
             spans,
-            before: (&track.state, &track.energy),
-            after: (&track.trial, &track.trial_energy),
+            before: StepEnd {
+                state: &track.state,
+                carried: &track.carried,
+                point: &track.ledger,
+            },
+            after: StepEnd {
+                state: &track.trial,
+                carried: &track.trial_carried,
+                point: &track.trial_ledger,
+            },
         };
-        self.audit.add_step(&numbered, &ends, self.instructions);
+        work.enter(&mut self.audit, &numbered, self.instructions);
         stopwatch.lap(Phase::Energy);
         track.take();
         Ok(iterations)

@@ -5,9 +5,9 @@ use super::advance::apply_string;
 use super::settings::Counters;
 use crate::chain::ChainEquations;
 use crate::dynamics::conditions::{Conditions, TopEnd};
-use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
 use crate::inputs::Inputs;
+use flexdrill_base::energies::Energies;
 
 /// Stiffness that holds the string's end while the tool comes to rest, in torsion (N m/rad) and along the hole (N/m): that
 /// of some metres of pipe, so that the end moves by micrometres.
@@ -49,7 +49,7 @@ impl Stepper {
         }
         self.begin_string(&mut conditions);
         self.evaluate(&conditions, false);
-        self.audit = EnergyAudit::default();
+        self.audit = Energies::default();
         self.counters = Counters::default();
         self.turns = 0.0;
         self.inputs = *inputs;
@@ -103,7 +103,7 @@ impl Stepper {
             track,
             ..
         } = self;
-        let (state, energy) = (&mut track.state, &mut track.energy);
+        let (state, carried, ledger) = (&mut track.state, &mut track.carried, &mut track.ledger);
         interactions.begin(state, 0.0);
         let mut equations = ChainEquations {
             model,
@@ -113,9 +113,9 @@ impl Stepper {
             stopwatch,
         };
         equations.evaluate(state, conditions, keep_axial);
-        equations.energy(energy, state, conditions);
+        equations.energy(carried, ledger, state, conditions);
         if let Some(string) = &self.string {
-            energy.add_string(string);
+            ledger.add_string(string);
         }
         self.view_is_current = false;
     }

@@ -5,8 +5,10 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::{Counters, Stepper};
-use crate::dynamics::energy::EnergyPoint;
-use crate::dynamics::outcome::EnergyAudit;
+use flexdrill_base::energies::Energies;
+
+use crate::dynamics::carried::Carried;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::state::State;
 use crate::elements::rock::BitState;
 use crate::elements::string::StringState;
@@ -17,8 +19,9 @@ use crate::tool::description::LiveParameters;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepperCheckpoint<'a> {
     state: Cow<'a, State>,
-    energy: Cow<'a, EnergyPoint>,
-    audit: EnergyAudit,
+    carried: Cow<'a, Carried>,
+    ledger: Cow<'a, LedgerPoint>,
+    audit: Energies,
     counters: Counters,
     live: LiveParameters,
     turns: f64,
@@ -33,7 +36,8 @@ impl Stepper {
     pub fn checkpoint(&self) -> StepperCheckpoint<'_> {
         StepperCheckpoint {
             state: Cow::Borrowed(&self.track.state),
-            energy: Cow::Borrowed(&self.track.energy),
+            carried: Cow::Borrowed(&self.track.carried),
+            ledger: Cow::Borrowed(&self.track.ledger),
             audit: self.audit,
             counters: self.counters,
             live: self.live,
@@ -51,7 +55,8 @@ impl Stepper {
         let same = checkpoint.state.q.len() == track.state.q.len()
             && checkpoint.state.pipe_axial.len() == track.state.pipe_axial.len()
             && checkpoint.state.bristles.len() == track.state.bristles.len()
-            && checkpoint.energy.fits(&track.energy)
+            && checkpoint.carried.fits(&track.carried)
+            && checkpoint.ledger.fits(&track.ledger)
             && self.interactions.bit.fits(&checkpoint.bit)
             && match (&self.string, &checkpoint.string) {
                 (Some(string), Some(saved)) => string.fits(saved),
@@ -73,7 +78,8 @@ impl Stepper {
             super::advance::apply_string(&mut conditions, &at, state.drive_angle);
         }
         self.evaluate(&conditions, true);
-        self.track.energy.copy_from(&checkpoint.energy);
+        self.track.carried.copy_from(&checkpoint.carried);
+        self.track.ledger.copy_from(&checkpoint.ledger);
         self.audit = checkpoint.audit;
         self.counters = checkpoint.counters;
         self.turns = checkpoint.turns;

@@ -10,7 +10,7 @@ impl Stepper {
     pub fn state(&self) -> State {
         let mut state = self.view.clone();
         self.chain
-            .show(&self.model, &self.track.state, &self.track.energy.joints, &mut state);
+            .show(&self.model, &self.track.state, &self.track.carried.joints, &mut state);
         state
     }
 
@@ -20,7 +20,7 @@ impl Stepper {
             self.chain.show(
                 &self.model,
                 &self.track.state,
-                &self.track.energy.joints,
+                &self.track.carried.joints,
                 &mut self.view,
             );
             self.view_is_current = true;
@@ -52,9 +52,9 @@ impl Stepper {
         BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
     }
 
-    /// Energy that the tool stores at the end of the last step, as its audit has it (J).
+    /// Energy that the tool stores at the end of the last step, as its ledger has it (J).
     #[cfg(test)]
     pub(crate) fn stored_energy(&self) -> f64 {
-        self.track.energy.stored
+        self.track.ledger.sums.stored
     }
 }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use crate::chain::{Chain, ChainEquations};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
-use crate::dynamics::outcome::{EnergyAudit, FailureCause, StepFailure};
+use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::phases::{PhaseTimes, Stopwatch};
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
@@ -33,6 +33,7 @@ use crate::model::{Model, Places};
 use crate::simd::Instructions;
 use crate::tool::description::{Body, LiveParameters, ToolDescription};
 use crate::validation::ValidationError;
+use flexdrill_base::energies::Energies;
 
 use sub_steps::most_attempts;
 use track::Track;
@@ -73,7 +74,7 @@ pub(crate) struct Stepper {
     /// The present state in the numbering of the model, as it was asked for last.
     view: State,
     view_is_current: bool,
-    audit: EnergyAudit,
+    audit: Energies,
     counters: Counters,
     /// Whole turns subtracted from the spins so far.
     turns: f64,
@@ -120,7 +121,7 @@ impl Stepper {
             track,
             view: State::at_rest(&model),
             view_is_current: false,
-            audit: EnergyAudit::default(),
+            audit: Energies::default(),
             counters: Counters::default(),
             turns: 0.0,
             inputs: Inputs::ZERO,
@@ -152,7 +153,7 @@ impl Stepper {
     }
 
     /// Energy since the start.
-    pub fn audit(&self) -> &EnergyAudit {
+    pub fn audit(&self) -> &Energies {
         &self.audit
     }
 
@@ -205,13 +206,13 @@ impl Stepper {
 
     /// Torque of the drive at the end of the last step (N m).
     pub fn drive_torque(&self) -> f64 {
-        self.track.energy.drive_torque
+        self.track.carried.drive_torque
     }
 
     /// Power taken by the pins of each joint at the end of the last step (W), top to bottom; none without friction in the
     /// joints.
     pub fn joint_friction(&self) -> &[f64] {
-        &self.track.energy.joint_friction
+        &self.track.carried.pin_power
     }
 
     /// Torque at the tool's top that the pins of all joints take at the end of the last step (N m): their power over the

@@ -46,7 +46,7 @@ impl Stepper {
         let mut parts = [Vector3::zeros(); 2];
         for index in at.held.clone() {
             let direction = self.model.held[index] - at.node;
-            parts[direction / 3] += at.frame.column(direction % 3) * self.track.energy.reactions[index];
+            parts[direction / 3] += at.frame.column(direction % 3) * self.track.carried.reactions[index];
         }
         parts
     }
@@ -103,7 +103,7 @@ impl Stepper {
             return Some(force);
         }
         // A seal pulls the guide and pushes the pipe by the same force, which both supports give back to the string.
-        let by_seal = self.model.pressure_on_guide()[0] * self.track.energy.pressure;
+        let by_seal = self.model.pressure_on_guide()[0] * self.track.carried.pressure;
         Some(self.held_at_guide_top()? + by_seal)
     }
 
@@ -111,7 +111,7 @@ impl Stepper {
     /// guide is not held there.
     fn held_at_guide_top(&self) -> Option<f64> {
         let index = self.model.held.binary_search(&self.model.stations[0].guide).ok()?;
-        Some(self.track.energy.reactions[index])
+        Some(self.track.carried.reactions[index])
     }
 
     /// The weight (N) that the hoist is asked for where `set` is asked for; `None` where no hoist is fed by a weight.
@@ -150,7 +150,7 @@ impl Stepper {
 
     /// Pressure in the pipe at the tool's top (Pa); 0 without it.
     pub fn pressure_at_top(&self) -> f64 {
-        self.track.energy.pressure
+        self.track.carried.pressure
     }
 
     /// Sum of the forces of the tensions in the geometric stiffness (N, along the axes of the world). Tensions alone have none:
@@ -162,7 +162,7 @@ impl Stepper {
 
     /// The sums of all forces on the tool from outside.
     pub fn outside_forces(&self) -> OutsideForces {
-        let (model, energy) = (&self.model, &self.track.energy);
+        let (model, energy) = (&self.model, &self.track.ledger);
         let bottom = &model.stations[model.last()];
         let wall = self.interactions.outer.iter().map(|(station, touch)| {
             let [x, y, z, ..] = touch.force();
@@ -192,7 +192,7 @@ impl Stepper {
                 + self.string_on_tool().unwrap_or_default(),
             weight: model.total_weight,
             wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
-            bit: bottom.frame.column(0) * -energy.weight_on_bit,
+            bit: bottom.frame.column(0) * -self.interactions.bit.weight,
             loads: loads.sum(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),
             damping: -sum(&energy.damping, |span| &span.damping) - mud,

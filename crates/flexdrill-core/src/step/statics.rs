@@ -2,8 +2,9 @@
 
 use super::Stepper;
 use crate::chain::Chain;
+use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::{self, Rejected, Singular, Stride};
 use crate::dynamics::outcome::StepFailure;
 use crate::dynamics::scheme::Scheme;
@@ -106,11 +107,12 @@ impl Stepper {
     /// A `state` of the chain of `tool` in the numbering of the model, with what its joints carry.
     fn in_full(&mut self, tool: &mut (Chain, Effects), state: &mut State, conditions: &Conditions) -> State {
         let mut full = State::at_rest(self.model());
-        let mut point = EnergyPoint::new(self.model(), tool.0.unknowns(), tool.0.spans());
+        let mut carried = Carried::new(self.model(), tool.0.spans());
+        let mut point = LedgerPoint::new(self.model(), tool.0.unknowns(), tool.0.spans());
         let mut equations = self.equations_of(tool);
         equations.evaluate(state, conditions, false);
-        equations.energy(&mut point, state, conditions);
-        tool.0.show(self.model(), state, &point.joints, &mut full);
+        equations.energy(&mut carried, &mut point, state, conditions);
+        tool.0.show(self.model(), state, &carried.joints, &mut full);
         full
     }
 

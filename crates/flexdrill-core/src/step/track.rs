@@ -1,6 +1,8 @@
-//! Where a motion is: the present state, the one that is tried, the one to go back to, each with its energies.
+//! Where a motion is: the present state, the one that is tried, the one to go back to, each with what it
+//! carries and its point of the energy ledger.
 
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::carried::Carried;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::state::State;
 use crate::model::Model;
 
@@ -10,9 +12,12 @@ pub(crate) struct Track {
     pub state: State,
     pub trial: State,
     before_step: State,
-    pub energy: EnergyPoint,
-    pub trial_energy: EnergyPoint,
-    energy_before_step: EnergyPoint,
+    pub carried: Carried,
+    pub trial_carried: Carried,
+    carried_before_step: Carried,
+    pub ledger: LedgerPoint,
+    pub trial_ledger: LedgerPoint,
+    ledger_before_step: LedgerPoint,
     /// Displacements of a step.
     pub moved: Vec<f64>,
 }
@@ -20,28 +25,34 @@ pub(crate) struct Track {
 impl Track {
     /// At `state`, over so many `spans` of a chain; over all stations there are none.
     pub fn new(model: &Model, state: State, spans: usize) -> Self {
-        let energy = EnergyPoint::new(model, state.q.len(), spans);
+        let carried = Carried::new(model, spans);
+        let ledger = LedgerPoint::new(model, state.q.len(), spans);
         Self {
             trial: state.clone(),
             before_step: state.clone(),
-            trial_energy: energy.clone(),
-            energy_before_step: energy.clone(),
+            trial_carried: carried.clone(),
+            carried_before_step: carried.clone(),
+            carried,
+            trial_ledger: ledger.clone(),
+            ledger_before_step: ledger.clone(),
+            ledger,
             moved: vec![0.0; state.q.len()],
             state,
-            energy,
         }
     }
 
     /// Keeps the present state for a retreat from the step.
     pub fn keep(&mut self) {
         self.before_step.copy_from(&self.state);
-        self.energy_before_step.copy_from(&self.energy);
+        self.carried_before_step.copy_from(&self.carried);
+        self.ledger_before_step.copy_from(&self.ledger);
     }
 
     /// Goes back to the state kept last.
     pub fn retreat(&mut self) {
         self.state.copy_from(&self.before_step);
-        self.energy.copy_from(&self.energy_before_step);
+        self.carried.copy_from(&self.carried_before_step);
+        self.ledger.copy_from(&self.ledger_before_step);
     }
 
     /// Makes [`Track::moved`] the displacements from the present state to the one that is tried.
@@ -55,6 +66,7 @@ impl Track {
     /// Takes the state that was tried as the present one.
     pub fn take(&mut self) {
         std::mem::swap(&mut self.state, &mut self.trial);
-        std::mem::swap(&mut self.energy, &mut self.trial_energy);
+        std::mem::swap(&mut self.carried, &mut self.trial_carried);
+        std::mem::swap(&mut self.ledger, &mut self.trial_ledger);
     }
 }

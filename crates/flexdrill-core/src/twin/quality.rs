@@ -10,7 +10,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::step_choice::{StepChoice, StepRule};
-use crate::dynamics::outcome::EnergyAudit;
+use crate::dynamics::Energies;
 
 /// Number of blocks in the sliding window.
 const BLOCKS: usize = 10;
@@ -170,14 +170,14 @@ pub(super) struct QualityWatch {
     current: usize,
     filled: usize,
     /// The audit at the end of the last step.
-    audit: EnergyAudit,
+    audit: Energies,
     quality: ModelQuality,
     better: u32,
 }
 
 impl QualityWatch {
     /// Takes the audit after a step of `dt` (s); returns whether the level has changed.
-    pub(super) fn push(&mut self, dt: f64, audit: &EnergyAudit) -> bool {
+    pub(super) fn push(&mut self, dt: f64, audit: &Energies) -> bool {
         let before = std::mem::replace(&mut self.audit, *audit);
         let block = &mut self.blocks[self.current];
         block.duration += dt;
@@ -308,7 +308,7 @@ impl QualityWatch {
 }
 
 /// Energy dissipated by damping so far (J).
-fn dissipated(audit: &EnergyAudit) -> f64 {
+fn dissipated(audit: &Energies) -> f64 {
     audit.contact_damping + audit.rayleigh_damping + audit.numerical_damping + audit.mud
 }
 
@@ -324,7 +324,7 @@ mod tests {
     /// A run whose steps have errors of a set size and alternating sign, so that their sum stays zero.
     struct Fed {
         watch: QualityWatch,
-        audit: EnergyAudit,
+        audit: Energies,
         steps: u32,
     }
 
@@ -332,7 +332,7 @@ mod tests {
         fn new() -> Self {
             Self {
                 watch: QualityWatch::default(),
-                audit: EnergyAudit::default(),
+                audit: Energies::default(),
                 steps: 0,
             }
         }

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use super::quality::ModelQuality;
 use super::simulation::Simulation;
 use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
-use crate::dynamics::outcome::EnergyAudit;
+use crate::dynamics::Energies;
 use crate::dynamics::state::State;
 use crate::elements::gap::Touch;
 use crate::model::Station;
@@ -204,7 +204,7 @@ impl Simulation {
     }
 
     /// Work and energy since the start.
-    pub fn energy(&self) -> &EnergyAudit {
+    pub fn energy(&self) -> &Energies {
         self.stepper().audit()
     }
 

@@ -5,7 +5,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::quality::ModelQuality;
-use crate::dynamics::outcome::{EnergyAudit, StepFailure};
+use crate::dynamics::Energies;
+use crate::dynamics::outcome::StepFailure;
 use crate::inputs::Inputs;
 use crate::tool::Body;
 use flexdrill_motion::{Ageing, Hazards, Severity, ShockLevel, Transfer, WhirlReport, WhirlWarningLevel};
@@ -45,7 +46,7 @@ pub struct Snapshot {
     /// Counters of the solver since the start.
     pub solver: SolverCounters,
     /// Energy since the start (J).
-    pub energy: EnergyAudit,
+    pub energy: Energies,
     /// Quality of the computed motion.
     pub quality: ModelQuality,
 }

@@ -1,6 +1,7 @@
 //! What transfer is made from, and its figures.
 
 use crate::{Hold, Severity};
+use flexdrill_base::energies::Energies;
 
 /// The readings of one step. NaN where the tool has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,123 +148,6 @@ impl Default for Along {
     }
 }
 
-/// The terms of an energy audit: energies since the start (J) or mean powers over the window (W). `drive`, `hoist`,
-/// `weight_on_bit`, `gravity`, `loads`, `feed` and `pressure` are put into the tool and the string above it; `bit`,
-/// `friction`, `contact_damping`, `rayleigh_damping`, `numerical_damping`, `string` and `mud` are taken from them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EnergyTerms {
-    /// Of the top drive.
-    pub drive: f64,
-    /// Of the hoist.
-    pub hoist: f64,
-    /// Of the weight on bit where it is given.
-    pub weight_on_bit: f64,
-    /// Of gravity.
-    pub gravity: f64,
-    /// Of the point loads.
-    pub loads: f64,
-    /// Of the advance against the friction of the wall.
-    pub feed: f64,
-    /// Of the pressure.
-    pub pressure: f64,
-    /// Taken by the rock.
-    pub bit: f64,
-    /// Taken by friction in both layers and in the joints.
-    pub friction: f64,
-    /// Taken by the damping of contacts, stops and play.
-    pub contact_damping: f64,
-    /// Taken by Rayleigh damping.
-    pub rayleigh_damping: f64,
-    /// Taken by the time integration.
-    pub numerical_damping: f64,
-    /// Taken by the string above.
-    pub string: f64,
-    /// Of updating the axial force in the geometric stiffness.
-    pub axial_update: f64,
-    /// Stored.
-    pub stored: f64,
-    /// Error of the audit.
-    pub error: f64,
-    /// Taken by the mud that moves with pipe and guide.
-    pub mud: f64,
-}
-
-pub(super) const TERMS: usize = 17;
-
-impl EnergyTerms {
-    pub(super) fn of(
-        [
-            drive,
-            hoist,
-            weight_on_bit,
-            gravity,
-            loads,
-            feed,
-            pressure,
-            bit,
-            friction,
-            contact_damping,
-            rayleigh_damping,
-            numerical_damping,
-            string,
-            axial_update,
-            stored,
-            error,
-            mud,
-        ]: [f64; TERMS],
-    ) -> Self {
-        Self {
-            drive,
-            hoist,
-            weight_on_bit,
-            gravity,
-            loads,
-            feed,
-            pressure,
-            bit,
-            friction,
-            contact_damping,
-            rayleigh_damping,
-            numerical_damping,
-            string,
-            axial_update,
-            stored,
-            error,
-            mud,
-        }
-    }
-
-    /// In the order of [`EnergyTerms::of`].
-    pub(super) fn values(&self) -> [f64; TERMS] {
-        [
-            self.drive,
-            self.hoist,
-            self.weight_on_bit,
-            self.gravity,
-            self.loads,
-            self.feed,
-            self.pressure,
-            self.bit,
-            self.friction,
-            self.contact_damping,
-            self.rayleigh_damping,
-            self.numerical_damping,
-            self.string,
-            self.axial_update,
-            self.stored,
-            self.error,
-            self.mud,
-        ]
-    }
-}
-
-impl Default for EnergyTerms {
-    /// Nothing is known.
-    fn default() -> Self {
-        Self::of([f64::NAN; TERMS])
-    }
-}
-
 /// Transfer over the window. NaN where the tool has no such figure, and before the first tenth of a second.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
@@ -285,8 +169,8 @@ pub struct Transfer {
     /// Mean torque at the bit over that at the surface, without a string over that at the kick-off; NaN where that is
     /// near zero, and while the tool does not turn: a bit that holds a wound string takes more than the drive gives.
     pub torque_efficiency: f64,
-    /// Mean powers by the terms of the audit (W).
-    pub power: EnergyTerms,
+    /// Mean powers by the terms of the ledger (W).
+    pub power: Energies,
 }
 
 /// State of a condition on transfer.
@@ -313,6 +197,7 @@ impl Transfer {
         Self {
             torque_efficiency: f64::NAN,
             friction_torque: [f64::NAN; 4],
+            power: Energies::UNKNOWN,
             ..Self::default()
         }
     }

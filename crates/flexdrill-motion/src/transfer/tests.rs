@@ -8,7 +8,7 @@ const DT: f64 = 1e-3;
 /// A tool below a string with a hoist: weight and torque at the surface and at the bit.
 struct Fed {
     watch: TransferWatch,
-    energies: EnergyTerms,
+    energies: Energies,
     time: f64,
 }
 
@@ -16,7 +16,7 @@ impl Fed {
     fn new() -> Self {
         Self {
             watch: TransferWatch::new(&TransferSettings::default(), 2.0),
-            energies: EnergyTerms::of([0.0; TERMS]),
+            energies: Energies::default(),
             time: 0.0,
         }
     }

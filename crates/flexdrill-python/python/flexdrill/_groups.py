@@ -318,18 +318,18 @@ class Energy(Generic[F]):
     gravity_j: F
     loads_j: F
     feed_j: F
-    hoist_j: F
+    axial_update_j: F
     pressure_j: F
+    hoist_j: F
     bit_j: F
     friction_j: F
-    joint_friction_j: F
-    """Part of the friction, in the joints' pins."""
     contact_damping_j: F
     rayleigh_damping_j: F
     numerical_damping_j: F
     string_j: F
     mud_j: F
-    axial_update_j: F
+    joint_friction_j: F
+    """Part of the friction, in the joints' pins."""
     axial_foresight_j: F
     against_laws_j: F
     """Magnitudes of the steps' errors, summed up."""

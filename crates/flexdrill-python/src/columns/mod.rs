@@ -5,6 +5,7 @@
 mod motion;
 mod tool;
 
+use flexdrill_core::dynamics::Energies;
 use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{Holder, Snapshot};
 
@@ -13,6 +14,8 @@ use flexdrill_core::twin::{Holder, Snapshot};
 pub enum Read {
     /// One number.
     Number(fn(&Snapshot) -> f64),
+    /// A row of the energy ledger.
+    Energy(fn(&Energies) -> f64),
     /// Numbers along the tool.
     List(fn(&Snapshot) -> &[f64]),
     /// Vectors (y, z) along the tool.

@@ -1,7 +1,8 @@
 //! What the motion means: transfer, whirl, hazards, ageing; and the quality of the computation.
 
-use super::Read::{Code, Codes, Count, Few, Indices, List, Number};
+use super::Read::{Code, Codes, Count, Energy, Few, Indices, List, Number};
 use super::{Column, Group, body_code};
+use flexdrill_core::dynamics::Energies;
 use flexdrill_core::twin::Snapshot;
 
 pub(super) const TRANSFER: Group = Group {
@@ -131,30 +132,22 @@ pub(super) const SOLVER: Group = Group {
     ],
 };
 
+/// One column for each row of the ledger.
+const LEDGER: [Column; Energies::COUNT] = {
+    let first = Energies::TERMS[0];
+    let mut columns = [Column::new(first.joules, Energy(first.of)); Energies::COUNT];
+    let mut row = 1;
+    while row < Energies::COUNT {
+        let term = Energies::TERMS[row];
+        columns[row] = Column::new(term.joules, Energy(term.of));
+        row += 1;
+    }
+    columns
+};
+
 pub(super) const ENERGY: Group = Group {
     name: "energy",
-    columns: &[
-        Column::new("drive_j", Number(|s| s.energy.drive)),
-        Column::new("weight_on_bit_j", Number(|s| s.energy.weight_on_bit)),
-        Column::new("gravity_j", Number(|s| s.energy.gravity)),
-        Column::new("loads_j", Number(|s| s.energy.loads)),
-        Column::new("feed_j", Number(|s| s.energy.feed)),
-        Column::new("hoist_j", Number(|s| s.energy.hoist)),
-        Column::new("pressure_j", Number(|s| s.energy.pressure)),
-        Column::new("bit_j", Number(|s| s.energy.bit)),
-        Column::new("friction_j", Number(|s| s.energy.friction)),
-        Column::new("joint_friction_j", Number(|s| s.energy.joint_friction)),
-        Column::new("contact_damping_j", Number(|s| s.energy.contact_damping)),
-        Column::new("rayleigh_damping_j", Number(|s| s.energy.rayleigh_damping)),
-        Column::new("numerical_damping_j", Number(|s| s.energy.numerical_damping)),
-        Column::new("string_j", Number(|s| s.energy.string)),
-        Column::new("mud_j", Number(|s| s.energy.mud)),
-        Column::new("axial_update_j", Number(|s| s.energy.axial_update)),
-        Column::new("axial_foresight_j", Number(|s| s.energy.axial_foresight)),
-        Column::new("against_laws_j", Number(|s| s.energy.against_laws)),
-        Column::new("stored_j", Number(|s| s.energy.stored)),
-        Column::new("error_j", Number(|s| s.energy.error)),
-    ],
+    columns: &LEDGER,
 };
 
 pub(super) const QUALITY: Group = Group {

@@ -131,16 +131,27 @@ fn a_preload_stores_the_same_energy_over_the_chain() {
             clean(&chain, &mut state);
             let mut room = Room::new(&model, &chain, Instructions::best());
             equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
-            let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());
-            equations(&model, &mut chain, &mut room).energy(&mut point, &state, &conditions);
+            let mut point = LedgerPoint::new(&model, chain.unknowns(), chain.spans());
+            let mut carried = Carried::new(&model, chain.spans());
+            equations(&model, &mut chain, &mut room).energy(&mut carried, &mut point, &state, &conditions);
             let mut full = State::at_rest(&model);
             chain.show(&model, &state, &no_forces(&chain), &mut full);
             let mut whole = Assembler::new(&model, Instructions::best());
             let mut interactions = Interactions::new(&model, Instructions::best());
             whole.residual(&mut interactions, &model, &full, &conditions);
-            let mut at_stations = EnergyPoint::new(&model, model.unknowns(), 0);
-            at_stations.evaluate(&model, &full, &conditions, &whole, &interactions);
-            (point.stored - at_stations.stored, at_stations.stored.abs())
+            let mut at_stations = LedgerPoint::new(&model, model.unknowns(), 0);
+            at_stations.evaluate(
+                &mut Carried::new(&model, 0),
+                &model,
+                &full,
+                &conditions,
+                &whole,
+                &interactions,
+            );
+            (
+                point.sums.stored - at_stations.sums.stored,
+                at_stations.sums.stored.abs(),
+            )
         });
     // The two states differ in nothing but the preload, and so do both ways of adding up: rounding of all energies.
     assert!(
@@ -167,13 +178,21 @@ fn turning_as_a_whole_changes_no_energy() {
         // Over the chain, and station by station.
         let mut stored = |state: &mut State| {
             equations(&model, &mut chain, &mut room).evaluate(state, &conditions, true);
-            let mut point = EnergyPoint::new(&model, chain.unknowns(), chain.spans());
-            equations(&model, &mut chain, &mut room).energy(&mut point, state, &conditions);
+            let mut point = LedgerPoint::new(&model, chain.unknowns(), chain.spans());
+            let mut carried = Carried::new(&model, chain.spans());
+            equations(&model, &mut chain, &mut room).energy(&mut carried, &mut point, state, &conditions);
             chain.show(&model, state, &no_forces(&chain), &mut full);
             whole.residual(&mut interactions, &model, &full, &conditions);
-            let mut at_stations = EnergyPoint::new(&model, model.unknowns(), 0);
-            at_stations.evaluate(&model, &full, &conditions, &whole, &interactions);
-            [point.stored, at_stations.stored]
+            let mut at_stations = LedgerPoint::new(&model, model.unknowns(), 0);
+            at_stations.evaluate(
+                &mut Carried::new(&model, 0),
+                &model,
+                &full,
+                &conditions,
+                &whole,
+                &interactions,
+            );
+            [point.sums.stored, at_stations.sums.stored]
         };
         let before = stored(&mut state);
         let turned = 900.0 * std::f64::consts::TAU;

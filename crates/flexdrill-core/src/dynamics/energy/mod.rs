@@ -1,20 +1,21 @@
-//! Energy audit of a step: work of every force by the trapezoid rule over the step, against the change of what is
+//! The energy ledger of a step: work of every force by the trapezoid rule over the step, against the change of what is
 //! stored.
 //!
 //! With F the sum of all forces, Newmark gives exactly dT = dq . (F_0 + F_1)/2 - D, where D is the scheme's own loss.
-//! Linear elastic forces then store exactly what they take, so the audit's error is what is left: the quadrature of
+//! Linear elastic forces then store exactly what they take, so the ledger's error is what is left: the quadrature of
 //! contacts, stops and joint rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
 
 mod step;
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use step::{SpanWorks, StepEnds};
+pub(crate) use step::{SpanWorks, StepEnd, StepWork};
 
+use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
-use crate::dynamics::state::{Deflection, State, motion};
+use crate::dynamics::state::{State, motion};
 use crate::elements::string::StringLine;
 use crate::model::Model;
 
@@ -30,39 +31,9 @@ pub struct SpanForces {
     pub(crate) inertia: [[f64; 16]; 2],
 }
 
-/// What the joints of a chain carry.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct JointForces {
-    /// Force of each span's pipe on its top end (N), along the axes of the link above.
-    pub(crate) on_top: Vec<[f64; 3]>,
-    /// Multipliers of the rotational rows of each joint (N m).
-    pub(crate) multipliers: Vec<[f64; 2]>,
-}
-
-/// Forces and energies at one end of a step that the trapezoid rule needs at the other.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct EnergyPoint {
-    /// Friction of both layers on every unknown (N, N m).
-    pub(crate) friction: Vec<f64>,
-    /// Geometric-stiffness force N G q with the axial force in use.
-    pub(crate) geometric: Vec<f64>,
-    /// Rayleigh damping's force C v.
-    pub(crate) damping: Vec<f64>,
-    /// Inertia force M a (N, N m).
-    pub(crate) inertia: Vec<f64>,
-    /// Viscous damping of the mud on every unknown (N, N m); empty without mud.
-    pub(crate) mud: Vec<f64>,
-    /// Of a chain only.
-    pub(crate) joints: JointForces,
-    /// Geometric stiffness, damping and inertia of the spans of a chain; in the vectors above are then
-    /// those of point masses only.
-    pub(crate) spans: Vec<SpanForces>,
-    /// How the contacts and the weight deflect each span of a chain: what the next step counts with.
-    pub(crate) deflection: Vec<Deflection>,
-    /// Value of each point load (N, N m).
-    pub(crate) loads: Vec<f64>,
-    /// Force of the support of each held unknown on the tool (N, N m), in the order of [`Model::held`].
-    pub(crate) reactions: Vec<f64>,
+/// Energies and powers of the whole tool at one end of a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sums {
     /// Kinetic, elastic, geometric, contact and stop energy (J).
     pub(crate) stored: f64,
     /// Part of `stored` that is kinetic.
@@ -74,154 +45,114 @@ pub struct EnergyPoint {
     pub(crate) foresight: f64,
     /// Power of contact, stop and play damping (W).
     pub(crate) contact_dissipation: f64,
-    /// Power taken by the pins of each joint (W); of joints with friction only.
-    pub(crate) joint_friction: Vec<f64>,
-    /// Moments of the pins' friction on the six rotations of each joint (N m), which are in `friction` too.
-    pub(crate) joint_moments: Vec<[f64; 6]>,
-    /// Torque of the drive (N m).
-    pub drive_torque: f64,
+    /// Torque of the rock (N m).
     bit_torque: f64,
-    pub(crate) weight_on_bit: f64,
+    /// Weight on the bit (N).
+    weight_on_bit: f64,
     /// Energy that the string has lost so far (J), to friction on the wall and inside.
-    pub(crate) string_lost: f64,
+    string_lost: f64,
     /// Work of the hoist so far (J).
-    pub(crate) hoist_work: f64,
+    hoist_work: f64,
     /// Rate at which the frame advances with the tool below a hoist (m/s).
-    pub(crate) advance: f64,
+    advance: f64,
     /// Power of that advance in the weight on bit less that in the string's force (W): the string and the rock move in the
     /// frame of the hole, the tool in its own.
-    pub(crate) advance_power: f64,
+    advance_power: f64,
     /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
     bristles: f64,
     /// Energy in the twist of a bit that sticks (J), which the rock has not taken yet.
     bit_elastic: f64,
     /// Power of the advance against the friction of the wall (W).
     feed: f64,
-    /// Pressure in the pipe at the tool's top (Pa).
-    pub(crate) pressure: f64,
     /// Shortening of the pipe's spans times the effective tension that they have without strain, per pressure at the top
     /// (N m/Pa); of spans that shorten only.
     pub(crate) lifted_by_pressure: f64,
 }
 
-impl EnergyPoint {
+/// Forces and energies at one end of a step that the ledger's trapezoid rule needs at the other. Nothing in the motion
+/// reads them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LedgerPoint {
+    /// Friction of both layers on every unknown (N, N m).
+    pub(crate) friction: Vec<f64>,
+    /// Geometric-stiffness force N G q with the axial force in use.
+    pub(crate) geometric: Vec<f64>,
+    /// Rayleigh damping's force C v.
+    pub(crate) damping: Vec<f64>,
+    /// Inertia force M a (N, N m).
+    pub(crate) inertia: Vec<f64>,
+    /// Viscous damping of the mud on every unknown (N, N m); empty without mud.
+    pub(crate) mud: Vec<f64>,
+    /// Value of each point load (N, N m).
+    pub(crate) loads: Vec<f64>,
+    /// Geometric stiffness, damping and inertia of the spans of a chain; in the vectors above are then
+    /// those of point masses only.
+    pub(crate) spans: Vec<SpanForces>,
+    /// Moments of the pins' friction on the six rotations of each joint (N m), which are in `friction` too.
+    pub(crate) pin_moments: Vec<[f64; 6]>,
+    /// Energies and powers of the whole tool.
+    pub(crate) sums: Sums,
+}
+
+impl LedgerPoint {
     /// Room for `model` in a numbering of so many unknowns; a chain has so many `spans`, all stations have none.
     pub fn new(model: &Model, unknowns: usize, spans: usize) -> Self {
-        let rubbing_joints = if model.description.joint.friction.coefficient > 0.0 {
-            model.joints.len()
-        } else {
-            0
-        };
         Self {
             friction: vec![0.0; unknowns],
             geometric: vec![0.0; unknowns],
             damping: vec![0.0; unknowns],
             inertia: vec![0.0; unknowns],
             mud: vec![0.0; if model.description.mud.is_some() { unknowns } else { 0 }],
-            joints: JointForces {
-                on_top: vec![[0.0; 3]; spans],
-                multipliers: vec![[0.0; 2]; if spans > 0 { model.joints.len() } else { 0 }],
-            },
-            spans: vec![SpanForces::default(); spans],
-            deflection: vec![[[0.0; 16]; 2]; spans],
             loads: vec![0.0; model.loads.len()],
-            reactions: vec![0.0; model.held.len()],
-            stored: 0.0,
-            kinetic: 0.0,
-            geometric_energy: 0.0,
-            foresight: 0.0,
-            contact_dissipation: 0.0,
-            joint_friction: vec![0.0; rubbing_joints],
-            joint_moments: vec![[0.0; 6]; rubbing_joints],
-            drive_torque: 0.0,
-            bit_torque: 0.0,
-            weight_on_bit: 0.0,
-            string_lost: 0.0,
-            hoist_work: 0.0,
-            advance: 0.0,
-            advance_power: 0.0,
-            bristles: 0.0,
-            bit_elastic: 0.0,
-            feed: 0.0,
-            pressure: 0.0,
-            lifted_by_pressure: 0.0,
+            spans: vec![SpanForces::default(); spans],
+            pin_moments: vec![[0.0; 6]; model.joints_with_friction()],
+            sums: Sums::default(),
         }
+    }
+
+    /// Lengths of its vectors.
+    #[cfg(feature = "checkpoints")]
+    fn lengths(&self) -> [usize; 8] {
+        [
+            self.friction.len(),
+            self.geometric.len(),
+            self.damping.len(),
+            self.inertia.len(),
+            self.mud.len(),
+            self.loads.len(),
+            self.spans.len(),
+            self.pin_moments.len(),
+        ]
     }
 
     /// Whether it is for the same model as `other`.
     #[cfg(feature = "checkpoints")]
     pub fn fits(&self, other: &Self) -> bool {
-        self.friction.len() == other.friction.len()
-            && self.geometric.len() == other.geometric.len()
-            && self.damping.len() == other.damping.len()
-            && self.inertia.len() == other.inertia.len()
-            && self.mud.len() == other.mud.len()
-            && self.joints.on_top.len() == other.joints.on_top.len()
-            && self.joints.multipliers.len() == other.joints.multipliers.len()
-            && self.spans.len() == other.spans.len()
-            && self.deflection.len() == other.deflection.len()
-            && self.loads.len() == other.loads.len()
-            && self.reactions.len() == other.reactions.len()
-            && self.joint_friction.len() == other.joint_friction.len()
-            && self.joint_moments.len() == other.joint_moments.len()
+        self.lengths() == other.lengths()
     }
 
-    /// Takes another point's values without allocating.
-    // Arrays first: slices of the same length are copied without allocating, which `clone` would.
+    /// Takes another point's values without allocating: `clone_from` of a vector keeps its memory.
     pub fn copy_from(&mut self, other: &Self) {
-        self.friction.copy_from_slice(&other.friction);
-        self.geometric.copy_from_slice(&other.geometric);
-        self.damping.copy_from_slice(&other.damping);
-        self.inertia.copy_from_slice(&other.inertia);
-        self.mud.copy_from_slice(&other.mud);
-        self.joints.on_top.copy_from_slice(&other.joints.on_top);
-        self.joints.multipliers.copy_from_slice(&other.joints.multipliers);
-        self.spans.copy_from_slice(&other.spans);
-        self.deflection.copy_from_slice(&other.deflection);
-        self.loads.copy_from_slice(&other.loads);
-        self.reactions.copy_from_slice(&other.reactions);
-        self.joint_friction.copy_from_slice(&other.joint_friction);
-        self.joint_moments.copy_from_slice(&other.joint_moments);
-        // By a pattern, because `*other` as a whole would take its arrays.
-        let Self {
-            stored,
-            kinetic,
-            geometric_energy,
-            foresight,
-            contact_dissipation,
-            drive_torque,
-            bit_torque,
-            weight_on_bit,
-            string_lost,
-            hoist_work,
-            advance,
-            advance_power,
-            bristles,
-            bit_elastic,
-            feed,
-            pressure,
-            lifted_by_pressure,
-            ..
-        } = *other;
-        (self.string_lost, self.hoist_work) = (string_lost, hoist_work);
-        (self.advance, self.advance_power) = (advance, advance_power);
-        (self.bristles, self.bit_elastic, self.feed) = (bristles, bit_elastic, feed);
-        (self.kinetic, self.foresight) = (kinetic, foresight);
-        (self.stored, self.geometric_energy, self.contact_dissipation) =
-            (stored, geometric_energy, contact_dissipation);
-        (self.drive_torque, self.bit_torque, self.weight_on_bit) = (drive_torque, bit_torque, weight_on_bit);
-        (self.pressure, self.lifted_by_pressure) = (pressure, lifted_by_pressure);
+        self.friction.clone_from(&other.friction);
+        self.geometric.clone_from(&other.geometric);
+        self.damping.clone_from(&other.damping);
+        self.inertia.clone_from(&other.inertia);
+        self.mud.clone_from(&other.mud);
+        self.loads.clone_from(&other.loads);
+        self.spans.clone_from(&other.spans);
+        self.pin_moments.clone_from(&other.pin_moments);
+        self.sums = other.sums;
     }
 
     /// Adds what the string above stores, has lost, and has been given by the hoist.
     pub(crate) fn add_string(&mut self, string: &StringLine) {
         let [friction, mud] = string.lost();
-        self.stored += string.stored();
-        self.string_lost = friction + mud;
-        self.hoist_work = string.hoist_work();
+        self.sums.stored += string.stored();
+        self.sums.string_lost = friction + mud;
+        self.sums.hoist_work = string.hoist_work();
         if let Some(hoist) = string.hoist() {
-            self.advance = hoist.advance;
-            self.advance_power = (self.weight_on_bit - string.force_on_tool()) * hoist.advance;
+            self.sums.advance = hoist.advance;
+            self.sums.advance_power = (self.sums.weight_on_bit - string.force_on_tool()) * hoist.advance;
         }
     }
 
@@ -231,7 +162,7 @@ impl EnergyPoint {
         for (point, places) in numbered.model.masses.iter().zip(&numbered.places.masses) {
             let moving = motion(state, places);
             let moving = moving.as_node();
-            self.kinetic += point.body.kinetic_energy(moving);
+            self.sums.kinetic += point.body.kinetic_energy(moving);
             let inertia = point.body.coupled_forces(moving, 0.0, [0.0; 3]);
             let damped = point.body.coupled_forces(moving, alpha, [0.0; 3]);
             for (k, mass) in point.body.diagonal().into_iter().enumerate() {
@@ -242,7 +173,8 @@ impl EnergyPoint {
         }
     }
 
-    /// Adds joints, loads, drive and bit to what elements, masses and contacts have `stored` (J).
+    /// Adds joints, loads, drive and bit to what elements, masses and contacts have `stored` (J), and writes what supports,
+    /// pins and drive carry.
     pub(crate) fn finish(
         &mut self,
         mut stored: f64,
@@ -250,21 +182,22 @@ impl EnergyPoint {
         conditions: &Conditions,
         interactions: &Interactions,
         residual: &[f64],
+        carried: &mut Carried,
     ) {
         let Numbered { model, places, .. } = *numbered;
         // Stops and plays store elastic energy and dissipate as contacts do.
         for stop in interactions.joints.stops() {
             stored += stop.energy;
-            self.contact_dissipation += stop.dissipation;
+            self.sums.contact_dissipation += stop.dissipation;
         }
         for play in interactions.joints.plays() {
             stored += play.energy;
-            self.contact_dissipation += play.dissipation;
+            self.sums.contact_dissipation += play.dissipation;
         }
-        let of_joints = self
-            .joint_friction
+        let of_joints = carried
+            .pin_power
             .iter_mut()
-            .zip(&mut self.joint_moments)
+            .zip(&mut self.pin_moments)
             .zip(&places.joints);
         // Each pin's friction acts on the rotations of both its links; its
         // moments are kept for the work of the joint alone.
@@ -280,17 +213,17 @@ impl EnergyPoint {
             *value = load.load.history.at(conditions.time);
         }
         // At a support the residual is its reaction; a support inside a span has none here, see the chain's energy.
-        for (reaction, held) in self.reactions.iter_mut().zip(&places.held) {
+        for (reaction, held) in carried.reactions.iter_mut().zip(&places.held) {
             *reaction = held.map_or(0.0, |held| residual[held]);
         }
         // Bristles of the contacts and of the bit are springs: what they hold is stored, not lost.
-        self.bristles =
+        self.sums.bristles =
             interactions.inner.bristle_energy(&conditions.inner) + interactions.outer.bristle_energy(&conditions.outer);
-        self.bit_elastic = interactions.bit.elastic;
-        self.stored = stored + self.bristles + self.bit_elastic;
+        self.sums.bit_elastic = interactions.bit.elastic;
+        self.sums.stored = stored + self.sums.bristles + self.sums.bit_elastic;
         // The wall moves past the guide by the advance. Without one the
         // sum must be exactly zero, and not a rounding of it.
-        self.feed = if conditions.rate_of_penetration == 0.0 {
+        self.sums.feed = if conditions.rate_of_penetration == 0.0 {
             0.0
         } else {
             let along = interactions.outer.iter().map(|(_, touch)| touch.axial);
@@ -298,9 +231,9 @@ impl EnergyPoint {
         };
         // At the driven spin the residual is the drive's torque. A string computes its own.
         let at_the_tool = places.driven.map_or(0.0, |driven| residual[driven]);
-        self.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);
-        self.bit_torque = interactions.bit.torque;
-        self.weight_on_bit = interactions.bit.weight;
-        self.pressure = model.pressure_at_top(conditions.standpipe_pressure);
+        carried.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);
+        self.sums.bit_torque = interactions.bit.torque;
+        self.sums.weight_on_bit = interactions.bit.weight;
+        carried.pressure = model.pressure_at_top(conditions.standpipe_pressure);
     }
 }

@@ -1,8 +1,10 @@
-//! A step's share of the audit: the works of all forces over it.
+//! A step's entry in the ledger: the works of all forces over it.
 
-use super::EnergyPoint;
+use flexdrill_base::energies::Energies;
+
+use super::LedgerPoint;
+use crate::dynamics::carried::Carried;
 use crate::dynamics::numbered::Numbered;
-use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::{State, motion};
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
@@ -55,34 +57,45 @@ pub(crate) struct SpanWorks {
     pub geometric: f64,
 }
 
-/// Both ends of a step: its states with what was evaluated there.
-pub(crate) struct StepEnds<'a> {
+/// One end of a step, with what was evaluated there.
+#[derive(Clone, Copy)]
+pub(crate) struct StepEnd<'a> {
+    pub state: &'a State,
+    pub carried: &'a Carried,
+    pub point: &'a LedgerPoint,
+}
+
+/// A step, from end to end.
+pub(crate) struct StepWork<'a> {
     /// Step size (s).
     pub h: f64,
     /// Displacements of the step, by unknown.
     pub moved: &'a [f64],
     /// Work of the spans; over all stations there are none.
     pub spans: SpanWorks,
-    pub before: (&'a State, &'a EnergyPoint),
-    pub after: (&'a State, &'a EnergyPoint),
+    pub before: StepEnd<'a>,
+    pub after: StepEnd<'a>,
 }
 
-impl EnergyAudit {
-    /// Adds a step.
-    pub(crate) fn add_step(&mut self, numbered: &Numbered<'_>, ends: &StepEnds<'_>, instructions: Instructions) {
+impl StepWork<'_> {
+    /// Enters the step into the ledger.
+    pub(crate) fn enter(&self, ledger: &mut Energies, numbered: &Numbered<'_>, instructions: Instructions) {
         let Numbered {
             model,
             places,
             weight,
             pressure,
         } = *numbered;
-        let StepEnds {
+        let Self {
             h,
             moved,
             spans,
-            before: (s0, e0),
-            after: (s1, e1),
-        } = *ends;
+            before,
+            after,
+        } = *self;
+        let (s0, s1, e0, e1) = (before.state, after.state, before.point, after.point);
+        // Energies and powers of the whole tool at both ends.
+        let (at0, at1) = (&e0.sums, &e1.sums);
         // Works by the trapezoid rule over the displacement: exact for forces that are linear in the step.
         let [friction, gravity] = instructions.run(MeanWorks {
             moved,
@@ -94,7 +107,7 @@ impl EnergyAudit {
                 moved,
                 forces: [[&e0.mud, &e1.mud]],
             });
-            self.mud += work;
+            ledger.mud += work;
         }
         let SpanWorks {
             mut damping,
@@ -115,51 +128,52 @@ impl EnergyAudit {
             inertia += nodal[1];
             geometric_work += nodal[2];
         }
-        let (error_before, foresight_before) = (self.error, self.axial_foresight);
+        let (error_before, foresight_before) = (ledger.error, ledger.axial_foresight);
         // All works of scalars use the same mean, so that the balance is one rule.
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         // Below a string the drive works on the string's top, and hoist and string have their own parts.
         if let Some(driven) = places.driven {
-            self.drive += mean(e0.drive_torque, e1.drive_torque) * moved[driven];
+            ledger.drive += mean(before.carried.drive_torque, after.carried.drive_torque) * moved[driven];
         } else if model.description.string.is_some() {
-            self.drive += mean(e0.drive_torque, e1.drive_torque) * (s1.drive_angle - s0.drive_angle);
-            self.hoist += e1.hoist_work - e0.hoist_work;
-            self.string += e1.string_lost - e0.string_lost;
+            ledger.drive +=
+                mean(before.carried.drive_torque, after.carried.drive_torque) * (s1.drive_angle - s0.drive_angle);
+            ledger.hoist += at1.hoist_work - at0.hoist_work;
+            ledger.string += at1.string_lost - at0.string_lost;
             // The bit goes down with the frame.
-            let advanced = h * mean(e0.advance, e1.advance);
-            self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * advanced;
-            self.feed += h * mean(e0.advance_power, e1.advance_power);
+            let advanced = h * mean(at0.advance, at1.advance);
+            ledger.weight_on_bit -= mean(at0.weight_on_bit, at1.weight_on_bit) * advanced;
+            ledger.feed += h * mean(at0.advance_power, at1.advance_power);
         }
         // The weight on bit is an input at the guide's end, or the rock's answer; either works on that displacement.
-        self.weight_on_bit -= mean(e0.weight_on_bit, e1.weight_on_bit) * moved[places.guide_end];
+        ledger.weight_on_bit -= mean(at0.weight_on_bit, at1.weight_on_bit) * moved[places.guide_end];
         // What the twist of a bit that sticks takes it gives back.
-        let twisted = e1.bit_elastic - e0.bit_elastic;
-        self.bit += mean(e0.bit_torque, e1.bit_torque) * moved[places.bit_spin] - twisted;
+        let twisted = at1.bit_elastic - at0.bit_elastic;
+        ledger.bit += mean(at0.bit_torque, at1.bit_torque) * moved[places.bit_spin] - twisted;
         for (k, &load) in places.loads.iter().enumerate() {
-            self.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
+            ledger.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
         }
         if !pressure.is_empty() {
             let along: f64 = pressure.iter().zip(moved).map(|(force, moved)| force * moved).sum();
             // The force of the pressure works on the whole strain of a span, its shortening included.
-            let lifted = e1.lifted_by_pressure - e0.lifted_by_pressure;
-            self.pressure += mean(e0.pressure, e1.pressure) * (along - lifted);
+            let lifted = at1.lifted_by_pressure - at0.lifted_by_pressure;
+            ledger.pressure += mean(before.carried.pressure, after.carried.pressure) * (along - lifted);
         }
         // The wall that moves past a guide at rest does work by its friction; what bristles take they give back.
-        let feed = h * mean(e0.feed, e1.feed);
-        self.feed += feed;
-        self.friction += (feed - (e1.bristles - e0.bristles)) - friction;
+        let feed = h * mean(at0.feed, at1.feed);
+        ledger.feed += feed;
+        ledger.friction += (feed - (at1.bristles - at0.bristles)) - friction;
         // By the same rule as `friction`, of which it is a part: the mean of the pins' power differs by what the joint's
         // swing turns within the step.
-        for ((m0, m1), joint) in e0.joint_moments.iter().zip(&e1.joint_moments).zip(&places.joints) {
+        for ((m0, m1), joint) in e0.pin_moments.iter().zip(&e1.pin_moments).zip(&places.joints) {
             let rotations = (joint.above..joint.above + 3).chain(joint.below..joint.below + 3);
             let work = rotations
                 .zip(m0.iter().zip(m1))
                 .map(|(at, (m0, m1))| moved[at] * (m0 + m1));
-            self.joint_friction -= 0.5 * work.sum::<f64>();
+            ledger.joint_friction -= 0.5 * work.sum::<f64>();
         }
         // Powers are integrated over time, forces over displacement: contact damping is known as a power.
-        self.contact_damping += h * mean(e0.contact_dissipation, e1.contact_dissipation);
-        self.gravity += gravity;
+        ledger.contact_damping += h * mean(at0.contact_dissipation, at1.contact_dissipation);
+        ledger.gravity += gravity;
         // An eccentric mass falls with its node and by its turning.
         for (point, places) in model.masses.iter().zip(&places.masses) {
             let (before, after) = (motion(s0, places), motion(s1, places));
@@ -168,23 +182,18 @@ impl EnergyAudit {
                 point.body.offset(after.as_node().q),
             );
             let down = (0..3).map(|k| point.gravity[k] * (moved[places[k]] + (r1[k] - r0[k])));
-            self.gravity += point.body.mass * down.sum::<f64>();
+            ledger.gravity += point.body.mass * down.sum::<f64>();
         }
-        self.rayleigh_damping += damping;
+        ledger.rayleigh_damping += damping;
         // The scheme's own loss: what inertia took less what became kinetic energy.
-        self.numerical_damping += inertia - (e1.kinetic - e0.kinetic);
-        self.axial_update += (e1.geometric_energy - e0.geometric_energy) - geometric_work;
-        self.axial_foresight += h * mean(e0.foresight, e1.foresight);
-        self.stored += e1.stored - e0.stored;
+        ledger.numerical_damping += inertia - (at1.kinetic - at0.kinetic);
+        ledger.axial_update += (at1.geometric_energy - at0.geometric_energy) - geometric_work;
+        ledger.axial_foresight += h * mean(at0.foresight, at1.foresight);
+        ledger.stored += at1.stored - at0.stored;
         // All terms are sums since the start, and so is the error.
-        let worked_in =
-            self.drive + self.weight_on_bit + self.gravity + self.loads + self.feed + self.axial_update + self.pressure;
-        let worked_in = worked_in + self.hoist;
-        let taken = self.bit + self.friction + self.contact_damping + self.rayleigh_damping + self.numerical_damping;
-        let taken = taken + self.string + self.mud;
-        self.error = worked_in - taken - self.stored;
+        ledger.error = ledger.unbalanced();
         // The axial force that is foreseen works by intention and is no error of the laws.
-        let foresight = self.axial_foresight - foresight_before;
-        self.against_laws += (self.error - error_before - foresight).abs();
+        let foresight = ledger.axial_foresight - foresight_before;
+        ledger.against_laws += (ledger.error - error_before - foresight).abs();
     }
 }

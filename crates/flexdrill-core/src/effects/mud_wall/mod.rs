@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::mud::Annulus;
 use crate::chain::columns::{EndColumn, load, plus_column, store};
 use crate::chain::{Additions, Chain, Effect, Precision, SpanMotion, Under, add_to_ends};
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::elements::factors::TangentFactors;
@@ -127,7 +127,7 @@ impl Effect for MudWall {
         });
     }
 
-    fn energy(&self, chain: &Chain, point: &mut EnergyPoint) -> f64 {
+    fn energy(&self, chain: &Chain, point: &mut LedgerPoint) -> f64 {
         let instructions = chain.model.instructions;
         instructions.run(Energies {
             effect: self,
@@ -275,7 +275,7 @@ impl<S: Precision> Kernel for Tangents<'_, S> {
 struct Energies<'a> {
     effect: &'a MudWall,
     chain: &'a Chain,
-    point: &'a mut EnergyPoint,
+    point: &'a mut LedgerPoint,
 }
 
 impl Kernel for Energies<'_> {
@@ -288,7 +288,7 @@ impl Kernel for Energies<'_> {
             let taken = effect.taken::<V>(l);
             let mut energy = Lane::default();
             (taken[0].energy + taken[1].energy).store(&mut energy);
-            point.kinetic += energy.iter().sum::<f64>();
+            point.sums.kinetic += energy.iter().sum::<f64>();
             let inertia = [taken[0].inertia, taken[1].inertia];
             on_ends(chain, l, inertia, &mut point.spans[l].inertia);
             let mut film = [[0.0; 16]; 2];

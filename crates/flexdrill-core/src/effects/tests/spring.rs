@@ -9,7 +9,7 @@ use std::cell::Cell;
 
 use crate::chain::columns::{EndColumn, at_ends};
 use crate::chain::{Additions, Chain, Effect, Precision, Under, row};
-use crate::dynamics::energy::EnergyPoint;
+use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
@@ -74,7 +74,7 @@ impl Effect for Springs {
         });
     }
 
-    fn energy(&self, _chain: &Chain, _point: &mut EnergyPoint) -> f64 {
+    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint) -> f64 {
         let squares = self.stretched.as_flattened().iter().map(|stretch| stretch * stretch);
         0.5 * self.stiffness * squares.sum::<f64>()
     }

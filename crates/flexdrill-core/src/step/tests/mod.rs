@@ -1,3 +1,4 @@
 //! Tests of the steps that look at their insides.
 
 mod balance;
+mod ledger;

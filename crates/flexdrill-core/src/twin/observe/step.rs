@@ -2,13 +2,12 @@
 
 use super::{Observer, gap_lateral};
 use crate::chain::Effect;
-use crate::dynamics::outcome::EnergyAudit;
 use crate::dynamics::state::State;
 use crate::model::Model;
 use crate::step::Stepper;
 use crate::tool::{Body, Direction};
 use crate::twin::snapshot::Applied;
-use flexdrill_motion::{DriveState, EnergyTerms, StationSample, TransferSample};
+use flexdrill_motion::{DriveState, StationSample, TransferSample};
 
 impl Observer {
     pub(in crate::twin) fn after_step(
@@ -58,8 +57,7 @@ impl Observer {
         // The transfer takes every step: a ripple of joints would otherwise be sampled.
         let mut sample = transfer_sample(stepper, applied, &rubbing);
         sample.rate_of_penetration = self.hole_deepens(stepper.bit_depth(), applied, dt);
-        self.transfer
-            .push(time, dt, &sample, &energy_terms(stepper.audit()), judged);
+        self.transfer.push(time, dt, &sample, stepper.audit(), judged);
 
         // The bit's motion comes from the chain, without the cost of a full state.
         let bottom = stepper.bottom_motion();
@@ -137,29 +135,6 @@ impl Observer {
 struct Rubbing {
     drag: f64,
     power: f64,
-}
-
-/// The audit's terms (J) that transfer averages to powers.
-fn energy_terms(audit: &EnergyAudit) -> EnergyTerms {
-    EnergyTerms {
-        drive: audit.drive,
-        hoist: audit.hoist,
-        weight_on_bit: audit.weight_on_bit,
-        gravity: audit.gravity,
-        loads: audit.loads,
-        feed: audit.feed,
-        pressure: audit.pressure,
-        bit: audit.bit,
-        friction: audit.friction,
-        contact_damping: audit.contact_damping,
-        rayleigh_damping: audit.rayleigh_damping,
-        numerical_damping: audit.numerical_damping,
-        string: audit.string,
-        axial_update: audit.axial_update,
-        stored: audit.stored,
-        error: audit.error,
-        mud: audit.mud,
-    }
 }
 
 /// What the step that was taken last says about transfer.
