@@ -11,7 +11,6 @@
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
-//! - [`calibrate`]: the samples of a log that is calibrated.
 //! - [`compare`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
@@ -27,8 +26,6 @@ pub mod ahead;
 pub mod alarms;
 #[cfg(feature = "bridge")]
 pub mod bridge;
-#[cfg(feature = "calibrate")]
-pub mod calibrate;
 pub mod cli;
 pub mod compare;
 pub mod health;

@@ -1,5 +1,7 @@
 //! `flexdrill calibrate`: fits coefficients of the twin to a log or a bag.
 
+mod samples;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -10,19 +12,18 @@ use super::built_in;
 use super::numbers;
 use super::progress::Progress;
 use super::source::{SourceArgs, is_bag};
-use crate::calibrate::samples;
 use crate::cli::output::{say, tell};
 use crate::report::calibration as page;
 use flexdrill_calibration::CalibrationError;
 use flexdrill_calibration::fit::refusals;
 use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::study::check::At;
+use flexdrill_calibration::study::overlay::{self, Provenance};
+use flexdrill_calibration::study::points::{self, Cover, Point};
+use flexdrill_calibration::study::unknowns::Unknowns;
+use flexdrill_calibration::study::{self, Study, StudySettings};
 use flexdrill_calibration::windows::{self, Motion, Sample, WindowSettings, Windows};
 use flexdrill_config::Config;
-use flexdrill_fit::check::At;
-use flexdrill_fit::overlay::{self, Provenance};
-use flexdrill_fit::points::{self, Cover, Point};
-use flexdrill_fit::unknowns::Unknowns;
-use flexdrill_fit::{Study, StudySettings, study};
 use flexdrill_text::{counted, printable};
 
 /// File of the twin's points, by which an interrupted calibration continues.
@@ -111,7 +112,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
         members: args.members as usize,
     };
     tell!("fitting, and checking what was found by full runs");
-    let study = study(&config, unknowns, windows, &points, &settings)?;
+    let study = study::study(&config, unknowns, windows, &points, &settings)?;
     let rows = [samples.first(), samples.last()].map(|sample| sample.map_or(0, |sample| sample.row));
     // The name alone: the path of one machine has no meaning in a file that is passed on.
     let name = args

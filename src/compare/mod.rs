@@ -135,7 +135,7 @@ pub struct RigComparison {
 impl RigComparison {
     /// A comparison with the tares and errors of a configuration.
     pub fn new(config: &Config) -> Self {
-        let settings = MonitorSettings::stated(&flexdrill_fit::stated(config));
+        let settings = MonitorSettings::stated(&flexdrill_calibration::stated(config));
         Self {
             monitor: Monitor::new(settings),
             estimate: Estimate::new(config),
@@ -149,7 +149,7 @@ impl RigComparison {
 
     /// Adopts the values in force of what follows the rig.
     pub fn reconfigure(&mut self, config: &Config) {
-        self.monitor.set_tare(flexdrill_fit::stated(config).tare);
+        self.monitor.set_tare(flexdrill_calibration::stated(config).tare);
         self.estimate.reconfigure(config);
     }
 

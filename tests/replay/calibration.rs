@@ -1,5 +1,5 @@
 //! `flexdrill calibrate` up to the runs of the twin: which parts of a log are used, and what is refused with which reason.
-//! The fit is tested in `crates/flexdrill-fit/tests`.
+//! The fit is tested in `crates/flexdrill-calibration/tests`.
 
 use std::fmt::Write as _;
 use std::path::Path;

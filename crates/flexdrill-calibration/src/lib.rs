@@ -1,9 +1,16 @@
 //! Fits coefficients of the twin to what a rig measured.
 //!
-//! The crate takes numbers and gives numbers: it opens no file, runs no twin and reads no clock. The caller reads the
-//! log, runs the twin at the points that the design asks for, and writes what was found.
+//! All but [`study`](mod@study) takes numbers and gives numbers: it opens no file, runs no twin and reads no clock. The
+//! study runs the twin at the points that the design asks for; the caller reads the log and writes what was found.
 //!
 //! # Layout
+//! While drilling:
+//! - [`follow`]: the recursive estimate of friction and tare. [`following`]: the twin's parameters on their way to it,
+//!   within limits.
+//! - [`residual`]: measured less predicted with its band. [`monitor`]: the comparison of rig and twin.
+//!   [`stated`](fn@stated): errors of sensors and twin, as the configuration has them.
+//!
+//! From a log:
 //! - [`windows`]: the steady parts of a log, and what was left out with its reason.
 //! - [`unknown`]: what is fitted, with its prior; everything below works on standardised values, whose prior is N(0, 1).
 //! - [`design`]: a Latin hypercube of points at which the twin is run. [`surrogate`]: a Gaussian process through their
@@ -12,9 +19,9 @@
 //! - [`smoother`]: the ensemble smoother with multiple data assimilation (ES-MDA).
 //! - [`identify`]: what the data determine, what they do not, and pairs of which they determine one combination only.
 //! - [`fit`]: all of it in one call, with the error of the surrogate.
-//! - [`follow`]: the recursive estimate of friction and tare while drilling. [`following`]: the twin's parameters on their
-//!   way to it, within limits.
-//! - [`residual`]: measured less predicted with its band. [`monitor`]: the comparison of rig and twin while drilling.
+//! - [`study`](mod@study): the whole, from windows of a log to what was found, with its parts: what is fitted of a
+//!   configuration, one run of the twin, all runs of a design on threads, full runs with what was found, which decide
+//!   whether it is to be used, and the results as configuration.
 //!
 //! # Sources
 //! Emerick and Reynolds, Ensemble smoother with multiple data assimilation, Comput. Geosci. 55, 2013. McKay, Beckman and
@@ -31,11 +38,14 @@ pub mod noise;
 mod random;
 pub mod residual;
 pub mod smoother;
+mod stated;
+pub mod study;
 pub mod surrogate;
 pub mod unknown;
 pub mod windows;
 
 pub use error::CalibrationError;
+pub use stated::stated;
 
 /// Half of the width of a 90 % band of a normal distribution, in standard deviations: the quantile at 95 %.
 pub const BAND: f64 = 1.644_853_626_951_472_7;

@@ -5,10 +5,10 @@
 use flexdrill_bench::table::Table;
 use flexdrill_calibration::monitor::{LEVELS, Monitor, MonitorSettings, Reading};
 use flexdrill_calibration::residual::{Cause, Quantity};
+use flexdrill_calibration::study::point::{Figures, Load, run};
 use flexdrill_calibration::windows::Motion;
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
-use flexdrill_fit::point::{Figures, Load, run};
 
 /// Speed (r/min) and weight (kN) of drilling.
 const RPM: f64 = 45.0;
@@ -216,7 +216,7 @@ impl Rig {
     fn new(config: &Config, in_the_hole: bool, error: f64) -> Self {
         let alarm = &config.alarms.rig_disagrees;
         Self {
-            monitor: MonitorSettings::stated(&flexdrill_fit::stated(config)),
+            monitor: MonitorSettings::stated(&flexdrill_calibration::stated(config)),
             drift: [
                 config.calibration.torque_drift_nm,
                 kn_to_n(config.calibration.hook_load_drift_kn),

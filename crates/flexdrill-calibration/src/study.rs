@@ -1,16 +1,22 @@
 //! The whole calibration of a log.
 
-use super::check::{Checked, Objection, check, objections};
-use super::points::{Cover, Point};
-use super::unknowns::Unknowns;
-use flexdrill_calibration::CalibrationError;
-use flexdrill_calibration::fit::{Outcome, Problem, Quantity, Refusal, observations, refusals};
-use flexdrill_calibration::smoother::SmootherSettings;
-use flexdrill_calibration::surrogate::{Surrogate, usual_points};
-use flexdrill_calibration::unknown::Unknown;
-use flexdrill_calibration::windows::{Channel, Motion, Window, Windows};
+pub mod check;
+pub mod overlay;
+pub mod point;
+pub mod points;
+pub mod unknowns;
+
+use crate::CalibrationError;
+use crate::fit::{Outcome, Problem, Quantity, Refusal, observations, refusals};
+use crate::smoother::SmootherSettings;
+use crate::surrogate::{Surrogate, usual_points};
+use crate::unknown::Unknown;
+use crate::windows::{Channel, Motion, Window, Windows};
+use check::{Checked, Objection, check, objections};
 use flexdrill_config::Config;
 use flexdrill_core::units::kn_to_n;
+use points::{Cover, Point};
+use unknowns::Unknowns;
 
 /// Least half width of the speeds of a design, as a share of their mean, and of the weights: without a range there is no
 /// slope.
@@ -74,7 +80,7 @@ pub fn cover(windows: &Windows, motion: Motion, unknowns: usize) -> Option<Cover
     };
     let rotary_speed = of(|window| window.rotary_speed.abs());
     rotary_speed[0].is_finite().then(|| {
-        let loads = flexdrill_calibration::fit::load(motion, 1.0, 1.0).len();
+        let loads = crate::fit::load(motion, 1.0, 1.0).len();
         Cover {
             motion,
             rotary_speed,

@@ -12,7 +12,7 @@ use flexdrill_messages::{Message, RigInputs, RigMeasured, topics};
 use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 
 /// The measured quantity of a channel.
-pub const fn kind(channel: Channel) -> MeasuredKind {
+pub(super) const fn kind(channel: Channel) -> MeasuredKind {
     match channel {
         Channel::SurfaceTorque => MeasuredKind::SurfaceTorque,
         Channel::HookLoad => MeasuredKind::HookLoad,
@@ -40,7 +40,7 @@ fn set(sample: &mut Sample, input: InputKind, value: f64) {
 }
 
 /// The rows of a field log with their inputs and measured values.
-pub fn of_log(sequence: &InputSequence) -> Vec<Sample> {
+pub(super) fn of_log(sequence: &InputSequence) -> Vec<Sample> {
     let mut all = std::collections::BTreeMap::<u64, Sample>::new();
     for input in &sequence.inputs {
         let sample = all.entry(input.row).or_insert_with(|| empty(input.time, input.row));
@@ -62,7 +62,7 @@ pub fn of_log(sequence: &InputSequence) -> Vec<Sample> {
 ///
 /// # Errors
 /// When the bag cannot be read.
-pub fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
+pub(super) fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
     // Topics are matched by their end, because a bag carries the namespace of its rig.
     let mut bag = flexdrill_bag::open(path)?;
     let wanted = |name: &str, known: &topics::TopicInfo| name.trim_start_matches('/').ends_with(known.name);

@@ -10,9 +10,9 @@ use std::sync::mpsc;
 
 use super::point::{self, Figures, Load};
 use super::unknowns::Unknowns;
-use flexdrill_calibration::design::latin_hypercube;
-use flexdrill_calibration::fit::DESIGN;
-use flexdrill_calibration::windows::{Channel, Motion};
+use crate::design::latin_hypercube;
+use crate::fit::DESIGN;
+use crate::windows::{Channel, Motion};
 use flexdrill_config::Config;
 
 /// A point: standardised unknowns and load, with the twin's figures or why there are none.
@@ -30,7 +30,7 @@ impl Point {
     /// Inputs of the surrogate of its state of motion.
     pub fn inputs(&self) -> Vec<f64> {
         let mut inputs = self.z.clone();
-        inputs.extend(flexdrill_calibration::fit::load(
+        inputs.extend(crate::fit::load(
             self.load.motion,
             self.load.rotary_speed,
             self.load.weight,
@@ -54,7 +54,7 @@ pub struct Cover {
 
 /// The points of a design: a Latin hypercube over the priors and the loads.
 pub fn design(unknowns: usize, cover: &Cover, seed: u64) -> Vec<Point> {
-    let loads = flexdrill_calibration::fit::load(cover.motion, 1.0, 1.0).len();
+    let loads = crate::fit::load(cover.motion, 1.0, 1.0).len();
     // The states of motion get different hypercubes.
     let seed = seed.wrapping_mul(2).wrapping_add(cover.motion as u64);
     let between = |[low, high]: [f64; 2], share: f64| low + share * (high - low);

@@ -3,13 +3,13 @@
 
 use std::fmt;
 
+use super::Study;
 use super::point;
 use super::point::Load;
 use super::points::{self, Point};
-use super::study::Study;
-use flexdrill_calibration::BAND;
-use flexdrill_calibration::fit::EXPLAINS;
-use flexdrill_calibration::windows::{Channel, Motion};
+use crate::BAND;
+use crate::fit::EXPLAINS;
+use crate::windows::{Channel, Motion};
 use flexdrill_config::Config;
 
 /// Largest number of loads that are checked, in each state of motion.

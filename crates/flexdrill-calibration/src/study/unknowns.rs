@@ -1,7 +1,7 @@
 //! What is fitted of a configuration.
 
-use flexdrill_calibration::CalibrationError;
-use flexdrill_calibration::unknown::{Shape, Unknown};
+use crate::CalibrationError;
+use crate::unknown::{Shape, Unknown};
 use flexdrill_config::{Config, ConfigError, Law, Model};
 use flexdrill_core::tool::HoleInterval;
 use flexdrill_core::units::kn_to_n;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use flexdrill_calibration::windows::{Channel, Motion};
+use crate::windows::{Channel, Motion};
 use flexdrill_config::{Config, ConfigError, Law};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;

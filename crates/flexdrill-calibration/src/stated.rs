@@ -1,7 +1,7 @@
 //! The errors of sensors and twin that a configuration states.
 
-use flexdrill_calibration::monitor::Stated;
-use flexdrill_calibration::residual::Quantity;
+use crate::monitor::Stated;
+use crate::residual::Quantity;
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 

@@ -5,15 +5,15 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::study::cover;
+use flexdrill_calibration::study::points::{design, run};
+use flexdrill_calibration::study::unknowns::Unknowns;
+use flexdrill_calibration::study::{StudySettings, study};
 use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, find};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::Simulation;
-use flexdrill_fit::points::{design, run};
-use flexdrill_fit::study::cover;
-use flexdrill_fit::unknowns::Unknowns;
-use flexdrill_fit::{StudySettings, study};
 use flexdrill_motion::{BIT, SURFACE};
 
 /// Speed (r/min), weight (kN) and seconds of the parts: two connections with rotation off bottom.

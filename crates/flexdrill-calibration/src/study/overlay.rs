@@ -7,10 +7,10 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use super::Study;
 use super::check::At;
-use super::study::Study;
-use flexdrill_calibration::identify::{Estimate, Verdict};
-use flexdrill_calibration::windows::Channel;
+use crate::identify::{Estimate, Verdict};
+use crate::windows::Channel;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::units::n_to_kn;
 

@@ -14,15 +14,15 @@
 use flexdrill_calibration::fit::{Outcome, Problem, observations};
 use flexdrill_calibration::identify::Verdict;
 use flexdrill_calibration::smoother::SmootherSettings;
+use flexdrill_calibration::study::overlay::{self, Provenance};
+use flexdrill_calibration::study::point::{Figures, Load};
+use flexdrill_calibration::study::points::{Cover, design};
+use flexdrill_calibration::study::unknowns::Unknowns;
+use flexdrill_calibration::study::{self, Study};
 use flexdrill_calibration::surrogate::usual_points;
 use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, Windows, find};
 use flexdrill_config::Config;
 use flexdrill_core::tool::{HoleInterval, SectionProperties};
-use flexdrill_fit::overlay::{self, Provenance};
-use flexdrill_fit::point::{Figures, Load};
-use flexdrill_fit::points::{Cover, design};
-use flexdrill_fit::study::{self, Study};
-use flexdrill_fit::unknowns::Unknowns;
 
 /// Logs of a usual run. Fewer than 31 of 40 bands hold a truth that nine of ten hold once in 100 times (binomial).
 const FEW: u64 = 40;
