@@ -57,6 +57,19 @@ impl TypeInfo {
     pub fn source(&self) -> &'static str {
         self.schema.split(SEPARATOR).next().unwrap_or_default()
     }
+
+    /// The comment above a field in the definition, on one line; empty where there is none.
+    pub fn comment(&self, field: &str) -> String {
+        let mut comment: Vec<&str> = Vec::new();
+        for line in self.source().lines() {
+            match line.strip_prefix("# ") {
+                Some(text) => comment.push(text.trim()),
+                None if line.split_whitespace().nth(1) == Some(field) => return comment.join(" "),
+                None => comment.clear(),
+            }
+        }
+        String::new()
+    }
 }
 
 /// The line between two messages of a schema.

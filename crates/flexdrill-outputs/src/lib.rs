@@ -1,6 +1,8 @@
-//! From the twin to the messages: which are due ([`Outputs`]), how a snapshot fills them ([`fill`]), the values of the rig's
-//! messages by quantity, and the words for the codes ([`words`]). The crate knows no network and no file.
+//! From the twin to the messages: which are due ([`Outputs`]), how a snapshot fills them ([`fill`]), the table of their
+//! scalars ([`figures`]), the values of the rig's messages by quantity, and the words for the codes ([`words`]). The crate
+//! knows no network and no file.
 
+pub mod figures;
 pub mod fill;
 mod measured;
 mod outputs;

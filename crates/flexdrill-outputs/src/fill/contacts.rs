@@ -1,6 +1,7 @@
 //! [`ContactForces`].
 
 use super::{copy, largest};
+use crate::figures::fill_contact_forces;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_messages::ContactForces;
 use flexdrill_messages::std_msgs::Header;
@@ -9,8 +10,9 @@ use flexdrill_messages::std_msgs::Header;
 pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactForces) {
     super::stamp(&mut out.header, header);
     let contacts = &snapshot.contacts;
-    (out.max_pipe_guide_force, out.max_pipe_guide_station) = largest(&contacts.pipe_guide.normal_peak);
-    (out.max_guide_wall_force, out.max_guide_wall_station) = largest(&contacts.guide_wall.normal_peak);
+    fill_contact_forces(snapshot, out);
+    out.max_pipe_guide_station = largest(&contacts.pipe_guide.normal_peak).1;
+    out.max_guide_wall_station = largest(&contacts.guide_wall.normal_peak).1;
     copy(&mut out.measured_depth, &contacts.measured_depth);
     copy(&mut out.inclination, &contacts.inclination);
     copy(&mut out.state, &contacts.state);
@@ -35,7 +37,6 @@ pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactFor
     copy(&mut out.guide_wall_shock, &outer.shock);
     let shock = &snapshot.shock;
     out.shock_severity = shock.severity as u8;
-    out.shock_impulse = shock.impulse;
     out.shock_station = u32::try_from(shock.station).unwrap_or(u32::MAX);
     out.shock_layer = if shock.layer == 0 {
         ContactForces::INNER

@@ -1,6 +1,7 @@
 //! [`JointDeflections`] and the stock [`JointState`].
 
 use super::{copy, largest};
+use crate::figures::fill_joint_deflections;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_messages::JointDeflections;
 use flexdrill_messages::sensor_msgs::JointState;
@@ -10,13 +11,8 @@ use flexdrill_messages::std_msgs::Header;
 pub fn joint_deflections(snapshot: &Snapshot, header: &Header, out: &mut JointDeflections) {
     super::stamp(&mut out.header, header);
     let joints = &snapshot.joints;
-    (out.max_bend_angle, out.max_bend_joint) = largest(&joints.bend_angle);
-    out.joints_at_limit = joints
-        .bend_angle
-        .iter()
-        .zip(&joints.limit_angle)
-        .filter(|(angle, limit)| angle >= limit)
-        .count() as u32;
+    fill_joint_deflections(snapshot, out);
+    out.max_bend_joint = largest(&joints.bend_angle).1;
     copy(&mut out.measured_depth, &joints.measured_depth);
     copy(&mut out.inclination, &joints.inclination);
     copy(&mut out.bend_angle, &joints.bend_angle);

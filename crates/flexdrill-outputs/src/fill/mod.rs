@@ -34,7 +34,7 @@ fn copy<T: Clone>(target: &mut Vec<T>, values: &[T]) {
 }
 
 /// The largest of the values and its place; (0, 0) where there is none.
-fn largest(values: &[f64]) -> (f64, u32) {
+pub(crate) fn largest(values: &[f64]) -> (f64, u32) {
     let mut best = (0.0, 0);
     for (index, &value) in values.iter().enumerate() {
         if value > best.0 {

@@ -1,4 +1,5 @@
-//! The messages of the outputs: how snapshots fill them, and the signs of their figures in each state of a rig.
+//! The messages of the outputs: their table of figures, how snapshots fill them, and the signs of their figures in each
+//! state of a rig.
 
 #![allow(
     clippy::unwrap_used,
@@ -6,5 +7,6 @@
     reason = "helpers of tests fail by panicking"
 )]
 
+mod figures;
 mod fill;
 mod states;

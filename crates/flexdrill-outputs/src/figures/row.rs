@@ -1,0 +1,169 @@
+//! What a row of the table says.
+
+use flexdrill_core::inputs::Dimension;
+use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_messages::Message;
+
+/// A scalar of the message `M`.
+#[derive(Debug)]
+pub struct Figure<M: 'static> {
+    /// Name of the field in the message.
+    pub field: &'static str,
+    /// What it measures.
+    pub kind: Kind,
+    /// The time that it covers.
+    pub window: Window,
+    /// Where tables show it; `None` where no table does.
+    pub shown: Option<Shown>,
+    /// Its name on the protocols of the bridges; `None` where they do not send it.
+    pub bridge: Option<&'static str>,
+    /// Its value in a message (SI).
+    pub read: fn(&M) -> f64,
+}
+
+impl<M: Message> Figure<M> {
+    /// What it is: the comment above its field in the message's definition.
+    pub fn text(&self) -> String {
+        M::INFO.comment(self.field)
+    }
+}
+
+/// A row in the tables of reports and of the rig page.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown {
+    /// The table, or the part of one.
+    pub group: Group,
+    /// Label where the row stands alone.
+    pub label: &'static str,
+    /// Another label under the heading of the group.
+    pub(super) short: Option<&'static str>,
+}
+
+impl Shown {
+    /// Label under the heading of its group. Two groups that a table has side by side share a row where these agree.
+    pub fn short(&self) -> &'static str {
+        self.short.unwrap_or(self.label)
+    }
+}
+
+/// Rows that stand together, in the order of the tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Group {
+    /// Torque along the tool.
+    Torque,
+    /// Torque that friction takes.
+    Friction,
+    /// Weight along the tool.
+    Weight,
+    /// Axial drag.
+    Drag,
+    /// What the whole tool does: load on the hook, limit of the drive, advance.
+    Whole,
+    /// Power put in.
+    PutIn,
+    /// Power taken.
+    Taken,
+}
+
+impl Group {
+    /// The name on the rig page.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Torque => "torque",
+            Self::Friction => "friction",
+            Self::Weight => "weight",
+            Self::Drag => "drag",
+            Self::Whole => "whole",
+            Self::PutIn => "put_in",
+            Self::Taken => "taken",
+        }
+    }
+}
+
+/// The time that a value covers. The publishing interval is the time since the message before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Window {
+    /// The instant of the header's stamp, or a span that the figure's text names.
+    Instant,
+    /// Mean over the publishing interval.
+    Mean,
+    /// Root mean square over the publishing interval.
+    Rms,
+    /// Largest value in the publishing interval.
+    Largest,
+    /// Integral over the publishing interval.
+    Integral,
+    /// Mean over `transfer.window`.
+    LongMean,
+    /// Root mean square over `transfer.window`.
+    LongRms,
+}
+
+impl Window {
+    /// A sentence that follows the figure's text; empty for an instant.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Instant => "",
+            Self::Mean => "Mean over the publishing interval.",
+            Self::Rms => "Root mean square over the publishing interval.",
+            Self::Largest => "Largest value in the publishing interval.",
+            Self::Integral => "Integral over the publishing interval.",
+            Self::LongMean => "Mean over `transfer.window`.",
+            Self::LongRms => "Root mean square over `transfer.window`.",
+        }
+    }
+}
+
+macro_rules! kinds {
+    ($($(#[doc = $doc:literal])* $kind:ident in $dimension:expr, shown in $unit:literal times $factor:expr;)*) => {
+        /// What a figure measures: its unit in messages (SI), and the one in which reports and the rig page show it.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Kind {
+            $($(#[doc = $doc])* $kind,)*
+        }
+
+        impl Kind {
+            /// Its dimension; `None` for a power, which no input has.
+            pub const fn dimension(self) -> Option<Dimension> {
+                use Dimension::*;
+                match self { $(Self::$kind => $dimension,)* }
+            }
+
+            /// The unit in reports, and the factor from SI.
+            pub fn unit(self) -> (&'static str, f64) {
+                match self { $(Self::$kind => ($unit, $factor),)* }
+            }
+        }
+    };
+}
+
+kinds! {
+    /// Torque (N m).
+    Torque in Some(Torque), shown in "N m" times 1.0;
+    /// Force or weight (N).
+    Force in Some(Force), shown in "kN" times n_to_kn(1.0);
+    /// Rotary speed (rad/s).
+    RotarySpeed in Some(RotarySpeed), shown in "r/min" times rad_per_s_to_rpm(1.0);
+    /// Rate of penetration (m/s).
+    Advance in Some(Speed), shown in "m/h" times m_per_s_to_m_per_h(1.0);
+    /// Depth of cut (m per turn).
+    Cut in Some(Length), shown in "mm per turn" times 1e3;
+    /// Speed (m/s).
+    Speed in Some(Speed), shown in "m/s" times 1.0;
+    /// Acceleration (m/s2).
+    Acceleration in Some(Acceleration), shown in "m/s²" times 1.0;
+    /// Angle (rad).
+    Angle in Some(Angle), shown in "deg" times rad_to_deg(1.0);
+    /// Time (s).
+    Time in Some(Time), shown in "s" times 1.0;
+    /// Impulse (N s).
+    Impulse in None, shown in "N s" times 1.0;
+    /// Power (W).
+    Power in None, shown in "W" times 1.0;
+    /// Share of a whole, 0 to 1.
+    Share in Some(Number), shown in "%" times 100.0;
+    /// Share of the time, 0 to 1.
+    TimeShare in Some(Number), shown in "% of the time" times 100.0;
+    /// A number alone.
+    Number in Some(Number), shown in "" times 1.0;
+}

@@ -1,0 +1,88 @@
+//! The table of figures and the definitions of the messages agree.
+
+use flexdrill_messages::Message;
+use flexdrill_outputs::figures::{BIT_STATE, CONTACT_FORCES, Figure, JOINT_DEFLECTIONS, TRANSFER, Window};
+
+/// The scalar numbers of a message's definition, by type and name. A constant has a value.
+fn scalars<M: Message>() -> Vec<(&'static str, &'static str)> {
+    let lines = M::INFO.source().lines().filter(|line| !line.contains(['#', '=']));
+    let fields = lines.filter_map(|line| line.split_once(' '));
+    fields
+        .filter(|(kind, _)| ["float64", "uint32"].contains(kind))
+        .collect()
+}
+
+/// Every row has its field with a comment, and every float64 of the message has its row.
+fn check<M: Message>(table: &[Figure<M>]) {
+    let scalars = scalars::<M>();
+    for figure in table {
+        let field = figure.field;
+        assert!(scalars.iter().any(|(_, name)| *name == field), "{}: {field}", M::NAME);
+        let text = figure.text();
+        assert!(text.ends_with('.'), "{}: {field}: {text}", M::NAME);
+        // What covers the interval says so in the definition too; all of `twin/transfer` covers its window.
+        let word = match figure.window {
+            Window::Mean => "mean",
+            Window::Rms => "Root mean square",
+            Window::Largest => "Largest",
+            Window::Integral => "Integral",
+            Window::Instant | Window::LongMean | Window::LongRms => "",
+        };
+        assert!(text.contains(word), "{}: {field}: {text}", M::NAME);
+        assert_eq!(figure.window == Window::LongRms, field.ends_with("_rms"), "{field}");
+    }
+    for (kind, name) in scalars {
+        let rows = table.iter().filter(|figure| figure.field == name).count();
+        assert!(
+            rows == 1 || rows == 0 && kind == "uint32",
+            "{}: {name}: {rows} rows",
+            M::NAME
+        );
+    }
+}
+
+#[test]
+fn every_scalar_of_the_messages_is_a_row() {
+    check(BIT_STATE);
+    check(JOINT_DEFLECTIONS);
+    check(CONTACT_FORCES);
+    check(TRANSFER);
+}
+
+#[test]
+fn a_figure_has_the_text_of_its_field() {
+    let torque = TRANSFER
+        .iter()
+        .find(|figure| figure.field == "guide_wall_friction_torque");
+    assert_eq!(
+        torque.unwrap().text(),
+        "Torque of the rotation that friction between guide and wall takes (N m), without what the advance takes."
+    );
+}
+
+/// A name, a label within its group, and a figure that bridges send has a unit for them.
+#[test]
+fn names_and_labels_are_unique() {
+    let mut names: Vec<&str> = Vec::new();
+    names.extend(BIT_STATE.iter().filter_map(|figure| figure.bridge));
+    names.extend(JOINT_DEFLECTIONS.iter().filter_map(|figure| figure.bridge));
+    names.extend(CONTACT_FORCES.iter().filter_map(|figure| figure.bridge));
+    names.extend(TRANSFER.iter().filter_map(|figure| figure.bridge));
+    let sent = names.len();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), sent);
+    for (at, figure) in TRANSFER.iter().enumerate() {
+        assert!(
+            figure.bridge.is_none() || figure.kind.dimension().is_some(),
+            "{figure:?}"
+        );
+        for other in &TRANSFER[at + 1..] {
+            let (Some(one), Some(two)) = (figure.shown, other.shown) else {
+                continue;
+            };
+            let differ = one.label != two.label && one.short() != two.short();
+            assert!(one.group != two.group || differ, "{one:?} {two:?}");
+        }
+    }
+}
