@@ -10,9 +10,9 @@ pub const ALIVE: &str = "Twin/alive";
 
 /// The twin's figures. Called with an empty set it declares them.
 pub fn figures(node: &mut SparkplugNode, twin: &TwinFigures) {
-    for figure in Figure::ALL {
+    for figure in Figure::all() {
         let value = twin.value(figure).unwrap_or(f64::NAN);
-        node.number(&format!("Twin/{figure}"), figure.dimension().si().name(), value);
+        node.number(&format!("Twin/{figure}"), figure.dimension.si().name(), value);
     }
     let status = twin.status();
     node.text("Twin/state", status.map(|status| words::twin_state(status.state)));

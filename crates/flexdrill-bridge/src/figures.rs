@@ -1,6 +1,9 @@
-//! The twin's figures by name and unit: what is sent back to a rig, to a plant or to an office.
+//! The twin's figures by name and unit: what is sent back to a rig, to a plant or to an office. Scalars of the messages are
+//! rows of [`flexdrill_outputs::figures`]; what is made from codes and lists has its rows here.
 
+use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::LazyLock;
 
 use flexdrill_core::inputs::Dimension;
 use flexdrill_messages::{
@@ -8,174 +11,87 @@ use flexdrill_messages::{
     message_from_cdr_body,
     topics::{self, TopicInfo},
 };
-use serde::{Deserialize, Serialize};
+use flexdrill_outputs::figures::{self, Figure as Scalar};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-macro_rules! figures {
-    ($($(#[doc = $doc:literal])* $figure:ident $name:literal in $dimension:ident from $field:ident: $value:expr;)*) => {
-        /// A figure of the twin.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-        pub enum Figure {
-            $($(#[doc = $doc])* #[serde(rename = $name)] $figure,)*
-        }
-
-        impl Figure {
-            /// All of them.
-            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$figure),*];
-
-            /// The name in mappings and on other protocols.
-            pub const fn name(self) -> &'static str {
-                match self { $(Self::$figure => $name,)* }
-            }
-
-            /// The topic that it comes from.
-            pub fn topic(self) -> &'static TopicInfo {
-                match self { $(Self::$figure => sources::$field(),)* }
-            }
-
-            /// What it is, in a sentence.
-            pub const fn description(self) -> &'static str {
-                match self { $(Self::$figure => concat!($($doc),*),)* }
-            }
-
-            /// What it measures; values are in the SI unit of that.
-            pub const fn dimension(self) -> Dimension {
-                match self { $(Self::$figure => Dimension::$dimension,)* }
-            }
-        }
-
-        impl TwinFigures {
-            /// The newest value of a figure (SI); `None` where the twin has not sent it or does not have it.
-            pub fn value(&self, figure: Figure) -> Option<f64> {
-                let value: f64 = match figure {
-                    $(Figure::$figure => {
-                        let read: fn(&_) -> f64 = $value;
-                        read(self.$field.as_ref()?)
-                    })*
-                };
-                value.is_finite().then_some(value)
-            }
-
-            /// When the twin computed the newest value (ns since 1970, on the rig's clock).
-            pub fn stamp(&self, figure: Figure) -> Option<i64> {
-                Some(match figure {
-                    $(Figure::$figure => self.$field.as_ref()?.header.stamp.to_nanoseconds(),)*
-                })
-            }
-        }
-    };
-}
-
-/// The topics by the names of the fields of [`TwinFigures`].
-mod sources {
-    use super::{TopicInfo, topics};
-
-    pub(super) const fn whirl() -> &'static TopicInfo {
-        &topics::WHIRL_WARNINGS
-    }
-    pub(super) const fn alarms() -> &'static TopicInfo {
-        &topics::ALARMS
-    }
-    pub(super) const fn bit() -> &'static TopicInfo {
-        &topics::BIT_STATE
-    }
-    pub(super) const fn joints() -> &'static TopicInfo {
-        &topics::JOINT_DEFLECTIONS
-    }
-    pub(super) const fn contacts() -> &'static TopicInfo {
-        &topics::CONTACT_FORCES
-    }
-    pub(super) const fn transfer() -> &'static TopicInfo {
-        &topics::TRANSFER
-    }
-    pub(super) const fn status() -> &'static TopicInfo {
-        &topics::STATUS
-    }
-}
-
-figures! {
-    /// Severity of the whirl warning: 0 ok, 1 watch, 2 warning, 3 critical.
-    WhirlSeverity "whirl_severity" in Number from whirl: |whirl: &WhirlWarning| f64::from(whirl.severity);
-    /// Measured depth from the kick-off of the whirl that the warning names.
-    WhirlDepth "whirl_measured_depth" in Length from whirl: |whirl: &WhirlWarning| {
-        if whirl.severity == WhirlWarning::OK { f64::NAN } else { whirl.measured_depth }
-    };
-    /// Number of alarms that are active.
-    ActiveAlarms "active_alarms" in Number from alarms: |list: &AlarmList| {
-        list.alarms.iter().filter(|alarm| alarm.active).count() as f64
-    };
-    /// Number of alarms that are not yet acknowledged.
-    UnacknowledgedAlarms "unacknowledged_alarms" in Number from alarms: |list: &AlarmList| f64::from(list.unacknowledged);
-    /// Highest priority of the active alarms: 0 none, 1 low, 2 medium, 3 high.
-    HighestPriority "highest_alarm_priority" in Number from alarms: |list: &AlarmList| {
-        let active = list.alarms.iter().filter(|alarm| alarm.active).map(|alarm| alarm.priority);
-        f64::from(active.max().unwrap_or(Alarm::NO_PRIORITY))
-    };
-    /// Torque of the rock against the bit, mean since the message before.
-    BitTorque "bit_torque" in Torque from bit: |bit: &BitState| bit.torque;
-    /// Rotary speed of the bit, mean since the message before.
-    BitSpeed "bit_rotary_speed" in RotarySpeed from bit: |bit: &BitState| bit.rotary_speed;
-    /// Weight on the bit, mean since the message before.
-    BitWeight "bit_weight" in Force from bit: |bit: &BitState| bit.weight_on_bit;
-    /// Largest minus smallest speed of the bit over twice its mean.
-    StickSlip "stick_slip_index" in Number from bit: |bit: &BitState| bit.stick_slip_index;
-    /// Axial acceleration of the bit, root mean square.
-    AxialVibration "bit_axial_vibration" in Acceleration from bit: |bit: &BitState| bit.axial_acceleration;
-    /// Lateral acceleration of the bit, root mean square.
-    LateralVibration "bit_lateral_vibration" in Acceleration from bit: |bit: &BitState| bit.lateral_acceleration;
-    /// Largest lateral acceleration of the bit.
-    LateralShock "bit_lateral_shock" in Acceleration from bit: |bit: &BitState| bit.lateral_acceleration_peak;
-    /// Largest bend angle of all joints.
-    BendAngle "max_bend_angle" in Angle from joints: |joints: &JointDeflections| joints.max_bend_angle;
-    /// Number of joints at their limit.
-    JointsAtLimit "joints_at_limit" in Number from joints: |joints: &JointDeflections| f64::from(joints.joints_at_limit);
-    /// Largest force between pipe and guide pipe.
-    PipeGuideForce "max_pipe_guide_force" in Force from contacts: |contacts: &ContactForces| contacts.max_pipe_guide_force;
-    /// Largest force between guide pipe and wall.
-    GuideWallForce "max_guide_wall_force" in Force from contacts: |contacts: &ContactForces| contacts.max_guide_wall_force;
-    /// Torque of the top drive that the twin computes; only with a string above.
-    SurfaceTorque "surface_torque" in Torque from transfer: |transfer: &Transfer| transfer.surface_torque;
-    /// Torque on the top of the tool.
-    KickoffTorque "kickoff_torque" in Torque from transfer: |transfer: &Transfer| transfer.kickoff_torque;
-    /// Torque at the bit over that at the surface; not while the tool does not turn.
-    TorqueEfficiency "torque_efficiency" in Number from transfer: |transfer: &Transfer| transfer.torque_efficiency;
-    /// Share of the time in which the torque of the top drive was at its limit; only with a string above.
-    DriveAtLimit "drive_at_limit" in Number from transfer: |transfer: &Transfer| transfer.drive_at_limit;
-    /// Load on the hook that the twin computes; only with a string above.
-    HookLoad "hook_load" in Force from transfer: |transfer: &Transfer| transfer.hook_load;
-    /// Rate at which the hole deepens, as the twin computes it; 0 off bottom.
-    RateOfPenetration "rate_of_penetration" in Speed from transfer: |transfer: &Transfer| transfer.rate_of_penetration;
-    /// Model time over wall time.
-    RealTimeFactor "real_time_factor" in Number from status: |status: &TwinStatus| status.real_time_factor;
-    /// How far the motion can be trusted: 0 good, 1 degraded, 2 poor.
-    ModelQuality "model_quality" in Number from status: |status: &TwinStatus| f64::from(status.model_quality);
-    /// The state of the twin: 0 starting, 1 running, 2 paused, 3 failed.
-    TwinState "twin_state" in Number from status: |status: &TwinStatus| f64::from(status.state);
-    /// Model time.
-    ModelTime "model_time" in Time from status: |status: &TwinStatus| status.model_time;
+/// A figure of the twin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Figure {
+    /// The name in mappings and on other protocols.
+    pub name: &'static str,
+    /// The topic that it comes from.
+    pub topic: &'static TopicInfo,
+    /// What it is, in a sentence or two.
+    pub description: &'static str,
+    /// What it measures; values are in the SI unit of that.
+    pub dimension: Dimension,
 }
 
 impl Figure {
+    /// All of them, in the order of displays.
+    pub fn all() -> impl Iterator<Item = Self> {
+        ALL.iter().copied()
+    }
+
     /// The figure of that name.
     pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|figure| figure.name() == name)
+        Self::all().find(|figure| figure.name == name)
+    }
+}
+
+impl Serialize for Figure {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for Figure {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::of_name(&name).ok_or_else(|| {
+            let names: Vec<&str> = Self::all().map(|figure| figure.name).collect();
+            D::Error::custom(format!("`{name}` is no figure; the figures are {}", names.join(", ")))
+        })
     }
 }
 
 impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(self.name)
     }
 }
 
-/// The newest messages of the twin that have figures.
+/// A figure with its value in a message.
+struct Row<M> {
+    figure: Figure,
+    read: fn(&M) -> f64,
+}
+
+/// The scalars of a message that bridges send.
+fn scalars<M: Message>(topic: &'static TopicInfo, table: &'static [Scalar<M>]) -> impl Iterator<Item = Row<M>> {
+    table.iter().filter_map(move |scalar| {
+        let description = format!("{} {}", scalar.text(), scalar.window.words());
+        let figure = Figure {
+            name: scalar.bridge?,
+            topic,
+            // Once per program, as the rows are made once.
+            description: description.leak().trim_end(),
+            dimension: scalar.kind.dimension()?,
+        };
+        let read = scalar.read;
+        Some(Row { figure, read })
+    })
+}
+
+/// The newest figures of the twin.
 #[derive(Debug, Clone, Default)]
 pub struct TwinFigures {
-    whirl: Option<WhirlWarning>,
+    /// By the figure's name.
+    values: BTreeMap<&'static str, f64>,
+    /// By the topic's name (ns since 1970).
+    stamps: BTreeMap<&'static str, i64>,
     alarms: Option<AlarmList>,
-    bit: Option<BitState>,
-    joints: Option<JointDeflections>,
-    contacts: Option<ContactForces>,
-    transfer: Option<Transfer>,
     status: Option<TwinStatus>,
 }
 
@@ -195,34 +111,95 @@ pub enum FiguresError {
     },
 }
 
-impl TwinFigures {
-    /// The topics that have figures.
-    pub const TOPICS: [&'static TopicInfo; 7] = [
-        &topics::WHIRL_WARNINGS,
-        &topics::ALARMS,
-        &topics::BIT_STATE,
-        &topics::JOINT_DEFLECTIONS,
-        &topics::CONTACT_FORCES,
-        &topics::TRANSFER,
-        &topics::STATUS,
-    ];
-
-    /// Takes the body (CDR without its header) of a message on one of [`Self::TOPICS`].
-    ///
-    /// # Errors
-    /// When the topic has no figures or the bytes are no message of its type.
-    pub fn take(&mut self, topic: &str, body: &[u8]) -> Result<(), FiguresError> {
-        match topic {
-            _ if topic == topics::WHIRL_WARNINGS.name => self.whirl = Some(read(&topics::WHIRL_WARNINGS, body)?),
-            _ if topic == topics::ALARMS.name => self.alarms = Some(read(&topics::ALARMS, body)?),
-            _ if topic == topics::BIT_STATE.name => self.bit = Some(read(&topics::BIT_STATE, body)?),
-            _ if topic == topics::JOINT_DEFLECTIONS.name => self.joints = Some(read(&topics::JOINT_DEFLECTIONS, body)?),
-            _ if topic == topics::CONTACT_FORCES.name => self.contacts = Some(read(&topics::CONTACT_FORCES, body)?),
-            _ if topic == topics::TRANSFER.name => self.transfer = Some(read(&topics::TRANSFER, body)?),
-            _ if topic == topics::STATUS.name => self.status = Some(read(&topics::STATUS, body)?),
-            _ => return Err(FiguresError::Topic(topic.to_owned())),
+macro_rules! messages {
+    ($(
+        $topic:ident: $message:ident $(kept as $kept:ident)? {
+            $($name:literal in $dimension:ident: $read:expr, $description:literal;)*
+            $(..$scalars:path)?
         }
-        Ok(())
+    )*) => {
+        $(static $topic: LazyLock<Vec<Row<$message>>> = LazyLock::new(|| {
+            let topic = &topics::$topic;
+            let own: Vec<Row<$message>> = vec![$(Row {
+                figure: Figure { name: $name, topic, description: $description, dimension: Dimension::$dimension },
+                read: $read,
+            }),*];
+            own.into_iter()$(.chain(scalars(topic, $scalars)))?.collect()
+        });)*
+
+        static ALL: LazyLock<Vec<Figure>> = LazyLock::new(|| {
+            let mut all = Vec::new();
+            $(all.extend($topic.iter().map(|row| row.figure));)*
+            all
+        });
+
+        impl TwinFigures {
+            /// The topics that have figures.
+            pub const TOPICS: [&'static TopicInfo; [$(topics::$topic.name),*].len()] = [$(&topics::$topic),*];
+
+            /// Takes the body (CDR without its header) of a message on one of [`Self::TOPICS`].
+            ///
+            /// # Errors
+            /// When the topic has no figures or the bytes are no message of its type.
+            pub fn take(&mut self, topic: &str, body: &[u8]) -> Result<(), FiguresError> {
+                match topic {
+                    $(_ if topic == topics::$topic.name => {
+                        let message: $message = read(&topics::$topic, body)?;
+                        self.stamps.insert(topics::$topic.name, message.header.stamp.to_nanoseconds());
+                        self.values.extend($topic.iter().map(|row| (row.figure.name, (row.read)(&message))));
+                        $(self.$kept = Some(message);)?
+                    })*
+                    _ => return Err(FiguresError::Topic(topic.to_owned())),
+                }
+                Ok(())
+            }
+        }
+    };
+}
+
+messages! {
+    WHIRL_WARNINGS: WhirlWarning {
+        "whirl_severity" in Number: |whirl| f64::from(whirl.severity),
+            "Severity of the whirl warning: 0 ok, 1 watch, 2 warning, 3 critical.";
+        "whirl_measured_depth" in Length:
+            |whirl| if whirl.severity == WhirlWarning::OK { f64::NAN } else { whirl.measured_depth },
+            "Measured depth from the kick-off of the whirl that the warning names.";
+    }
+    ALARMS: AlarmList kept as alarms {
+        "active_alarms" in Number: |list| active(list).count() as f64, "Number of alarms that are active.";
+        "unacknowledged_alarms" in Number: |list| f64::from(list.unacknowledged),
+            "Number of alarms that are not yet acknowledged.";
+        "highest_alarm_priority" in Number:
+            |list| f64::from(active(list).map(|alarm| alarm.priority).max().unwrap_or(Alarm::NO_PRIORITY)),
+            "Highest priority of the active alarms: 0 none, 1 low, 2 medium, 3 high.";
+    }
+    BIT_STATE: BitState { ..figures::BIT_STATE }
+    JOINT_DEFLECTIONS: JointDeflections { ..figures::JOINT_DEFLECTIONS }
+    CONTACT_FORCES: ContactForces { ..figures::CONTACT_FORCES }
+    TRANSFER: Transfer { ..figures::TRANSFER }
+    STATUS: TwinStatus kept as status {
+        "real_time_factor" in Number: |status| status.real_time_factor, "Model time over wall time.";
+        "model_quality" in Number: |status| f64::from(status.model_quality),
+            "How far the motion can be trusted: 0 good, 1 degraded, 2 poor.";
+        "twin_state" in Number: |status| f64::from(status.state),
+            "The state of the twin: 0 starting, 1 running, 2 paused, 3 failed.";
+        "model_time" in Time: |status| status.model_time, "Model time.";
+    }
+}
+
+fn active(list: &AlarmList) -> impl Iterator<Item = &Alarm> {
+    list.alarms.iter().filter(|alarm| alarm.active)
+}
+
+impl TwinFigures {
+    /// The newest value of a figure (SI); `None` where the twin has not sent it or does not have it.
+    pub fn value(&self, figure: Figure) -> Option<f64> {
+        self.values.get(figure.name).copied().filter(|value| value.is_finite())
+    }
+
+    /// When the twin computed the newest value (ns since 1970, on the rig's clock).
+    pub fn stamp(&self, figure: Figure) -> Option<i64> {
+        self.stamps.get(figure.topic.name).copied()
     }
 
     /// The newest status.
@@ -233,11 +210,6 @@ impl TwinFigures {
     /// The newest list of alarms.
     pub fn alarms(&self) -> Option<&AlarmList> {
         self.alarms.as_ref()
-    }
-
-    /// The newest whirl warning.
-    pub fn whirl(&self) -> Option<&WhirlWarning> {
-        self.whirl.as_ref()
     }
 }
 
@@ -256,15 +228,16 @@ mod tests {
     #[test]
     fn figures_come_from_the_newest_messages() {
         let mut twin = TwinFigures::default();
-        assert!(Figure::ALL.into_iter().all(|figure| twin.value(figure).is_none()));
+        assert!(Figure::all().all(|figure| twin.value(figure).is_none()));
+        let value = |twin: &TwinFigures, name| twin.value(Figure::of_name(name).unwrap());
         let bit = BitState {
             torque: 350.0,
             stick_slip_index: f64::NAN,
             ..BitState::default()
         };
         twin.take(topics::BIT_STATE.name, &to_cdr_body(&bit).unwrap()).unwrap();
-        assert_eq!(twin.value(Figure::BitTorque), Some(350.0));
-        assert_eq!(twin.value(Figure::StickSlip), None);
+        assert_eq!(value(&twin, "bit_torque"), Some(350.0));
+        assert_eq!(value(&twin, "stick_slip_index"), None);
         let active = Alarm {
             active: true,
             priority: Alarm::MEDIUM,
@@ -275,12 +248,27 @@ mod tests {
             ..AlarmList::default()
         };
         twin.take(topics::ALARMS.name, &to_cdr_body(&list).unwrap()).unwrap();
-        assert_eq!(twin.value(Figure::ActiveAlarms), Some(1.0));
-        assert_eq!(twin.value(Figure::HighestPriority), Some(2.0));
+        assert_eq!(value(&twin, "active_alarms"), Some(1.0));
+        assert_eq!(value(&twin, "highest_alarm_priority"), Some(2.0));
         assert!(twin.take(topics::STATUS.name, b"\0").is_err());
         assert!(twin.take("rig/inputs", b"").is_err());
-        for figure in Figure::ALL {
-            assert_eq!(Figure::of_name(figure.name()), Some(figure));
-        }
+    }
+
+    /// What sites have in their mappings and displays: names stay, in this order.
+    #[test]
+    fn figures_keep_their_names_and_their_order() {
+        let names: Vec<&str> = Figure::all().map(|figure| figure.name).collect();
+        let expected = "whirl_severity whirl_measured_depth active_alarms unacknowledged_alarms highest_alarm_priority \
+                        bit_torque bit_rotary_speed bit_weight stick_slip_index bit_axial_vibration bit_lateral_vibration \
+                        bit_lateral_shock max_bend_angle joints_at_limit max_pipe_guide_force max_guide_wall_force \
+                        surface_torque kickoff_torque torque_efficiency drive_at_limit hook_load rate_of_penetration \
+                        real_time_factor model_quality twin_state model_time";
+        assert_eq!(names, expected.split(' ').collect::<Vec<_>>());
+        assert_eq!(
+            Figure::of_name("bit_weight").unwrap().description,
+            "Weight on the bit, mean (N): given, or what the rock carries; 0 off bottom. Mean over the publishing interval."
+        );
+        let unknown = serde_json::from_str::<Figure>("\"bit_wait\"").unwrap_err().to_string();
+        assert!(unknown.contains("bit_weight"), "{unknown}");
     }
 }

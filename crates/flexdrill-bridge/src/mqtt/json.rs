@@ -93,14 +93,10 @@ fn one_input(status: &TwinStatus, input: usize) -> Value {
 
 /// The document of `figures`.
 pub fn figures(twin: &TwinFigures, now: i64) -> Value {
-    let figures: Map<String, Value> = Figure::ALL
-        .into_iter()
+    let figures: Map<String, Value> = Figure::all()
         .map(|figure| {
             let value = twin.value(figure).unwrap_or(f64::NAN);
-            (
-                figure.name().to_owned(),
-                quantity(value, figure.dimension().si().name()),
-            )
+            (figure.name.to_owned(), quantity(value, figure.dimension.si().name()))
         })
         .collect();
     json!({"time": at(now), "figures": figures})

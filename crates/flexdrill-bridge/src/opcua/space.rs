@@ -133,7 +133,7 @@ pub(super) fn number(value: f64) -> Option<Variant> {
 
 /// All variables but those of the alarms, which the twin names.
 pub fn variables() -> Vec<Variable> {
-    let mut all: Vec<Variable> = Figure::ALL.into_iter().map(of_figure).collect();
+    let mut all: Vec<Variable> = Figure::all().map(of_figure).collect();
     all.extend(of_status());
     all.extend(InputKind::ALL.into_iter().flat_map(of_input));
     all.extend(of_residuals());
@@ -142,12 +142,12 @@ pub fn variables() -> Vec<Variable> {
 }
 
 fn of_figure(figure: Figure) -> Variable {
-    let topic = figure.topic();
-    let kind = Kind::Number(figure.dimension().si());
+    let topic = figure.topic;
+    let kind = Kind::Number(figure.dimension.si());
     let read = move |twin: &TwinState| twin.figures().value(figure).map(Variant::from);
     let stated = topic.name == topics::STATUS.name || topic.name == topics::ALARMS.name;
     let on_change = topic.name == topics::WHIRL_WARNINGS.name || topic.name == topics::ALARMS.name;
-    let mut variable = Variable::new("figures", figure.name(), figure.description().trim(), kind, topic, read).meaning(
+    let mut variable = Variable::new("figures", figure.name, figure.description, kind, topic, read).meaning(
         match (stated, on_change) {
             (true, true) => Meaning::StatedOnChange,
             (true, false) => Meaning::Stated,

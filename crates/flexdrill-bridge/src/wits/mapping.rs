@@ -273,7 +273,7 @@ impl WriteMapping {
             for (code, item) in &self.items {
                 c.below(code.to_string(), |c| {
                     check_number(c, *code, "figure");
-                    let dimension = item.figure.dimension();
+                    let dimension = item.figure.dimension;
                     c.require(
                         item.unit.dimension() == dimension,
                         "unit",
