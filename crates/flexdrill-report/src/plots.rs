@@ -7,6 +7,7 @@ use crate::is_quantity;
 use crate::locations::{Measure, Orbit};
 use crate::reading::Summary;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm, rad_to_deg};
+use flexdrill_outputs::figures::Group;
 use flexdrill_plot::{Figure, Legend, Line, Panel};
 
 /// Samples per turn from which they are joined by a line; with fewer, the line would show a path that is not known.
@@ -120,41 +121,26 @@ pub(crate) fn torque(summary: &Summary) -> Option<Figure> {
 pub(crate) fn transfer(summary: &Summary) -> Option<Figure> {
     let axis = Axis::of(summary);
     let transfer = &summary.transfer;
-    let draw = |title: &str, unit: &str, factor: f64, of: &[(&crate::transfer::Quantity, &str, usize)]| {
-        of.iter()
-            .fold(axis.panel(title, unit), |panel, (quantity, name, color)| {
-                axis.draw(panel, name, *color, &quantity.history, factor)
-            })
-    };
-    let (torque, weight) = (&transfer.torque.quantities, &transfer.weight.quantities);
-    let (friction, drag) = (&transfer.friction.quantities, &transfer.drag.quantities);
-    let places = |of: &[crate::transfer::Quantity], title, unit, factor| match of {
-        [surface, kickoff, bit] => draw(
-            title,
-            unit,
-            factor,
-            &[(surface, "surface", 6), (kickoff, "kick-off", 1), (bit, "bit", 0)],
-        ),
-        _ => axis.panel(title, unit),
-    };
-    let taken = |of: &[crate::transfer::Quantity], title, unit, factor| {
-        let colored: Vec<_> = of
-            .iter()
-            .zip(0..)
-            .map(|(quantity, color)| (quantity, quantity.name, color))
-            .collect();
-        draw(title, unit, factor, &colored)
+    // Places from the surface to the bit have the colours of the other figures, the bit the first.
+    let panel = |title: &str, group: Group, colors: &[usize]| {
+        let (unit, factor) = transfer
+            .group(group)
+            .next()
+            .map_or(("", 1.0), |one| one.figure.kind.unit());
+        let drawn = transfer.group(group).zip(colors);
+        drawn.fold(axis.panel(title, unit), |panel, (quantity, color)| {
+            axis.draw(panel, quantity.shown.short(), *color, &quantity.history, factor)
+        })
     };
     figure(
         "transfer",
         2,
         ROW,
         vec![
-            places(torque, "Torque", "N m", 1.0),
-            // The hook load comes first and is ten times as large.
-            places(weight.get(1..).unwrap_or_default(), "Weight", "kN", kn()),
-            taken(friction, "Torque that friction takes", "N m", 1.0),
-            taken(drag, "Axial drag", "kN", kn()),
+            panel("Torque", Group::Torque, &[6, 1, 0]),
+            panel("Weight", Group::Weight, &[6, 1, 0]),
+            panel("Torque that friction takes", Group::Friction, &[0, 1, 2, 3]),
+            panel("Axial drag", Group::Drag, &[0, 1, 2]),
         ],
     )
 }

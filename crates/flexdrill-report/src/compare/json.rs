@@ -94,7 +94,7 @@ fn si(shown: &str) -> &'static str {
         "W" => "W",
         "m/h" => "m/s",
         "MPa" => "Pa",
-        "mm/turn" => "m",
+        "mm per turn" => "m",
         "m/s²" => "m/s2",
         "deg" => "rad",
         _ => "1",

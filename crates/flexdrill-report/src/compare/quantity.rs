@@ -4,6 +4,7 @@ use super::{Figures, Pair, relative};
 use crate::history::History;
 use crate::reading::Summary;
 use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, pa_to_mpa, rad_per_s_to_rpm};
+use flexdrill_outputs::figures::{Group, Kind};
 
 /// Speeds below this differ by rounding and start-up only (rad/s): 0.01 r/min.
 const SPEED: f64 = 1e-3;
@@ -13,6 +14,8 @@ const FORCE: f64 = 1.0;
 const TORQUE: f64 = 0.1;
 /// The same of powers (W).
 const POWER: f64 = 0.1;
+/// The same of rates (m/s), depths (m) and shares.
+const SMALL: f64 = 1e-6;
 /// Names of the quantities that matter most.
 const AT_THE_BIT: &str = "weight on bit, at the bit";
 const TORQUE_OF_THE_ROCK: &str = "torque of the rock on the bit";
@@ -122,8 +125,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
     let speed = unit("r/min", rad_per_s_to_rpm(1.0), SPEED);
     let force = unit("kN", n_to_kn(1.0), FORCE);
     let torque = unit("N m", 1.0, TORQUE);
-    let power = unit("W", 1.0, POWER);
-    let advance = unit("m/h", m_per_s_to_m_per_h(1.0), 1e-6);
+    let advance = unit("m/h", m_per_s_to_m_per_h(1.0), SMALL);
     let pressure = unit("MPa", pa_to_mpa(1.0), 1e3);
     let mut all = Vec::new();
     // One function gives the history in both summaries, so that no pair can be mixed up.
@@ -155,25 +157,27 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
         unit("m/s²", 1.0, 0.1),
         |s| &s.drive.lateral_acceleration,
     );
-    add("depth of cut", unit("mm/turn", 1e3, 1e-6), |s| &s.transfer.depth_of_cut);
-    add(ADVANCE, advance, |s| &s.transfer.rate_of_penetration);
-    // The groups are the same in both runs, as one function builds them, so that equal quantities are paired.
-    let groups = [
-        (&a.transfer.torque, &b.transfer.torque, "", torque),
-        (&a.transfer.friction, &b.transfer.friction, "torque: ", torque),
-        (&a.transfer.weight, &b.transfer.weight, "", force),
-        (&a.transfer.drag, &b.transfer.drag, "", force),
-        (&a.transfer.put_in, &b.transfer.put_in, "power put in: ", power),
-        (&a.transfer.taken, &b.transfer.taken, "power taken: ", power),
-    ];
-    for (a, b, before, unit) in groups {
-        for (a, b) in a.quantities.iter().zip(&b.quantities) {
-            all.push(Known {
-                name: format!("{before}{}", a.name),
-                unit,
-                histories: [&a.history, &b.history],
-            });
-        }
+    // The quantities are the same in both runs, as one function builds them, so that equal quantities are paired.
+    for (a, b) in a.transfer.quantities.iter().zip(&b.transfer.quantities) {
+        // Powers have short names, and friction takes both torque and power.
+        let before = match a.shown.group {
+            Group::Friction => "torque: ",
+            Group::PutIn => "power put in: ",
+            Group::Taken => "power taken: ",
+            Group::Torque | Group::Weight | Group::Drag | Group::Whole => "",
+        };
+        let small = match a.figure.kind {
+            Kind::Force => FORCE,
+            Kind::Torque => TORQUE,
+            Kind::Power => POWER,
+            _ => SMALL,
+        };
+        let (shown, factor) = a.figure.kind.unit();
+        all.push(Known {
+            name: format!("{before}{}", a.shown.label),
+            unit: unit(shown, factor, small),
+            histories: [&a.history, &b.history],
+        });
     }
     all
 }

@@ -5,24 +5,18 @@ use maud::{Markup, html};
 use super::drawn;
 use super::text::{number, percent};
 use crate::ReportError;
-use crate::history::History;
 use crate::plots;
 use crate::reading::Summary;
-use crate::transfer::Group;
-use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn};
+use crate::transfer::Quantity;
+use flexdrill_outputs::figures::Group;
 
-/// The rows of a group; a quantity that is unknown, or zero throughout, has none.
-fn rows(group: &Group, unit: &str, factor: f64) -> Markup {
+/// A row; a quantity that is unknown, or zero throughout, has none.
+fn row(quantity: &Quantity) -> Markup {
+    let (unit, factor) = quantity.figure.kind.unit();
     html! {
-        @for quantity in &group.quantities { (row(quantity.name, unit, &quantity.history, factor)) }
-    }
-}
-
-fn row(what: &str, unit: &str, history: &History, factor: f64) -> Markup {
-    html! {
-        @if let Some(range) = history.range().filter(|range| range.min != 0.0 || range.max != 0.0) {
+        @if let Some(range) = quantity.history.range().filter(|range| range.min != 0.0 || range.max != 0.0) {
             tr {
-                td { (what) }
+                td { (quantity.shown.label) }
                 @for value in [range.min, range.mean, range.max] { td.n { (number(factor * value)) } }
                 td { (unit) }
             }
@@ -30,13 +24,11 @@ fn row(what: &str, unit: &str, history: &History, factor: f64) -> Markup {
     }
 }
 
-/// Mean powers (W) and their share of all that is put in.
-fn power(group: &Group, put_in: f64) -> Markup {
+/// A mean power (W) and its share of all that is put in.
+fn power(quantity: &Quantity, put_in: f64) -> Markup {
     html! {
-        @for quantity in &group.quantities {
-            @if let Some(mean) = quantity.history.range().map(|range| range.mean).filter(|mean| *mean != 0.0) {
-                tr { td { (quantity.name) } td.n { (number(mean)) } td.n { (percent(mean / put_in)) } }
-            }
+        @if let Some(mean) = quantity.history.range().map(|range| range.mean).filter(|mean| *mean != 0.0) {
+            tr { td { (quantity.shown.label) } td.n { (number(mean)) } td.n { (percent(mean / put_in)) } }
         }
     }
 }
@@ -49,12 +41,9 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
          out.",
     )?;
     // A quantity that the tool does not have counts as zero in the sum.
-    let means = |group: &Group| -> f64 {
-        let of = |history: &History| history.range().map_or(0.0, |range| range.mean);
-        group.quantities.iter().map(|quantity| of(&quantity.history)).sum()
-    };
+    let mean = |quantity: &Quantity| quantity.history.range().map_or(0.0, |range| range.mean);
     // Both tables relate to the power put in, so that their shares can be compared.
-    let put_in = means(&transfer.put_in);
+    let put_in = transfer.group(Group::PutIn).map(mean).sum();
     Ok(html! {
         section {
             h2 { "Transfer from the surface to the bit" }
@@ -70,21 +59,17 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                 table {
                     thead { tr { th { "quantity" } th.n { "least" } th.n { "mean" } th.n { "largest" } th { "unit" } } }
                     tbody {
-                        (rows(&transfer.torque, "N m", 1.0))
-                        (rows(&transfer.friction, "N m", 1.0))
-                        (rows(&transfer.weight, "kN", n_to_kn(1.0)))
-                        (rows(&transfer.drag, "kN", n_to_kn(1.0)))
-                        (row("depth of cut", "mm per turn", &transfer.depth_of_cut, 1e3))
-                        (row("rate of penetration", "m/h", &transfer.rate_of_penetration, m_per_s_to_m_per_h(1.0)))
-                        (row("top drive at its torque limit", "% of the time", &transfer.drive_at_limit, 100.0))
+                        @for group in [Group::Torque, Group::Friction, Group::Weight, Group::Drag, Group::Whole] {
+                            @for quantity in transfer.group(group) { (row(quantity)) }
+                        }
                     }
                 }
                 h3 { "Power put in and taken" }
                 table {
                     thead { tr { th { "put in by" } th.n { "mean (W)" } th.n { "share" } } }
-                    tbody { (power(&transfer.put_in, put_in)) }
+                    tbody { @for quantity in transfer.group(Group::PutIn) { (power(quantity, put_in)) } }
                     thead { tr { th { "taken by" } th.n { "mean (W)" } th.n { "share" } } }
-                    tbody { (power(&transfer.taken, put_in)) }
+                    tbody { @for quantity in transfer.group(Group::Taken) { (power(quantity, put_in)) } }
                 }
                 (figure)
             } @else {
