@@ -16,7 +16,7 @@ enum Task {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
-    /// Prints a reference page of the manual: topics, configuration or validation.
+    /// Prints a reference page of the manual (topics, configuration or validation), or the rows of the rig page (figures).
     Reference {
         /// Which page.
         page: String,

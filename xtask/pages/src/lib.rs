@@ -1,12 +1,14 @@
 //! The reference pages of the manual (Markdown), made from the table of topics, from the schema of the configuration, and
-//! from the cases of verification and validation.
+//! from the cases of verification and validation; and the rig page's rows, made from the table of figures.
 
 mod configuration;
+mod figures;
 mod laws;
 mod topics;
 mod validation;
 
 pub use configuration::page as configuration;
+pub use figures::{FILE as FIGURES_FILE, page as figures};
 pub use topics::page as topics;
 pub use validation::{names as validation_names, page as validation};
 

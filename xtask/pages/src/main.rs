@@ -20,6 +20,8 @@ enum Page {
     Configuration,
     /// Figures from outside and closed forms, with what the twin computes.
     Validation,
+    /// Rows of the rig page (TypeScript).
+    Figures,
 }
 
 fn main() -> std::io::Result<()> {
@@ -27,6 +29,7 @@ fn main() -> std::io::Result<()> {
         Page::Topics => flexdrill_pages::topics(),
         Page::Configuration => flexdrill_pages::configuration(),
         Page::Validation => flexdrill_pages::validation().map_err(std::io::Error::other)?,
+        Page::Figures => flexdrill_pages::figures(),
     };
     std::io::stdout().write_all(page.as_bytes())
 }

@@ -23,6 +23,17 @@ fn the_page_of_the_configuration_is_that_of_this_version() {
     check("configuration", &flexdrill_pages::configuration());
 }
 
+#[test]
+fn the_rows_of_the_rig_page_are_those_of_the_table() {
+    let file = flexdrill_pages::FIGURES_FILE;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+    let checked_in = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(
+        checked_in == flexdrill_pages::figures(),
+        "{file} is old: run cargo xtask reference figures > {file}"
+    );
+}
+
 /// Names of all tests that begin with `prefix`, in every source of the workspace.
 fn tests_named(prefix: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -1,6 +1,7 @@
 // Torque and weight from the surface to the bit, and where the rest is lost. A row without a value is not shown.
 
 import { h, setText, show } from "../dom";
+import { TRANSFER } from "../figures";
 import type { Transfer, TwinStatus } from "../messages";
 import { digits, type Kind, lapse, number, quantity, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
@@ -20,34 +21,21 @@ export interface Row {
   values: string[];
 }
 
-interface Power {
-  label: string;
-  of: (t: Transfer) => number;
-}
+type Figure = (typeof TRANSFER)[number];
+const of = (...groups: Figure["group"][]): readonly Figure[] => TRANSFER.filter(({ group }) => groups.includes(group));
 
-const PUT_IN: Power[] = [
-  { label: "Top drive", of: (t) => t.drive_power },
-  { label: "Hoist", of: (t) => t.hoist_power },
-  { label: "Weight on bit", of: (t) => t.weight_on_bit_power },
-  { label: "Gravity", of: (t) => t.gravity_power },
-  { label: "Advance against the wall", of: (t) => t.feed_power },
-  { label: "Pressure", of: (t) => t.pressure_power },
-  { label: "Loads", of: (t) => t.load_power },
-];
+/** Why a figure that has a value is not shown; the others are shown wherever they have one. */
+const HIDDEN: Partial<Record<Figure["field"], (t: Transfer) => boolean>> = {
+  // A tool whose joints have no friction has none to show.
+  joint_friction_torque: (t) => t.joint_friction_power === 0,
+  // A tool that neither cuts nor advances has no rate to show.
+  rate_of_penetration: (t) => !t.rate_of_penetration && Number.isNaN(t.depth_of_cut),
+  // A drive that is never at its limit has nothing to show.
+  drive_at_limit: (t) => !(t.drive_at_limit > 0),
+};
 
-const TAKEN: Power[] = [
-  { label: "Rock", of: (t) => t.bit_power },
-  { label: "Pipe in guide", of: (t) => t.pipe_guide_friction_power },
-  { label: "Guide on wall", of: (t) => t.guide_wall_friction_power },
-  { label: "Joints", of: (t) => t.joint_friction_power },
-  { label: "String", of: (t) => t.string_power },
-  { label: "Collisions", of: (t) => t.contact_damping_power },
-  { label: "Damping of the steel", of: (t) => t.rayleigh_damping_power },
-  { label: "Mud around the pipes", of: (t) => t.mud_power },
-];
-
-/** A value with its digits; empty where there is none. */
-const text = (value: number, kind: Kind, system: System) => (Number.isFinite(value) ? digits(value, kind, system) : "");
+/** The value of a figure; NaN where there is none to show. */
+const value = (t: Transfer, { field }: Figure) => (HIDDEN[field]?.(t) ? NaN : t[field]);
 
 /** A share in per cent; a part is never shown as nothing or as all. Empty where there is none. */
 export function percent(share: number): string {
@@ -63,75 +51,54 @@ export function percent(share: number): string {
 
 const held = (rows: Row[]) => rows.filter((row) => row.values.some((value) => value !== ""));
 
+/** Two groups side by side, a row for each label of either. */
+function sideBySide(t: Transfer, system: System, groups: [Figure["group"], Figure["group"]]): Row[] {
+  const labels = new Set(of(...groups).map(({ label }) => label));
+  const text = (group: Figure["group"], wanted: string) => {
+    const found = of(group).find(({ label }) => label === wanted);
+    return found && Number.isFinite(value(t, found)) ? digits(value(t, found), found.kind as Kind, system) : "";
+  };
+  return held([...labels].map((label) => ({ label, values: groups.map((group) => text(group, label)) })));
+}
+
 /** Torque and weight at each place, and what arrives. */
 export function places(t: Transfer, system: System): Row[] {
-  const row = (label: string, torque: number, weight: number): Row => ({
-    label,
-    values: [text(torque, "torque", system), text(weight, "weight", system)],
-  });
-  const arrives = t.bit_weight / t.surface_weight;
-  return held([
-    row("Surface", t.surface_torque, t.surface_weight),
-    row("Kick-off", t.kickoff_torque, t.kickoff_weight),
-    row("Bit", t.bit_torque, t.bit_weight),
-    {
-      label: "Arrives at the bit",
-      values: [percent(t.torque_efficiency), t.surface_weight >= 100 ? percent(arrives) : ""],
-    },
-  ]);
+  const weight = t.surface_weight >= 100 ? percent(t.bit_weight / t.surface_weight) : "";
+  const arrives = { label: "Arrives at the bit", values: [percent(t.torque_efficiency), weight] };
+  return [...sideBySide(t, system, ["torque", "weight"]), ...held([arrives])];
 }
 
 /** Torque and axial drag that friction takes. */
 export function losses(t: Transfer, system: System): Row[] {
-  const row = (label: string, torque: number, drag: number): Row => ({
-    label,
-    values: [text(torque, "torque", system), text(drag, "weight", system)],
-  });
-  // A tool whose joints have no friction has none to show.
-  const joints = t.joint_friction_power === 0 ? NaN : t.joint_friction_torque;
-  return held([
-    row("String", t.string_friction_torque, t.string_axial_drag),
-    row("Pipe in guide", t.pipe_guide_friction_torque, t.pipe_guide_axial_drag),
-    row("Joints", joints, NaN),
-    row("Guide on wall", t.guide_wall_friction_torque, t.guide_wall_axial_drag),
-  ]);
+  return sideBySide(t, system, ["friction", "drag"]);
 }
 
 /** Powers (W) and their shares of all that is put in. */
 export function powers(t: Transfer): { putIn: Row[]; taken: Row[] } {
-  const total = PUT_IN.reduce((sum, { of }) => sum + (Number.isFinite(of(t)) ? of(t) : 0), 0);
-  const rows = (list: Power[]) =>
-    list
-      .map(({ label, of }) => ({ label, power: of(t) }))
-      .filter(({ power }) => Number.isFinite(power) && power !== 0)
-      .map(({ label, power }) => ({
-        label,
-        values: [`${number(power, Math.abs(power) < 10 ? 1 : 0)} W`, total > 0 ? percent(power / total) : ""],
-      }));
-  return { putIn: rows(PUT_IN), taken: rows(TAKEN) };
+  const known = (group: Figure["group"]) =>
+    of(group)
+      .map((figure) => ({ label: figure.label, power: value(t, figure) }))
+      .filter(({ power }) => Number.isFinite(power) && power !== 0);
+  const total = known("put_in").reduce((sum, { power }) => sum + power, 0);
+  const rows = (group: Figure["group"]): Row[] =>
+    known(group).map(({ label, power }) => ({
+      label,
+      values: [`${number(power, Math.abs(power) < 10 ? 1 : 0)} W`, total > 0 ? percent(power / total) : ""],
+    }));
+  return { putIn: rows("put_in"), taken: rows("taken") };
 }
 
-/** Hook load, rate of penetration, depth of cut, and whether the top drive is at its limit. */
+/** What the whole tool does: limit of the top drive, hook load, advance. */
 export function facts(t: Transfer, system: System): Row[] {
-  const row = (label: string, value: number, kind: Kind, per = ""): Row => ({
-    label,
-    values: [Number.isFinite(value) ? withUnit(value, kind, system) + per : ""],
-  });
-  return held([
-    row("Hook load", t.hook_load, "weight"),
-    // A tool that neither cuts nor advances has no rate to show.
-    row(
-      "Rate of penetration",
-      t.rate_of_penetration || !Number.isNaN(t.depth_of_cut) ? t.rate_of_penetration : NaN,
-      "advance",
-    ),
-    row("Depth of cut", t.depth_of_cut, "cut", " per turn"),
-    // A drive that is never at its limit has nothing to show.
-    {
-      label: "Top drive at its limit",
-      values: [t.drive_at_limit > 0 ? `${percent(t.drive_at_limit)} of the time` : ""],
-    },
-  ]);
+  const text = (figure: Figure) => {
+    const found = value(t, figure);
+    if (!Number.isFinite(found)) return "";
+    const kind: string = figure.kind;
+    if (kind === "share") return percent(found);
+    if (kind === "time share") return `${percent(found)} of the time`;
+    return withUnit(found, kind as Kind, system) + (kind === "cut" ? " per turn" : "");
+  };
+  return held(of("whole").map((figure) => ({ label: figure.label, values: [text(figure)] })));
 }
 
 /** Inputs beyond speed and weight that the tool uses: value, quality, age. The status leaves out those that it does not. */
