@@ -254,16 +254,18 @@ mod tests {
         assert!(twin.take("rig/inputs", b"").is_err());
     }
 
-    /// What sites have in their mappings and displays: names stay, in this order.
+    /// What sites have in their mappings and displays: names stay, in this order, whatever comes between them.
     #[test]
     fn figures_keep_their_names_and_their_order() {
-        let names: Vec<&str> = Figure::all().map(|figure| figure.name).collect();
         let expected = "whirl_severity whirl_measured_depth active_alarms unacknowledged_alarms highest_alarm_priority \
                         bit_torque bit_rotary_speed bit_weight stick_slip_index bit_axial_vibration bit_lateral_vibration \
                         bit_lateral_shock max_bend_angle joints_at_limit max_pipe_guide_force max_guide_wall_force \
                         surface_torque kickoff_torque torque_efficiency drive_at_limit hook_load rate_of_penetration \
                         real_time_factor model_quality twin_state model_time";
-        assert_eq!(names, expected.split(' ').collect::<Vec<_>>());
+        let expected: Vec<&str> = expected.split(' ').collect();
+        let names = Figure::all().map(|figure| figure.name);
+        let kept: Vec<&str> = names.filter(|name| expected.contains(name)).collect();
+        assert_eq!(kept, expected);
         assert_eq!(
             Figure::of_name("bit_weight").unwrap().description,
             "Weight on the bit, mean (N): given, or what the rock carries; 0 off bottom. Mean over the publishing interval."

@@ -38,8 +38,6 @@ const GIVEN: Missing = Missing {
 
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.
 const NOT_APPLIED: &[f64] = &[0.0; 4];
-/// An older twin does not say whether its drive was at its limit.
-const NOT_SAID: &[f64] = &[f64::NAN];
 /// NaN is a value that is not given.
 const NOT_GIVEN: &[f64] = &[f64::NAN; 2];
 
@@ -67,13 +65,31 @@ const MISSING: &[(&str, &[Missing])] = &[
         ],
     ),
     (RigMeasured::ROS_TYPE, &[GIVEN]),
-    (Transfer::ROS_TYPE, &[Missing::numbers(NOT_SAID)]),
 ];
+
+/// Messages that grow by figures at their end, with the last field of the first version. An older twin does not say what
+/// follows it: NaN.
+const GROWS: &[(&str, &str)] = &[(Transfer::ROS_TYPE, "mud_power")];
+/// As many figures as such a message may have more than in its first version.
+static MORE: [f64; 32] = [f64::NAN; 32];
+
+/// What older senders of a message that grows leave out: its last figure, its last two, and so on.
+fn figures_at_the_end<M: Message>() -> Vec<Missing> {
+    let last = GROWS.iter().find(|(ros_type, _)| *ros_type == M::ROS_TYPE);
+    let after = last.and_then(|(_, last)| M::INFO.source().split_once(&format!("float64 {last}\n")));
+    let more = after.map_or(0, |(_, after)| {
+        after.lines().filter(|line| line.starts_with("float64 ")).count()
+    });
+    (1..=more)
+        .filter_map(|count| MORE.get(..count).map(Missing::numbers))
+        .collect()
+}
 
 /// The message in an older body, if it is one: completed, its fields fit to the last byte.
 pub(crate) fn complete<M: Message>(body: &[u8], big_endian: bool) -> Option<M> {
-    let (_, older) = MISSING.iter().find(|(ros_type, _)| *ros_type == M::ROS_TYPE)?;
-    older.iter().find_map(|missing| {
+    let older = MISSING.iter().find(|(ros_type, _)| *ros_type == M::ROS_TYPE);
+    let listed = older.map_or(&[] as &[Missing], |(_, older)| *older);
+    listed.iter().chain(&figures_at_the_end::<M>()).find_map(|missing| {
         let message = read_with::<M>(body, missing, 0, big_endian)?;
         // The bytes up to the multiple belong to no field. A body that ends within a field would read them as
         // that field, and then they matter.
@@ -174,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn an_older_transfer_does_not_say_whether_the_drive_was_at_its_limit() {
+    fn an_older_transfer_does_not_say_the_figures_at_its_end() {
         let whole = Transfer {
             bit_torque: 90.0,
             mud_power: 3.0,
@@ -182,10 +198,14 @@ mod tests {
             ..Transfer::default()
         };
         let body = to_cdr_body(&whole).unwrap();
-        let read: Transfer = message_from_cdr_body(&body[..body.len() - 8]).unwrap();
-        assert_eq!((read.bit_torque, read.mud_power), (90.0, 3.0));
-        assert!(read.drive_at_limit.is_nan());
-        assert!(message_from_cdr_body::<Transfer>(&body[..body.len() - 16]).is_err());
+        let more = figures_at_the_end::<Transfer>().len();
+        for left_out in 1..=more {
+            let read: Transfer = message_from_cdr_body(&body[..body.len() - 8 * left_out]).unwrap();
+            assert_eq!((read.bit_torque, read.mud_power), (90.0, 3.0));
+            // The first of them is `drive_at_limit`.
+            assert_eq!(read.drive_at_limit.is_nan(), left_out == more);
+        }
+        assert!(message_from_cdr_body::<Transfer>(&body[..body.len() - 8 * (more + 1)]).is_err());
     }
 
     #[test]
