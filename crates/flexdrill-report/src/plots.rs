@@ -129,7 +129,7 @@ pub(crate) fn transfer(summary: &Summary) -> Option<Figure> {
             .map_or(("", 1.0), |one| one.figure.kind.unit());
         let drawn = transfer.group(group).zip(colors);
         drawn.fold(axis.panel(title, unit), |panel, (quantity, color)| {
-            axis.draw(panel, quantity.shown.short(), *color, &quantity.history, factor)
+            axis.draw(panel, quantity.shown.short, *color, &quantity.history, factor)
         })
     };
     figure(

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use flexdrill_outputs::figures::{Kind, TRANSFER};
+use flexdrill_outputs::figures::TRANSFER;
 
 /// The file in the page's sources.
 pub const FILE: &str = "crates/flexdrill-dashboard/web/src/figures.ts";
@@ -16,33 +16,16 @@ pub fn page() -> String {
     ));
     for figure in TRANSFER {
         let Some(shown) = figure.shown else { continue };
+        let [group, kind] =
+            [format!("{:?}", shown.group), format!("{:?}", figure.kind)].map(|name| name.to_lowercase());
+        let (label, field) = (capital(shown.short), figure.field);
         let _ = writeln!(
             out,
-            "  {{ group: {:?}, label: {:?}, field: {:?}, kind: {:?} }},",
-            shown.group.name(),
-            capital(shown.short()),
-            figure.field,
-            kind(figure.kind)
+            "  {{ group: {group:?}, label: {label:?}, field: {field:?}, kind: {kind:?} }},"
         );
     }
     out.push_str("] as const;\n");
     out
-}
-
-/// The page's name of what a figure measures (`units.ts`, and shares and powers).
-fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Torque => "torque",
-        Kind::Force => "weight",
-        Kind::RotarySpeed => "speed",
-        Kind::Advance | Kind::Speed => "advance",
-        Kind::Cut => "cut",
-        Kind::Angle => "angle",
-        Kind::Power => "power",
-        Kind::Share => "share",
-        Kind::TimeShare => "time share",
-        Kind::Acceleration | Kind::Time | Kind::Impulse | Kind::Number => "number",
-    }
 }
 
 /// A label begins its row with a capital letter.

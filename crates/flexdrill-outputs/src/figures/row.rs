@@ -35,15 +35,8 @@ pub struct Shown {
     pub group: Group,
     /// Label where the row stands alone.
     pub label: &'static str,
-    /// Another label under the heading of the group.
-    pub(super) short: Option<&'static str>,
-}
-
-impl Shown {
     /// Label under the heading of its group. Two groups that a table has side by side share a row where these agree.
-    pub fn short(&self) -> &'static str {
-        self.short.unwrap_or(self.label)
-    }
+    pub short: &'static str,
 }
 
 /// Rows that stand together, in the order of the tables.
@@ -63,21 +56,6 @@ pub enum Group {
     PutIn,
     /// Power taken.
     Taken,
-}
-
-impl Group {
-    /// The name on the rig page.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Torque => "torque",
-            Self::Friction => "friction",
-            Self::Weight => "weight",
-            Self::Drag => "drag",
-            Self::Whole => "whole",
-            Self::PutIn => "put_in",
-            Self::Taken => "taken",
-        }
-    }
 }
 
 /// The time that a value covers. The publishing interval is the time since the message before.
@@ -140,8 +118,10 @@ macro_rules! kinds {
 kinds! {
     /// Torque (N m).
     Torque in Some(Torque), shown in "N m" times 1.0;
-    /// Force or weight (N).
+    /// Force (N).
     Force in Some(Force), shown in "kN" times n_to_kn(1.0);
+    /// Weight, and axial drag, which takes of it (N).
+    Weight in Some(Force), shown in "kN" times n_to_kn(1.0);
     /// Rotary speed (rad/s).
     RotarySpeed in Some(RotarySpeed), shown in "r/min" times rad_per_s_to_rpm(1.0);
     /// Rate of penetration (m/s).
@@ -156,8 +136,6 @@ kinds! {
     Angle in Some(Angle), shown in "deg" times rad_to_deg(1.0);
     /// Time (s).
     Time in Some(Time), shown in "s" times 1.0;
-    /// Impulse (N s).
-    Impulse in None, shown in "N s" times 1.0;
     /// Power (W).
     Power in None, shown in "W" times 1.0;
     /// Share of a whole, 0 to 1.

@@ -4,20 +4,20 @@
 //! field: Kind, Window = source [, in Group "label" [as "short label"]] [, bridge "name"];
 //! ```
 //!
-//! where the source reads the snapshot `s`. Rows of a group stand in the order in which tables show them, from the
-//! surface to the bit; bridges send theirs in the order of the rows. NaN is a figure that the tool does not have. Friction
-//! and drag are arrays: between pipe and guide, between guide and wall, in the joints, and last along the string.
+//! where the source reads a part `s` of the snapshot. Rows of a group stand in the order in which tables show them, from
+//! the surface to the bit; bridges send theirs in the order of the rows. NaN is a figure that the tool does not have.
+//! Friction and drag are arrays: between pipe and guide, between guide and wall, in the joints, and last along the string.
 
 use super::row::{Figure, Group, Kind, Shown, Window};
 use crate::fill::largest;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::twin::{Joints, Snapshot};
 use flexdrill_messages::{BitState, ContactForces, JointDeflections, Transfer};
 use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 macro_rules! figures {
     (
         $(#[$doc:meta])*
-        $table:ident of $message:ident, filled by $fill:ident from $s:ident;
+        $table:ident of $message:ident, filled by $fill:ident from $s:ident = $part:ident;
         $(
             $field:ident: $kind:ident, $window:ident = $source:expr
             $(, in $group:ident $label:literal $(as $short:literal)?)?
@@ -29,19 +29,25 @@ macro_rules! figures {
             field: stringify!($field),
             kind: Kind::$kind,
             window: Window::$window,
-            shown: first(&[$(Shown { group: Group::$group, label: $label, short: first(&[$($short)?]) })?]),
+            shown: first(&[$(Shown { group: Group::$group, label: $label, short: last([$label $(, $short)?]) })?]),
             bridge: first(&[$($bridge)?]),
             read: |message| f64::from(message.$field),
         }),*];
 
         /// Fills the figures of a message.
-        pub(crate) fn $fill($s: &Snapshot, out: &mut $message) {
+        pub(crate) fn $fill(snapshot: &Snapshot, out: &mut $message) {
+            let $s = &snapshot.$part;
             $(out.$field = $source;)*
         }
     };
 }
 
-/// What a row may have once.
+/// The short label of a row, or its label where it has no other.
+const fn last<const N: usize>(labels: [&'static str; N]) -> &'static str {
+    labels[N - 1]
+}
+
+/// What a row may have.
 const fn first<T: Copy>(given: &[T]) -> Option<T> {
     match given {
         [value, ..] => Some(*value),
@@ -51,107 +57,103 @@ const fn first<T: Copy>(given: &[T]) -> Option<T> {
 
 figures! {
     /// The figures of `twin/bit_state`.
-    BIT_STATE of BitState, filled by fill_bit_state from s;
-    torque: Torque, Mean = s.bit.mean_torque, bridge "bit_torque";
-    rotary_speed: RotarySpeed, Mean = s.bit.mean_rotary_speed, bridge "bit_rotary_speed";
-    weight_on_bit: Force, Mean = s.bit.mean_weight_on_bit, bridge "bit_weight";
-    stick_slip_index: Number, Instant = s.bit.stick_slip_index, bridge "stick_slip_index";
-    tangential_acceleration: Acceleration, Rms = s.bit.tangential_acceleration;
-    axial_acceleration: Acceleration, Rms = s.bit.axial_acceleration, bridge "bit_axial_vibration";
-    lateral_acceleration: Acceleration, Rms = s.bit.lateral_acceleration, bridge "bit_lateral_vibration";
-    lateral_acceleration_peak: Acceleration, Largest = s.bit.lateral_acceleration_peak, bridge "bit_lateral_shock";
-    lateral_impulse: Speed, Integral = s.bit.lateral_impulse;
+    BIT_STATE of BitState, filled by fill_bit_state from s = bit;
+    torque: Torque, Mean = s.mean_torque, bridge "bit_torque";
+    rotary_speed: RotarySpeed, Mean = s.mean_rotary_speed, bridge "bit_rotary_speed";
+    weight_on_bit: Weight, Mean = s.mean_weight_on_bit, bridge "bit_weight";
+    stick_slip_index: Number, Instant = s.stick_slip_index, bridge "stick_slip_index";
+    tangential_acceleration: Acceleration, Rms = s.tangential_acceleration;
+    axial_acceleration: Acceleration, Rms = s.axial_acceleration, bridge "bit_axial_vibration";
+    lateral_acceleration: Acceleration, Rms = s.lateral_acceleration, bridge "bit_lateral_vibration";
+    lateral_acceleration_peak: Acceleration, Largest = s.lateral_acceleration_peak, bridge "bit_lateral_shock";
+    lateral_impulse: Speed, Integral = s.lateral_impulse;
 }
 
 figures! {
-    /// The figures of `twin/joint_deflections` that are no arrays.
-    JOINT_DEFLECTIONS of JointDeflections, filled by fill_joint_deflections from s;
-    max_bend_angle: Angle, Instant = largest(&s.joints.bend_angle).0, bridge "max_bend_angle";
+    /// The totals of `twin/joint_deflections`.
+    JOINT_DEFLECTIONS of JointDeflections, filled by fill_joint_deflections from s = joints;
+    max_bend_angle: Angle, Instant = largest(&s.bend_angle).0, bridge "max_bend_angle";
     joints_at_limit: Number, Instant = at_limit(s), bridge "joints_at_limit";
 }
 
 figures! {
-    /// The figures of `twin/contact_forces` that are no arrays.
-    CONTACT_FORCES of ContactForces, filled by fill_contact_forces from s;
-    max_pipe_guide_force: Force, Largest = largest(&s.contacts.pipe_guide.normal_peak).0, bridge "max_pipe_guide_force";
-    max_guide_wall_force: Force, Largest = largest(&s.contacts.guide_wall.normal_peak).0, bridge "max_guide_wall_force";
-    shock_impulse: Impulse, Instant = s.shock.impulse;
+    /// The totals of `twin/contact_forces`.
+    CONTACT_FORCES of ContactForces, filled by fill_contact_forces from s = contacts;
+    max_pipe_guide_force: Force, Largest = largest(&s.pipe_guide.normal_peak).0, bridge "max_pipe_guide_force";
+    max_guide_wall_force: Force, Largest = largest(&s.guide_wall.normal_peak).0, bridge "max_guide_wall_force";
 }
 
 figures! {
     /// The figures of `twin/transfer`.
-    TRANSFER of Transfer, filled by fill_transfer from s;
-    duration: Time, Instant = s.transfer.duration;
+    TRANSFER of Transfer, filled by fill_transfer from s = transfer;
+    duration: Time, Instant = s.duration;
 
-    surface_torque: Torque, LongMean = s.transfer.torque.mean[SURFACE],
+    surface_torque: Torque, LongMean = s.torque.mean[SURFACE],
         in Torque "torque at the surface" as "surface", bridge "surface_torque";
-    kickoff_torque: Torque, LongMean = s.transfer.torque.mean[KICK_OFF],
+    kickoff_torque: Torque, LongMean = s.torque.mean[KICK_OFF],
         in Torque "torque at the kick-off" as "kick-off", bridge "kickoff_torque";
-    bit_torque: Torque, LongMean = s.transfer.torque.mean[BIT], in Torque "torque at the bit" as "bit";
-    surface_torque_rms: Torque, LongRms = s.transfer.torque.rms[SURFACE];
-    kickoff_torque_rms: Torque, LongRms = s.transfer.torque.rms[KICK_OFF];
-    bit_torque_rms: Torque, LongRms = s.transfer.torque.rms[BIT];
-    torque_efficiency: Share, LongMean = s.transfer.torque_efficiency, bridge "torque_efficiency";
+    bit_torque: Torque, LongMean = s.torque.mean[BIT], in Torque "torque at the bit" as "bit";
+    surface_torque_rms: Torque, LongRms = s.torque.rms[SURFACE];
+    kickoff_torque_rms: Torque, LongRms = s.torque.rms[KICK_OFF];
+    bit_torque_rms: Torque, LongRms = s.torque.rms[BIT];
+    torque_efficiency: Share, LongMean = s.torque_efficiency, bridge "torque_efficiency";
 
-    string_friction_torque: Torque, LongMean = s.transfer.friction_torque[3],
-        in Friction "friction of the string" as "string";
-    pipe_guide_friction_torque: Torque, LongMean = s.transfer.friction_torque[0],
+    string_friction_torque: Torque, LongMean = s.friction_torque[3], in Friction "friction of the string" as "string";
+    pipe_guide_friction_torque: Torque, LongMean = s.friction_torque[0],
         in Friction "friction of pipe in guide" as "pipe in guide";
-    joint_friction_torque: Torque, LongMean = s.transfer.friction_torque[2],
-        in Friction "friction in the joints" as "joints";
-    guide_wall_friction_torque: Torque, LongMean = s.transfer.friction_torque[1],
+    joint_friction_torque: Torque, LongMean = s.friction_torque[2], in Friction "friction in the joints" as "joints";
+    guide_wall_friction_torque: Torque, LongMean = s.friction_torque[1],
         in Friction "friction of the wall on the guide" as "guide on wall";
 
-    surface_weight: Force, LongMean = s.transfer.weight.mean[SURFACE], in Weight "weight at the surface" as "surface";
-    kickoff_weight: Force, LongMean = s.transfer.weight.mean[KICK_OFF],
+    surface_weight: Weight, LongMean = s.weight.mean[SURFACE], in Weight "weight at the surface" as "surface";
+    kickoff_weight: Weight, LongMean = s.weight.mean[KICK_OFF],
         in Weight "weight at the kick-off, on the guide" as "kick-off";
-    bit_weight: Force, LongMean = s.transfer.weight.mean[BIT], in Weight "weight at the bit" as "bit";
-    surface_weight_rms: Force, LongRms = s.transfer.weight.rms[SURFACE];
-    kickoff_weight_rms: Force, LongRms = s.transfer.weight.rms[KICK_OFF];
-    bit_weight_rms: Force, LongRms = s.transfer.weight.rms[BIT];
+    bit_weight: Weight, LongMean = s.weight.mean[BIT], in Weight "weight at the bit" as "bit";
+    surface_weight_rms: Weight, LongRms = s.weight.rms[SURFACE];
+    kickoff_weight_rms: Weight, LongRms = s.weight.rms[KICK_OFF];
+    bit_weight_rms: Weight, LongRms = s.weight.rms[BIT];
 
-    string_axial_drag: Force, LongMean = s.transfer.mean.axial_drag[2], in Drag "drag of the string" as "string";
-    pipe_guide_axial_drag: Force, LongMean = s.transfer.mean.axial_drag[0],
+    string_axial_drag: Weight, LongMean = s.mean.axial_drag[2], in Drag "drag of the string" as "string";
+    pipe_guide_axial_drag: Weight, LongMean = s.mean.axial_drag[0],
         in Drag "drag of the guide on the pipe" as "pipe in guide";
-    guide_wall_axial_drag: Force, LongMean = s.transfer.mean.axial_drag[1],
+    guide_wall_axial_drag: Weight, LongMean = s.mean.axial_drag[1],
         in Drag "drag of the wall on the guide" as "guide on wall";
 
-    drive_at_limit: TimeShare, LongMean = s.transfer.mean.drive_at_limit,
+    drive_at_limit: TimeShare, LongMean = s.mean.drive_at_limit,
         in Whole "top drive at its torque limit" as "top drive at its limit", bridge "drive_at_limit";
-    hook_load: Force, LongMean = s.transfer.mean.hook_load, in Whole "hook load", bridge "hook_load";
-    rate_of_penetration: Advance, LongMean = s.transfer.mean.rate_of_penetration,
+    hook_load: Weight, LongMean = s.mean.hook_load, in Whole "hook load", bridge "hook_load";
+    rate_of_penetration: Advance, LongMean = s.mean.rate_of_penetration,
         in Whole "rate of penetration of the bit" as "rate of penetration", bridge "rate_of_penetration";
-    depth_of_cut: Cut, LongMean = s.transfer.mean.depth_of_cut, in Whole "depth of cut";
+    depth_of_cut: Cut, LongMean = s.mean.depth_of_cut, in Whole "depth of cut";
 
-    drive_power: Power, LongMean = s.transfer.power.drive, in PutIn "top drive";
-    hoist_power: Power, LongMean = s.transfer.power.hoist, in PutIn "hoist";
-    weight_on_bit_power: Power, LongMean = s.transfer.power.weight_on_bit, in PutIn "weight on bit";
-    gravity_power: Power, LongMean = s.transfer.power.gravity, in PutIn "gravity";
-    feed_power: Power, LongMean = s.transfer.power.feed, in PutIn "advance against the wall";
-    pressure_power: Power, LongMean = s.transfer.power.pressure, in PutIn "pressure";
-    load_power: Power, LongMean = s.transfer.power.loads, in PutIn "loads";
+    drive_power: Power, LongMean = s.power.drive, in PutIn "top drive";
+    hoist_power: Power, LongMean = s.power.hoist, in PutIn "hoist";
+    weight_on_bit_power: Power, LongMean = s.power.weight_on_bit, in PutIn "weight on bit";
+    gravity_power: Power, LongMean = s.power.gravity, in PutIn "gravity";
+    feed_power: Power, LongMean = s.power.feed, in PutIn "advance against the wall";
+    pressure_power: Power, LongMean = s.power.pressure, in PutIn "pressure";
+    load_power: Power, LongMean = s.power.loads, in PutIn "loads";
 
-    bit_power: Power, LongMean = s.transfer.power.bit, in Taken "rock";
-    pipe_guide_friction_power: Power, LongMean = s.transfer.mean.friction_power[0],
+    bit_power: Power, LongMean = s.power.bit, in Taken "rock";
+    pipe_guide_friction_power: Power, LongMean = s.mean.friction_power[0],
         in Taken "friction of pipe in guide" as "pipe in guide";
-    guide_wall_friction_power: Power, LongMean = s.transfer.mean.friction_power[1],
+    guide_wall_friction_power: Power, LongMean = s.mean.friction_power[1],
         in Taken "friction of guide on wall" as "guide on wall";
-    joint_friction_power: Power, LongMean = s.transfer.mean.friction_power[2],
-        in Taken "friction in the joints" as "joints";
-    string_power: Power, LongMean = s.transfer.power.string, in Taken "friction and mud along the string" as "string";
-    contact_damping_power: Power, LongMean = s.transfer.power.contact_damping, in Taken "collisions";
-    rayleigh_damping_power: Power, LongMean = s.transfer.power.rayleigh_damping, in Taken "damping of the steel";
-    mud_power: Power, LongMean = s.transfer.power.mud, in Taken "mud around the pipes";
-    numerical_damping_power: Power, LongMean = s.transfer.power.numerical_damping, in Taken "time integration";
+    joint_friction_power: Power, LongMean = s.mean.friction_power[2], in Taken "friction in the joints" as "joints";
+    string_power: Power, LongMean = s.power.string, in Taken "friction and mud along the string" as "string";
+    contact_damping_power: Power, LongMean = s.power.contact_damping, in Taken "collisions";
+    rayleigh_damping_power: Power, LongMean = s.power.rayleigh_damping, in Taken "damping of the steel";
+    mud_power: Power, LongMean = s.power.mud, in Taken "mud around the pipes";
+    numerical_damping_power: Power, LongMean = s.power.numerical_damping, in Taken "time integration";
 
-    friction_power: Power, LongMean = s.transfer.power.friction;
-    axial_update_power: Power, LongMean = s.transfer.power.axial_update;
-    stored_power: Power, LongMean = s.transfer.power.stored;
-    error_power: Power, LongMean = s.transfer.power.error;
+    friction_power: Power, LongMean = s.power.friction;
+    axial_update_power: Power, LongMean = s.power.axial_update;
+    stored_power: Power, LongMean = s.power.stored;
+    error_power: Power, LongMean = s.power.error;
 }
 
 /// Number of joints at the limit of their angle.
-fn at_limit(s: &Snapshot) -> u32 {
-    let joints = s.joints.bend_angle.iter().zip(&s.joints.limit_angle);
-    joints.filter(|(angle, limit)| angle >= limit).count() as u32
+fn at_limit(joints: &Joints) -> u32 {
+    let angles = joints.bend_angle.iter().zip(&joints.limit_angle);
+    angles.filter(|(angle, limit)| angle >= limit).count() as u32
 }

@@ -37,6 +37,7 @@ pub fn contact_forces(snapshot: &Snapshot, header: &Header, out: &mut ContactFor
     copy(&mut out.guide_wall_shock, &outer.shock);
     let shock = &snapshot.shock;
     out.shock_severity = shock.severity as u8;
+    out.shock_impulse = shock.impulse;
     out.shock_station = u32::try_from(shock.station).unwrap_or(u32::MAX);
     out.shock_layer = if shock.layer == 0 {
         ContactForces::INNER

@@ -167,7 +167,7 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
             Group::Torque | Group::Weight | Group::Drag | Group::Whole => "",
         };
         let small = match a.figure.kind {
-            Kind::Force => FORCE,
+            Kind::Force | Kind::Weight => FORCE,
             Kind::Torque => TORQUE,
             Kind::Power => POWER,
             _ => SMALL,

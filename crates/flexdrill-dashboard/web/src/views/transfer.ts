@@ -79,13 +79,13 @@ export function powers(t: Transfer): { putIn: Row[]; taken: Row[] } {
     of(group)
       .map((figure) => ({ label: figure.label, power: value(t, figure) }))
       .filter(({ power }) => Number.isFinite(power) && power !== 0);
-  const total = known("put_in").reduce((sum, { power }) => sum + power, 0);
+  const total = known("putin").reduce((sum, { power }) => sum + power, 0);
   const rows = (group: Figure["group"]): Row[] =>
     known(group).map(({ label, power }) => ({
       label,
       values: [`${number(power, Math.abs(power) < 10 ? 1 : 0)} W`, total > 0 ? percent(power / total) : ""],
     }));
-  return { putIn: rows("put_in"), taken: rows("taken") };
+  return { putIn: rows("putin"), taken: rows("taken") };
 }
 
 /** What the whole tool does: limit of the top drive, hook load, advance. */
@@ -95,7 +95,7 @@ export function facts(t: Transfer, system: System): Row[] {
     if (!Number.isFinite(found)) return "";
     const kind: string = figure.kind;
     if (kind === "share") return percent(found);
-    if (kind === "time share") return `${percent(found)} of the time`;
+    if (kind === "timeshare") return `${percent(found)} of the time`;
     return withUnit(found, kind as Kind, system) + (kind === "cut" ? " per turn" : "");
   };
   return held(of("whole").map((figure) => ({ label: figure.label, values: [text(figure)] })));
