@@ -19,6 +19,7 @@ export const TRANSFER = [
   { group: "whole", label: "Hook load", field: "hook_load", kind: "weight" },
   { group: "whole", label: "Rate of penetration", field: "rate_of_penetration", kind: "advance" },
   { group: "whole", label: "Depth of cut", field: "depth_of_cut", kind: "cut" },
+  { group: "whole", label: "Weight that reaches the bit in a clean hole", field: "weight_arrives", kind: "share" },
   { group: "putin", label: "Top drive", field: "drive_power", kind: "power" },
   { group: "putin", label: "Hoist", field: "hoist_power", kind: "power" },
   { group: "putin", label: "Weight on bit", field: "weight_on_bit_power", kind: "power" },

@@ -1410,6 +1410,11 @@ export interface Transfer {
   mud_power: number;
   /** Share of the time (0 to 1) in which the torque of the top drive was at its limit: the speed asked for is then not kept. */
   drive_at_limit: number;
+  /**
+   * Share of a weight at the kick-off (0 to 1) that reaches the bit when only the sliding friction of a clean hole in the arc
+   * takes from it.
+   */
+  weight_arrives: number;
 }
 /** Reads a `flexdrill/msg/Transfer`. */
 export function decodeTransfer(reader: CdrReader): Transfer {
@@ -1460,6 +1465,7 @@ export function decodeTransfer(reader: CdrReader): Transfer {
     error_power: reader.float64(),
     mud_power: reader.float64(),
     drive_at_limit: reader.float64(),
+    weight_arrives: reader.float64(),
   };
 }
 

@@ -125,6 +125,8 @@ figures! {
     rate_of_penetration: Advance, LongMean = s.mean.rate_of_penetration,
         in Whole "rate of penetration of the bit" as "rate of penetration", bridge "rate_of_penetration";
     depth_of_cut: Cut, LongMean = s.mean.depth_of_cut, in Whole "depth of cut";
+    weight_arrives: Share, LongMean = s.mean.arrives,
+        in Whole "weight that reaches the bit in a clean hole", bridge "weight_arrives";
 
     drive_power: Power, LongMean = s.power.drive, in PutIn "top drive";
     hoist_power: Power, LongMean = s.power.hoist, in PutIn "hoist";

@@ -188,6 +188,11 @@ const TABLE: &[(&str, &str, &str)] = &[
     ("transfer.error_power", "......", "the error of the audit"),
     ("transfer.mud_power", "+0++0+", "mud takes what moves"),
     ("transfer.drive_at_limit", "0000+0", "a stall is a drive at its limit"),
+    (
+        "transfer.weight_arrives",
+        "++++++",
+        "what the friction of the arc leaves depends on no motion",
+    ),
     ("bit_state.torque", "+.0-++", "as transfer.bit_torque"),
     ("bit_state.rotary_speed", "+0+-0+", "the bit's own speed"),
     ("bit_state.weight_on_bit", "++0+++", "as transfer.bit_weight"),
