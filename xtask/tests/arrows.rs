@@ -200,8 +200,13 @@ fn no_room_of_the_core_uses_a_room_above_it() {
 /// An effect: the words by which code names it, and how many files of the core other than its own do, tests and the witness
 /// left out. Three is what an effect should cost: its description, the description of the paper's tool, the list of effects.
 /// The shape of the guide as made is that of its slots too, and has a rating; mud is a row of the energy audit and of its
-/// report.
-const EFFECTS: [(&str, &[&str], usize); 5] = [
+/// report; bodies are resolved to their nodes where supports and loads are.
+const EFFECTS: [(&str, &[&str], usize); 6] = [
+    (
+        "bodies",
+        &[".masses", " masses: ", "PointMass", "PointBody", "ResolvedMass"],
+        5,
+    ),
     (
         "mud_wall",
         &["mud_wall", "MudWall", "NearWall", "Eccentric", "MudFilm"],

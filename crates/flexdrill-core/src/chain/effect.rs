@@ -1,4 +1,4 @@
-//! What acts inside the spans of a chain, as the chain sees it. The chain has no word of physics for it: it hands an effect its
+//! What acts inside the spans of a chain and at its nodes, as the chain sees it. The chain has no word of physics for it: it hands an effect its
 //! motion, and gathers forces on the ends of spans, their derivative, and energies.
 
 use super::Chain;
@@ -18,7 +18,7 @@ pub(crate) struct Under<'a> {
     pub keeps_axial: bool,
 }
 
-/// Something that acts inside spans, beyond their beams and contacts. It keeps what it found at the last residual: its tangent
+/// Something that acts inside spans or at nodes, beyond beams, contacts and joints. It keeps what it found at the last residual: its tangent
 /// and its energy read that. It evaluates the spans that a correction has moved ([`Chain::is_active`]); the others keep their
 /// forces. An effect that is linear along spans is data of theirs ([`Acting`](super::Acting)) and needs no force here.
 pub(crate) trait Effect {
@@ -29,9 +29,12 @@ pub(crate) trait Effect {
     /// Adds the derivative of these forces by the motion at `state`, with the factors of the iteration `at`.
     fn tangent<S: Precision>(&self, _to: &mut Additions<S>, _chain: &Chain, _state: &State, _at: &Iteration<'_>) {}
 
+    /// Adds its forces at nodes to the `residual`, on nodes whose first unknown is `wanted`.
+    fn at_nodes(&self, _residual: &mut [f64], _state: &State, _under: &Under<'_>, _wanted: &impl Fn(usize) -> bool) {}
+
     /// Adds to `point` what it stores, takes and moves in the whole tool. Gives the energy that it stores (J), the kinetic one
     /// left out, which it adds to `point`.
-    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint) -> f64 {
+    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         0.0
     }
 

@@ -40,12 +40,13 @@ impl Chain {
             state,
             conditions,
         });
-        if !model.masses.is_empty() {
-            point.damping.fill(0.0);
-            point.inertia.fill(0.0);
-            point.add_masses(&self.model.numbered(model), state, conditions);
-        }
-        let of_effects = effects.energy(self, point);
+        point.begin_nodes();
+        let under = Under {
+            model,
+            conditions,
+            keeps_axial: true,
+        };
+        let of_effects = effects.energy(self, point, state, &under);
         for (force, q) in self.model.potential.iter().zip(&state.q) {
             stored -= force * q;
         }

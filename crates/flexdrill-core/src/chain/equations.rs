@@ -83,12 +83,12 @@ impl<E: Effect> ChainEquations<'_, E> {
         effects.force(chain, to, &under);
         chain.gather(to);
         stopwatch.lap(Phase::Contact);
-        chain.attached_forces(&mut interactions.bit, model, to, conditions);
+        chain.attached_forces(&**effects, &mut interactions.bit, to, &under);
         // Joints come last: what they take over from dependent rotations is the whole moment there.
         chain.joint_forces(&mut interactions.joints, to, model.moment_scale);
     }
 
-    /// Adds up what the last residual left of contacts, bit, masses and effects at `state` for the tangent, in one precision.
+    /// Adds up what the last residual left of contacts, bit and effects at `state` for the tangent, in one precision.
     fn linearise<S: Precision>(&mut self, operator: usize, state: &State, at: &Iteration<'_>) {
         let Self {
             model,
@@ -100,7 +100,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         // Effects read the chain while they add: what they add to is taken out of it meanwhile.
         let mut to = std::mem::take(S::additions(chain));
         let crossing = S::crossing(&chain.operators[operator]);
-        to.linearise(&chain.model, &chain.active, interactions, model, state, at, crossing);
+        to.linearise(&chain.model, &chain.active, interactions, model, at, crossing);
         effects.tangent(&mut to, chain, state, at);
         *S::additions(chain) = to;
         // Dependent rotations follow from the joint's rows as the last residual has linearised them.

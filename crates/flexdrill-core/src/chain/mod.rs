@@ -119,6 +119,8 @@ pub(crate) struct ChainModel {
     driven: Vec<usize>,
     /// Consistent forces of gravity (N, N m).
     weight: Vec<f64>,
+    /// Masses of effects at nodes: the unknown, and the mass (kg) or inertia (kg m2) of its direction.
+    node_masses: Vec<(usize, f64)>,
     /// Constant forces of effects, which have a potential (N, N m); empty without any.
     potential: Vec<f64>,
     /// Sum of both.
@@ -179,7 +181,7 @@ pub(crate) struct Chain {
     multipliers: Vec<[f64; 2]>,
     /// Residual with its reactions.
     residual: Vec<f64>,
-    /// What contacts, the bit and point masses add to the tangent, in both precisions.
+    /// What contacts, the bit and effects add to the tangent, in both precisions.
     additions: Additions<f64>,
     single_additions: Additions<f32>,
     sweep: Sweep,
@@ -227,6 +229,9 @@ impl Chain {
         let place = |unknown: usize| numbering::place(model, &points, unknown);
         let places = model.places.renumbered(place, |unknown| numbering.place(unknown));
         let nodes = points.list.len();
+        let node_masses = (acting.at_nodes)(model).into_iter();
+        let node_masses = node_masses.flat_map(|(first, masses)| (0..6).map(move |k| (place(first + k), masses[k])));
+        let node_masses: Vec<(usize, f64)> = node_masses.collect();
         let (kinds, mut links) = links::links(model, &points, spans);
         // The slowest span bounds the step from below, for all spans alike.
         let slowest = kinds.iter().fold(f64::INFINITY, |least, kind| least.min(kind.slowest));
@@ -321,6 +326,7 @@ impl Chain {
                 places,
                 driven,
                 weight,
+                node_masses,
                 potential,
                 constant,
                 pressure,

@@ -60,8 +60,8 @@ impl Nodes {
             !(model.description.guide_fixed && (guide..guide + 6).contains(&unknown))
         });
         let loads = model.loads.iter().map(|load| load.unknown);
-        let masses = model.masses.iter().map(|mass| mass.unknown);
-        for unknown in held.copied().chain(loads).chain(masses) {
+        let acted_on = (acting.at_nodes)(model).into_iter().map(|(unknown, _)| unknown);
+        for unknown in held.copied().chain(loads).chain(acted_on) {
             attached[model.layout.station_of(unknown)] = true;
         }
         let (mut ends, mut spans) = (vec![0], Vec::new());

@@ -192,6 +192,11 @@ impl Chain {
 }
 
 impl Chain {
+    /// Where an unknown of the model is in the chain; `None` where the chain has no such unknown.
+    pub(crate) fn place(&self, unknown: usize) -> Option<usize> {
+        self.model.numbering.place(unknown)
+    }
+
     /// What `values` in the chain's numbering mean for an unknown of the model's pipe or guide.
     pub(crate) fn value(&self, model: &Model, values: &[f64], unknown: usize) -> f64 {
         if let Some(place) = self.model.numbering.place(unknown) {

@@ -166,13 +166,11 @@ impl Operator {
                 }
             }
         }
-        // Point masses, and the tie, which holds both ends together along the hole, with its multiplier. A node without a tie
+        // Masses at nodes, and the tie, which holds both ends together along the hole, with its multiplier. A node without a tie
         // has a one for it.
-        for (point, places) in model.masses.iter().zip(&chain.model.places.masses) {
-            for (&place, mass) in places.iter().zip(point.body.diagonal()) {
-                let (node, at) = (place / NODE, place % NODE);
-                nodes[node][at][at] += inertial * mass;
-            }
+        for &(place, mass) in &chain.model.node_masses {
+            let (node, at) = (place / NODE, place % NODE);
+            nodes[node][at][at] += inertial * mass;
         }
         nodes.iter_mut().for_each(|node| node[TIE][TIE] = 1.0);
         if chain.model.places.tie.is_some() {

@@ -1,10 +1,11 @@
-//! The residual over the chain: spans, point masses, contacts, joints, ends.
+//! The residual over the chain: spans, contacts, joints, ends.
 //!
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
 //! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
 //! contacts, effects, stops and joint rows are evaluated again.
 
 use super::columns::{EndColumn, Ends, TENSION, around, at_ends, ends, load, plus_column, product, store};
+use super::effect::{Effect, Under};
 use super::operator::Operator;
 use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::conditions::Conditions;
@@ -49,12 +50,18 @@ impl Chain {
         self.model.instructions.run(Gather { chain: self, state });
     }
 
-    /// Adds what is attached to the nodes: masses, tie, string, rock, loads.
-    pub(super) fn attached_forces(&mut self, bit: &mut BitLoad, model: &Model, state: &State, conditions: &Conditions) {
-        let numbered = self.model.numbered(model);
+    /// Adds what acts at nodes: effects, tie, string, rock, loads.
+    pub(super) fn attached_forces(
+        &mut self,
+        effects: &impl Effect,
+        bit: &mut BitLoad,
+        state: &State,
+        under: &Under<'_>,
+    ) {
+        let numbered = self.model.numbered(under.model);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
-        numbered.add_mass_forces(&mut self.residual, state, conditions, affected);
-        numbered.add_end_forces(&mut self.residual, bit, state, conditions, affected);
+        effects.at_nodes(&mut self.residual, state, under, &affected);
+        numbered.add_end_forces(&mut self.residual, bit, state, under.conditions, affected);
     }
 }
 

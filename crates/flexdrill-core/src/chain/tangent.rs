@@ -1,4 +1,4 @@
-//! What contacts, the bit and point masses add to the tangent in an iteration. A contact inside a span adds to the blocks of
+//! What contacts, the bit and what acts at nodes add to the tangent in an iteration. A contact inside a span adds to the blocks of
 //! both its ends and to their coupling.
 //!
 //! A contact's own tangent is the sum of four products on by^T of local forces and motions ([`GapTangent`]). On the nodes it
@@ -10,7 +10,6 @@ use super::precision::{Lanes, Precision};
 use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::Iteration;
-use crate::dynamics::state::{State, motion};
 use crate::elements::factors::TangentFactors;
 use crate::elements::gap::GapTangent;
 use crate::model::Model;
@@ -130,7 +129,6 @@ impl<S: Precision> Additions<S> {
         active: &Active,
         interactions: &Interactions,
         model: &Model,
-        state: &State,
         at: &Iteration<'_>,
         crossing: Option<&Crossing<S>>,
     ) {
@@ -155,27 +153,20 @@ impl<S: Precision> Additions<S> {
                 // Each of these acts within a node.
                 self.block(column / NODE, Touching::Both)[column % NODE][row % NODE] += S::of(value);
             });
-        for (point, places) in model.masses.iter().zip(&chain.places.masses) {
-            if !point.body.is_coupled() {
-                continue;
-            }
-            let tangent = point.body.coupled_tangent(
-                motion(state, places).as_node(),
-                conditions.rayleigh.alpha,
-                point.gravity.into(),
-                [factors.stiffness, factors.damping, factors.mass],
-            );
-            let block = self.block(places[0] / NODE, Touching::Both);
-            for (&j, from) in places.iter().zip(&tangent) {
-                for (&i, x) in places.iter().zip(from) {
-                    block[j % NODE][i % NODE] += S::of(*x);
-                }
-            }
-        }
     }
 }
 
 impl<S: Precision> Additions<S> {
+    /// Adds the derivative of forces at a node by the motion there, by columns.
+    pub(crate) fn add_at_node(&mut self, places: &[usize; 6], tangent: &[[f64; 6]; 6]) {
+        let block = self.block(places[0] / NODE, Touching::Both);
+        for (&j, from) in places.iter().zip(tangent) {
+            for (&i, x) in places.iter().zip(from) {
+                block[j % NODE][i % NODE] += S::of(*x);
+            }
+        }
+    }
+
     /// Adds the derivative of two `components` of a local force at station `i` of span `l`, one below its top end, by the same
     /// components of the motion there, by columns: between pipe and guide or, not `inner`, of the guide alone.
     #[inline(always)]

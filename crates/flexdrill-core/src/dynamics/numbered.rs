@@ -1,8 +1,8 @@
-//! What is attached to the tool, in either numbering of its unknowns: point masses, the axial tie, the string above and
+//! What is attached to the tool, in either numbering of its unknowns: the axial tie, the string above and
 //! the connector by which the pipe hangs on the guide below it, pressure in the pipe, the rock's torque and weight, point loads.
 
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::state::{State, motion};
+use crate::dynamics::state::State;
 use crate::elements::factors::TangentFactors;
 use crate::elements::rock::{BitAt, BitLoad};
 use crate::model::{Model, Places};
@@ -147,30 +147,6 @@ impl Numbered<'_> {
                 unknown,
                 factors.damping * impedance + factors.stiffness * stiffness,
             );
-        }
-    }
-
-    /// Adds the forces of point masses to the residual, on nodes whose first unknown is `wanted`.
-    pub(crate) fn add_mass_forces(
-        &self,
-        residual: &mut [f64],
-        state: &State,
-        conditions: &Conditions,
-        wanted: impl Fn(usize) -> bool,
-    ) {
-        let alpha = conditions.rayleigh.alpha;
-        let masses = self.model.masses.iter().zip(&self.places.masses);
-        for (point, places) in masses.filter(|(_, places)| wanted(places[0])) {
-            for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
-                let u = places[k];
-                let gravity = if k < 3 { point.gravity[k] } else { 0.0 };
-                residual[u] += inertia * (state.a[u] + alpha * state.v[u] - gravity);
-            }
-            if point.body.is_coupled() {
-                let moving = motion(state, places);
-                let forces = point.body.coupled_forces(moving.as_node(), alpha, point.gravity.into());
-                places.iter().zip(forces).for_each(|(&u, force)| residual[u] += force);
-            }
         }
     }
 }

@@ -4,7 +4,6 @@ use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::elements::joint::Rotations;
-use crate::elements::point_body::NodeMotion;
 use crate::model::{Model, Station};
 use crate::tool::FrictionLaw;
 
@@ -104,34 +103,6 @@ pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
 #[inline]
 pub fn translation(values: &[f64], first: usize) -> Vector3<f64> {
     Vector3::new(values[first], values[first + 1], values[first + 2])
-}
-
-/// Displacements, velocities and accelerations of a node.
-pub struct Motion {
-    q: [f64; 6],
-    v: [f64; 6],
-    a: [f64; 6],
-}
-
-impl Motion {
-    /// As a body on the node sees them.
-    pub fn as_node(&self) -> NodeMotion<'_> {
-        NodeMotion {
-            q: &self.q,
-            v: &self.v,
-            a: &self.a,
-        }
-    }
-}
-
-/// How the node with the unknowns `places` moves.
-#[inline]
-pub fn motion(state: &State, places: &[usize; 6]) -> Motion {
-    Motion {
-        q: places.map(|unknown| state.q[unknown]),
-        v: places.map(|unknown| state.v[unknown]),
-        a: places.map(|unknown| state.a[unknown]),
-    }
 }
 
 /// The six rotational values of joint `joint`.

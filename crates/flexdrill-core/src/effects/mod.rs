@@ -1,8 +1,9 @@
-//! What acts inside the spans of the tool beyond beams and contacts: a file each, with law, switch, force, tangent and energy.
+//! What acts on the tool beyond beams, contacts and joints: a file each, with law, switch, force, tangent and energy.
 //!
 //! The list below is the only place that names them all. They act in its order, so that sums have one order too. A new effect
 //! is a file that implements [`Effect`], with a constructor `of` that gives `None` for a tool without it, and a line here.
 
+pub(crate) mod bodies;
 pub(crate) mod mud;
 pub(crate) mod mud_wall;
 pub(crate) mod preload;
@@ -48,10 +49,16 @@ macro_rules! effects {
                 })+
             }
 
-            fn energy(&self, chain: &Chain, point: &mut LedgerPoint) -> f64 {
+            fn at_nodes(&self, residual: &mut [f64], state: &State, under: &Under<'_>, wanted: &impl Fn(usize) -> bool) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.at_nodes(residual, state, under, wanted);
+                })+
+            }
+
+            fn energy(&self, chain: &Chain, point: &mut LedgerPoint, state: &State, under: &Under<'_>) -> f64 {
                 let mut stored = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
-                    stored += effect.energy(chain, point);
+                    stored += effect.energy(chain, point, state, under);
                 })+
                 stored
             }
@@ -93,6 +100,7 @@ macro_rules! effects {
 }
 
 effects! {
+    bodies: bodies::Bodies,
     mud: mud::Mud,
     preload: preload::Preloaded,
     mud_wall: mud_wall::MudWall,
@@ -106,6 +114,7 @@ effects! {
 pub(crate) fn acting(model: &Model) -> Acting {
     Acting {
         every_station: slots::is_on(model),
+        at_nodes: |model| bodies::at_nodes(model).collect(),
         linear: |at, parts| {
             mud::linear(at, parts);
             preload::linear(at, parts);

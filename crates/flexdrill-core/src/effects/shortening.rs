@@ -211,7 +211,7 @@ impl Effect for Shortened {
         });
     }
 
-    fn energy(&self, chain: &Chain, point: &mut LedgerPoint) -> f64 {
+    fn energy(&self, chain: &Chain, point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         let mut energy = 0.0;
         point.sums.lifted_by_pressure = 0.0;
         for (l, stretch) in self.stretches.iter().enumerate() {

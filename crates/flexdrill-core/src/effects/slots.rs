@@ -252,7 +252,7 @@ impl Effect for SlottedGuide {
         }
     }
 
-    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint) -> f64 {
+    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         self.closed.iter().flatten().map(|closed| closed.energy).sum()
     }
 

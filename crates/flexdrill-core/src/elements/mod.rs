@@ -5,7 +5,6 @@ pub mod beam;
 pub mod factors;
 pub mod gap;
 pub mod joint;
-pub mod point_body;
 pub mod pressure;
 pub mod rock;
 pub mod slip;

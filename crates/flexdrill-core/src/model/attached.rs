@@ -5,8 +5,7 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector3};
 
 use super::Model;
-use crate::elements::point_body::PointBody;
-use crate::tool::{Body, Direction, Location, PointLoad, ToolDescription};
+use crate::tool::{Body, Direction, Location, PointLoad, PointMass, ToolDescription};
 use crate::validation::ValidationError;
 
 /// A load with its unknown resolved.
@@ -23,8 +22,8 @@ pub struct ResolvedLoad {
 pub struct ResolvedMass {
     /// Unknown of the node's u.
     pub unknown: usize,
-    /// Mass, inertias and unbalance.
-    pub body: PointBody,
+    /// The described mass, with its inertias and its unbalance.
+    pub mass: PointMass,
     /// Gravity in the node's frame (m/s2).
     pub gravity: Vector3<f64>,
 }
@@ -94,13 +93,7 @@ impl Model {
                 let gravity = frame.transpose() * (Vector3::z() * d.gravity);
                 self.masses.push(ResolvedMass {
                     unknown,
-                    body: PointBody {
-                        mass: mass.mass,
-                        axial_inertia: mass.axial_inertia,
-                        transverse_inertia: mass.transverse_inertia,
-                        eccentricity: mass.eccentricity,
-                        phase: mass.eccentricity_phase,
-                    },
+                    mass: *mass,
                     gravity,
                 });
             }
@@ -109,11 +102,15 @@ impl Model {
         if d.bit.inertia > 0.0 {
             self.masses.push(ResolvedMass {
                 unknown: self.stations[self.last()].pipe_above,
-                body: PointBody {
+                mass: PointMass {
+                    location: Location::Bottom,
+                    body: Body::Pipe,
+                    mass: 0.0,
                     axial_inertia: d.bit.inertia,
                     // That of a thin disc: the smallest ratio that a body can have.
                     transverse_inertia: 0.5 * d.bit.inertia,
-                    ..PointBody::default()
+                    eccentricity: 0.0,
+                    eccentricity_phase: 0.0,
                 },
                 gravity: Vector3::zeros(),
             });
@@ -172,7 +169,7 @@ impl Model {
     pub(super) fn total_weight(&self) -> Vector3<f64> {
         let masses = self.masses.iter().map(|mass| {
             let (_, _, frame) = self.node_of(mass.unknown);
-            frame * mass.gravity * mass.body.mass
+            frame * mass.gravity * mass.mass.mass
         });
         self.sum_in_world(&self.weight) + masses.sum::<Vector3<f64>>()
     }

@@ -35,8 +35,6 @@ pub struct Places {
     pub joints: Vec<JointPlaces>,
     /// Of every load.
     pub loads: Vec<usize>,
-    /// Of every mass, (u, v, w, psi, phi_y, phi_z).
-    pub masses: Vec<[usize; 6]>,
     /// Of every unknown that a support holds, in the order of [`Model::held`]; `None` where the numbering has none for
     /// it.
     pub held: Vec<Option<usize>>,
@@ -65,11 +63,6 @@ impl Places {
                 })
                 .collect(),
             loads: model.loads.iter().map(|load| load.unknown).collect(),
-            masses: model
-                .masses
-                .iter()
-                .map(|mass| std::array::from_fn(|k| mass.unknown + k))
-                .collect(),
             held: model.held.iter().copied().map(Some).collect(),
         }
     }
@@ -94,7 +87,6 @@ impl Places {
                 })
                 .collect(),
             loads: self.loads.iter().map(|&load| place(load)).collect(),
-            masses: self.masses.iter().map(|mass| mass.map(&place)).collect(),
             held: self.held.iter().map(|at| at.and_then(&held)).collect(),
         }
     }

@@ -9,6 +9,7 @@ use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, joint_rotations};
+use crate::effects::bodies::Bodies;
 use crate::model::Model;
 
 impl LedgerPoint {
@@ -17,6 +18,7 @@ impl LedgerPoint {
         self.geometric.fill(0.0);
         self.damping.fill(0.0);
         self.inertia.fill(0.0);
+        (self.has_nodes, self.sums.fallen) = (true, 0.0);
         let (alpha, beta) = (conditions.rayleigh.alpha, conditions.rayleigh.beta);
         let (mut elastic, mut geometric, mut kinetic, mut foreseen) = (0.0, 0.0, 0.0, 0.0);
         let mut strained = state.clone();
@@ -87,7 +89,9 @@ impl LedgerPoint {
             stored += self.add_shortening(model, state, conditions);
         }
         self.add_mud(model, state, conditions);
-        self.add_masses(&numbered, state, conditions);
+        if let Some(bodies) = Bodies::at(model, Some) {
+            bodies.add_to(self, state, conditions.rayleigh.alpha);
+        }
         stored += self.sums.kinetic + numbered.hanger_energy(state);
         self.friction.fill(0.0);
         self.sums.contact_dissipation = 0.0;

@@ -6,6 +6,7 @@ use super::constants::Constants;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
+use crate::effects::bodies::Bodies;
 use crate::model::Model;
 
 impl Assembler {
@@ -18,8 +19,9 @@ impl Assembler {
             self.shortening_forces(model, state, conditions);
         }
         self.slots_moments(model, state);
-        let numbered = self.constants.numbered(model);
-        numbered.add_mass_forces(&mut self.residual, state, conditions, |_| true);
+        if let Some(bodies) = Bodies::at(model, Some) {
+            bodies.add_forces(&mut self.residual, state, conditions.rayleigh.alpha, |_| true);
+        }
         self.contact_forces(interactions, model, state, conditions);
         self.joint_forces(&mut interactions.joints, model, state);
         let bit = &mut interactions.bit;

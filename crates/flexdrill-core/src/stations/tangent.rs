@@ -9,10 +9,11 @@ use crate::chain::Touching;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::along_the_hole;
-use crate::dynamics::state::{State, motion};
+use crate::dynamics::state::State;
+use crate::effects::bodies::{self, Bodies};
 use crate::elements::beam::ElementMatrix;
 use crate::elements::factors::TangentFactors;
-use crate::model::{Model, ResolvedMass};
+use crate::model::Model;
 
 impl Assembler {
     /// Assembles the whole tangent, Eq. 41, from the parts linearised by the last [`Assembler::residual`] at `state`.
@@ -71,35 +72,21 @@ impl Assembler {
                 let first = model.layout.offset(station);
                 self.contact_block(station)[column - first][row - first] += value;
             });
-        for (point, places) in model.masses.iter().zip(&model.places.masses) {
-            if point.body.is_coupled() {
-                self.point_tangent(model, point, places, state, conditions, factors);
-            }
+        for body in Bodies::at(model, Some).iter().flat_map(Bodies::coupled) {
+            let factors = [factors.stiffness, factors.damping, factors.mass];
+            let tangent = body.coupled_tangent(state, conditions.rayleigh.alpha, factors);
+            self.add_body(model, body.places[0], &tangent);
         }
         self.increment.drop_held();
     }
 
-    /// Adds the coupled part of a point mass; its diagonal is in the step-constant part.
-    fn point_tangent(
-        &mut self,
-        model: &Model,
-        point: &ResolvedMass,
-        places: &[usize; 6],
-        state: &State,
-        conditions: &Conditions,
-        factors: TangentFactors,
-    ) {
-        let station = model.layout.station_of(point.unknown);
+    /// Adds the coupled part of a body on the node of `unknown`; its diagonal is in the step-constant part.
+    fn add_body(&mut self, model: &Model, unknown: usize, tangent: &[[f64; 6]; 6]) {
+        let station = model.layout.station_of(unknown);
         // The pipe's end above or the guide: both are in the contact block.
-        let local = point.unknown - model.layout.offset(station);
-        let tangent = point.body.coupled_tangent(
-            motion(state, places).as_node(),
-            conditions.rayleigh.alpha,
-            point.gravity.into(),
-            [factors.stiffness, factors.damping, factors.mass],
-        );
+        let local = unknown - model.layout.offset(station);
         let block = self.contact_block(station);
-        for (column, from) in block[local..].iter_mut().zip(&tangent) {
+        for (column, from) in block[local..].iter_mut().zip(tangent) {
             for (x, y) in column[local..].iter_mut().zip(from) {
                 *x += y;
             }
@@ -136,10 +123,10 @@ impl Assembler {
             }
             add_guide_element(&mut self.step_constant, e, &m, 1.0);
         }
-        for point in &model.masses {
-            let station = model.layout.station_of(point.unknown);
-            let local = point.unknown - model.layout.offset(station);
-            for (k, inertia) in point.body.diagonal().into_iter().enumerate() {
+        for (unknown, masses) in bodies::at_nodes(model) {
+            let station = model.layout.station_of(unknown);
+            let local = unknown - model.layout.offset(station);
+            for (k, inertia) in masses.into_iter().enumerate() {
                 self.step_constant
                     .add(station, local + k, local + k, inertia * inertial);
             }

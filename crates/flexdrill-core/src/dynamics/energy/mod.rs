@@ -15,7 +15,6 @@ use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
-use crate::dynamics::state::{State, motion};
 use crate::elements::string::StringLine;
 use crate::model::Model;
 
@@ -64,6 +63,8 @@ pub struct Sums {
     bit_elastic: f64,
     /// Power of the advance against the friction of the wall (W).
     feed: f64,
+    /// Work of the weight of what effects have at nodes, since the tool was undeflected (J).
+    pub(crate) fallen: f64,
     /// Shortening of the pipe's spans times the effective tension that they have without strain, per pressure at the top
     /// (N m/Pa); of spans that shorten only.
     pub(crate) lifted_by_pressure: f64,
@@ -86,10 +87,12 @@ pub struct LedgerPoint {
     /// Value of each point load (N, N m).
     pub(crate) loads: Vec<f64>,
     /// Geometric stiffness, damping and inertia of the spans of a chain; in the vectors above are then
-    /// those of point masses only.
+    /// those at nodes only, where there are any.
     pub(crate) spans: Vec<SpanForces>,
     /// Moments of the pins' friction on the six rotations of each joint (N m), which are in `friction` too.
     pub(crate) pin_moments: Vec<[f64; 6]>,
+    /// Whether damping and inertia have anything beyond the spans.
+    pub(crate) has_nodes: bool,
     /// Energies and powers of the whole tool.
     pub(crate) sums: Sums,
 }
@@ -106,6 +109,7 @@ impl LedgerPoint {
             loads: vec![0.0; model.loads.len()],
             spans: vec![SpanForces::default(); spans],
             pin_moments: vec![[0.0; 6]; model.joints_with_friction()],
+            has_nodes: false,
             sums: Sums::default(),
         }
     }
@@ -141,7 +145,7 @@ impl LedgerPoint {
         self.loads.clone_from(&other.loads);
         self.spans.clone_from(&other.spans);
         self.pin_moments.clone_from(&other.pin_moments);
-        self.sums = other.sums;
+        (self.has_nodes, self.sums) = (other.has_nodes, other.sums);
     }
 
     /// Adds what the string above stores, has lost, and has been given by the hoist.
@@ -156,24 +160,23 @@ impl LedgerPoint {
         }
     }
 
-    /// Adds kinetic energy, inertia and damping of point masses.
-    pub(crate) fn add_masses(&mut self, numbered: &Numbered<'_>, state: &State, conditions: &Conditions) {
-        let alpha = conditions.rayleigh.alpha;
-        for (point, places) in numbered.model.masses.iter().zip(&numbered.places.masses) {
-            let moving = motion(state, places);
-            let moving = moving.as_node();
-            self.sums.kinetic += point.body.kinetic_energy(moving);
-            let inertia = point.body.coupled_forces(moving, 0.0, [0.0; 3]);
-            let damped = point.body.coupled_forces(moving, alpha, [0.0; 3]);
-            for (k, mass) in point.body.diagonal().into_iter().enumerate() {
-                let u = places[k];
-                self.inertia[u] += mass * state.a[u] + inertia[k];
-                self.damping[u] += alpha * mass * state.v[u] + (damped[k] - inertia[k]);
-            }
-        }
+    /// Nothing acts at nodes yet.
+    pub(crate) fn begin_nodes(&mut self) {
+        self.sums.fallen = 0.0;
+        self.has_nodes = false;
     }
 
-    /// Adds joints, loads, drive and bit to what elements, masses and contacts have `stored` (J), and writes what supports,
+    /// Damping and inertia at nodes, to be added to: zero when they are asked for first after [`LedgerPoint::begin_nodes`].
+    pub(crate) fn at_nodes(&mut self) -> [&mut Vec<f64>; 2] {
+        if !self.has_nodes {
+            self.damping.fill(0.0);
+            self.inertia.fill(0.0);
+            self.has_nodes = true;
+        }
+        [&mut self.damping, &mut self.inertia]
+    }
+
+    /// Adds joints, loads, drive and bit to what elements, effects and contacts have `stored` (J), and writes what supports,
     /// pins and drive carry.
     pub(crate) fn finish(
         &mut self,

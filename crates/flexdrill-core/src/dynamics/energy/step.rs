@@ -5,7 +5,7 @@ use flexdrill_base::energies::Energies;
 use super::LedgerPoint;
 use crate::dynamics::carried::Carried;
 use crate::dynamics::numbered::Numbered;
-use crate::dynamics::state::{State, motion};
+use crate::dynamics::state::State;
 use crate::simd::vector::Vector;
 use crate::simd::{Instructions, Kernel};
 
@@ -114,8 +114,8 @@ impl StepWork<'_> {
             mut inertia,
             geometric: mut geometric_work,
         } = spans;
-        // Elements by stations, or point masses.
-        if e0.spans.is_empty() || !model.masses.is_empty() {
+        // Elements by stations, or what acts at nodes.
+        if e1.has_nodes {
             let nodal = instructions.run(MeanWorks {
                 moved,
                 forces: [
@@ -174,16 +174,7 @@ impl StepWork<'_> {
         // Powers are integrated over time, forces over displacement: contact damping is known as a power.
         ledger.contact_damping += h * mean(at0.contact_dissipation, at1.contact_dissipation);
         ledger.gravity += gravity;
-        // An eccentric mass falls with its node and by its turning.
-        for (point, places) in model.masses.iter().zip(&places.masses) {
-            let (before, after) = (motion(s0, places), motion(s1, places));
-            let (r0, r1) = (
-                point.body.offset(before.as_node().q),
-                point.body.offset(after.as_node().q),
-            );
-            let down = (0..3).map(|k| point.gravity[k] * (moved[places[k]] + (r1[k] - r0[k])));
-            ledger.gravity += point.body.mass * down.sum::<f64>();
-        }
+        ledger.gravity += at1.fallen - at0.fallen;
         ledger.rayleigh_damping += damping;
         // The scheme's own loss: what inertia took less what became kinetic energy.
         ledger.numerical_damping += inertia - (at1.kinetic - at0.kinetic);

@@ -127,7 +127,7 @@ impl Effect for MudWall {
         });
     }
 
-    fn energy(&self, chain: &Chain, point: &mut LedgerPoint) -> f64 {
+    fn energy(&self, chain: &Chain, point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         let instructions = chain.model.instructions;
         instructions.run(Energies {
             effect: self,

@@ -74,7 +74,7 @@ impl Effect for Springs {
         });
     }
 
-    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint) -> f64 {
+    fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         let squares = self.stretched.as_flattened().iter().map(|stretch| stretch * stretch);
         0.5 * self.stiffness * squares.sum::<f64>()
     }
