@@ -4,7 +4,7 @@ mod bags;
 #[cfg(feature = "bridge")]
 mod wits;
 #[cfg(not(feature = "bridge"))]
-#[path = "source/no_wits.rs"]
+#[path = "no_wits.rs"]
 mod wits;
 
 use std::path::{Path, PathBuf};

@@ -3,7 +3,7 @@
 #[cfg(feature = "bridge")]
 mod line;
 #[cfg(not(feature = "bridge"))]
-#[path = "rig/no_line.rs"]
+#[path = "no_line.rs"]
 mod line;
 
 use std::collections::BTreeMap;
