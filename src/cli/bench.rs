@@ -72,7 +72,7 @@ impl Vectors {
     }
 }
 
-/// Sets of runs. Those that take minutes to hours are `cargo xtask bench`.
+/// Sets of runs. Those that take minutes to hours are `cargo xtask measure`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Cases {
     /// The tool as it is and harder ones, with speed, iterations, energy error and time per phase.

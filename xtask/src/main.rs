@@ -24,7 +24,7 @@ enum Task {
     /// Runs the measurements of docs/measurements.md that take minutes to hours: --cases real-time, scaling, physics,
     /// memory, step-error, truth, quality, rig-faults or all.
     #[command(disable_help_flag = true)]
-    Bench {
+    Measure {
         /// What the measurements accept; --help lists it.
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
@@ -61,7 +61,7 @@ fn main() -> anyhow::Result<()> {
         Task::Reference { page } => {
             package("flexdrill-pages", &[page])?;
         }
-        Task::Bench { arguments } => package("flexdrill-measurements", &arguments)?,
+        Task::Measure { arguments } => package("flexdrill-measurements", &arguments)?,
         Task::Figure { arguments } => study("figure", arguments)?,
         Task::Search { arguments } => study("search", arguments)?,
         Task::DemoLog { file } => {

@@ -1,7 +1,8 @@
 //! Speed and figures of a configuration at constant inputs.
 //!
 //! [`measure::run`] runs a configuration as fast as it goes, [`real_time::tables`] the cases that the twin must keep pace
-//! with, [`batch::tables`] how many members of look-aheads run. `flexdrill bench` shows them; the measurements that take minutes to hours (`cargo xtask bench`) build on them.
+//! with, [`batch::tables`] how many members of look-aheads run. `flexdrill bench` shows them; the
+//! measurements that take minutes to hours (`cargo xtask measure`) build on them.
 
 pub mod batch;
 pub mod cases;

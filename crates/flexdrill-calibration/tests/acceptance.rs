@@ -1,7 +1,7 @@
 //! Logs with known truth from a soft string on a bit of Detournay and Defourny, both in closed form: how near the
 //! estimates are, how often their 90 % bands hold the truth, and what is called not identifiable. The surrogates see
-//! the closed form at the points of a design, as they see the twin's runs; `cargo xtask bench --cases calibration` has
-//! full runs for both.
+//! the closed form at the points of a design, as they see the twin's runs; `cargo xtask measure --cases calibration`
+//! has full runs for both.
 //!
 //! What a log has, as real sensors do:
 //! - torque of the top drive: white noise of 15 N m (4 % of 350 N m) at 1 Hz, a drift of 5 N m per root of an hour, and an

@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: the measurements of `docs/measurements.md` that take minutes to hours.
+//! `cargo xtask measure`: the measurements of `docs/measurements.md` that take minutes to hours.
 
 mod calibration;
 mod document;
@@ -24,7 +24,7 @@ use flexdrill_core::Instructions;
 
 /// Runs a set of measurements and prints its tables, as Markdown.
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask bench")]
+#[command(name = "cargo xtask measure")]
 struct Measurements {
     /// Configurations to run; the first one, of step-error the others too [default: config/default.yaml, of step-error
     /// also config/coarse.yaml].
@@ -280,7 +280,7 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
         _ => format!(" --duration {duration}"),
     };
     Ok(format!(
-        "Command: `cargo xtask bench --cases {}{options}`, `{name}`. {}\n\n{tables}",
+        "Command: `cargo xtask measure --cases {}{options}`, `{name}`. {}\n\n{tables}",
         case.name(),
         machine::describe()
     ))
@@ -318,7 +318,7 @@ mod tests {
         let args = args.unwrap();
         let text = measure(args.cases, &configurations(&args).unwrap(), &args).unwrap();
         assert!(
-            text.starts_with("Command: `cargo xtask bench --cases scaling --duration 0.05`"),
+            text.starts_with("Command: `cargo xtask measure --cases scaling --duration 0.05`"),
             "{text}"
         );
         assert!(text.contains("| 132 |"), "{text}");
