@@ -11,6 +11,7 @@
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
+//! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
 //! - [`compare`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
@@ -35,6 +36,7 @@ pub mod node;
 #[cfg(feature = "sweep")]
 pub mod reach;
 pub mod rig_inputs;
+pub mod session;
 pub mod window;
 
 pub use flexdrill_bag as bag;

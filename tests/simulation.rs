@@ -22,16 +22,18 @@ use std::sync::{Arc, Mutex};
 
 use bag_support::witness::Witness;
 use flexdrill::alarms::{AlarmBook, NodeState};
+use flexdrill::compare::{Comparison, RigComparison, Samples};
 use flexdrill::dds::port::{Health, Restart};
 use flexdrill::health::status::{OutputCount, Sources, StatusKeeper};
 use flexdrill::messages::builtin_interfaces::Time as Stamp;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmList, CdrError, TwinStatus, from_cdr, topics};
 use flexdrill::rig_inputs::{DriverId, Intake, RigSample};
+use flexdrill::session::{Host, Session};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputKind, InputState};
-use flexdrill_core::twin::{Output, Run, Simulation};
-use flexdrill_outputs::{Encoded, Outputs};
+use flexdrill_core::twin::{Run, Simulation};
+use flexdrill_outputs::Encoded;
 use flexdrill_realtime::clock::Clock;
 use flexdrill_realtime::link::{Command, Gauges, LoopEvent, PublisherEnd, RunState, Settings, Targets, link};
 use flexdrill_realtime::{PaceReading, RealTimeLoop};
@@ -99,9 +101,8 @@ struct World {
     gauges: Arc<Gauges>,
     publisher: PublisherEnd,
     commands: rtrb::Producer<Command>,
-    outputs: Option<Outputs>,
     status: StatusKeeper,
-    book: AlarmBook,
+    session: Session,
     dds: Health,
     stamps: BTreeMap<&'static str, i64>,
     counts: BTreeMap<&'static str, u64>,
@@ -255,26 +256,15 @@ impl World {
     /// What the publisher's thread does when it gets to it.
     fn publish(&mut self) {
         self.update_targets();
-        if let (None, Some(start)) = (&self.outputs, self.gauges.start()) {
-            let mut outputs = Outputs::new(&self.config, start);
-            let mut sent = Vec::new();
-            outputs
-                .session(&self.config.hash(), "", |encoded| keep(&mut sent, encoded))
-                .unwrap();
-            self.outputs = Some(outputs);
-            self.check_all(&sent);
+        let mut sent = Sent::default();
+        if let Some(start) = self.gauges.start().filter(|_| !self.session.has_begun()) {
+            self.session.begin(start, &mut sent).unwrap();
         }
-        let mut sent = Vec::new();
         while let Ok(event) = self.publisher.events.pop() {
             match event {
                 LoopEvent::Frame(frame) => {
                     self.status.observe(&frame.snapshot);
-                    let outputs = self.outputs.as_mut().unwrap();
-                    outputs.frame(&frame, |encoded| keep(&mut sent, encoded)).unwrap();
-                    if frame.due.has(Output::Alarms) {
-                        let stamp = outputs.instant(frame.ticks);
-                        self.book.observe_tool(&frame.snapshot, stamp);
-                    }
+                    self.session.frame(&frame, &mut sent).unwrap();
                     self.publisher.empty.push(frame).unwrap();
                 }
                 LoopEvent::Applied { inputs, ticks, .. } => {
@@ -284,10 +274,7 @@ impl World {
                     {
                         assert!(value.is_finite(), "{kind:?}: {value} was applied");
                     }
-                    let outputs = self.outputs.as_mut().unwrap();
-                    outputs
-                        .applied(&inputs, &[], ticks, |encoded| keep(&mut sent, encoded))
-                        .unwrap();
+                    self.session.applied(&inputs, &[], ticks, &mut sent).unwrap();
                 }
                 LoopEvent::Failed(failure, _) => self.status.fail(failure),
                 LoopEvent::Recovered => {}
@@ -295,7 +282,7 @@ impl World {
         }
         while self.publisher.step_times.pop().is_ok() {}
         self.status.note(self.now, &self.gauges);
-        self.check_all(&sent);
+        self.check_all(&sent.0);
     }
 
     /// What is published is on time, in order and a message.
@@ -395,15 +382,16 @@ impl World {
             recording: None,
         };
         let time = self.rig_time();
-        self.book.advance(time);
-        self.book.observe_node(&state, time);
+        let book = self.session.alarms_mut();
+        book.advance(time);
+        book.observe_node(&state, time);
         let header = self.header();
-        let mut sent = Vec::new();
-        self.book
-            .publish(header, self.now as i64, |encoded| keep(&mut sent, encoded))
+        let mut sent = Sent::default();
+        self.session
+            .publish_alarms(header, self.now as i64, &mut sent)
             .unwrap();
-        self.check_alarms(&sent);
-        self.check_all(&sent);
+        self.check_alarms(&sent.0);
+        self.check_all(&sent.0);
     }
 
     /// An input that has been stale for longer than its alarm's delays calls, one that never was does not call high.
@@ -432,9 +420,24 @@ impl World {
     }
 }
 
-fn keep(sent: &mut Vec<(&'static str, i64, Vec<u8>)>, encoded: Encoded<'_>) -> Result<(), CdrError> {
-    sent.push((encoded.topic.name, encoded.stamp, encoded.cdr.to_vec()));
-    Ok(())
+/// What a session has sent: topic, stamp (ns) and bytes. This rig measures nothing.
+#[derive(Default)]
+struct Sent(Vec<(&'static str, i64, Vec<u8>)>);
+
+impl Host for Sent {
+    type Error = CdrError;
+
+    fn send(&mut self, encoded: Encoded<'_>) -> Result<(), CdrError> {
+        self.0
+            .push((encoded.topic.name, encoded.stamp, encoded.cdr.to_vec()));
+        Ok(())
+    }
+
+    fn measured(&mut self, _: &mut RigComparison, _: u64, _: i64) -> Option<Samples> {
+        None
+    }
+
+    fn compared(&mut self, _: &Comparison) {}
 }
 
 /// The world's clock: when the solver waits, the world lives.
@@ -504,9 +507,11 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         gauges: Arc::clone(&gauges),
         publisher,
         commands: requests.commands,
-        outputs: None,
         status: StatusKeeper::new(Arc::clone(config)).unwrap(),
-        book: AlarmBook::fresh(Arc::clone(config), RIG_BEGIN as i64),
+        session: Session::new(
+            Arc::clone(config),
+            AlarmBook::fresh(Arc::clone(config), RIG_BEGIN as i64),
+        ),
         dds: Health {
             is_up: true,
             ..Health::default()

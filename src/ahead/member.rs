@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::measured::Measured;
 use super::trace::Trace;
 use crate::alarms::{AlarmBook, AlarmId};
+use crate::session::Session;
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
@@ -201,7 +202,8 @@ impl<'a> Watched<'a> {
         self.run.look(&mut self.snapshot);
         let begun = self.snapshot.time;
         let stamp = |snapshot: &Snapshot| span(snapshot.time);
-        let mut book = AlarmBook::prompt(Arc::clone(self.config), stamp(&self.snapshot));
+        let book = AlarmBook::prompt(Arc::clone(self.config), stamp(&self.snapshot));
+        let mut session = Session::new(Arc::clone(self.config), book);
         // Damage accumulates over the life of the tool, so only the difference belongs to this member.
         let damage_before = damage(&self.snapshot);
         let mut alarms = vec![Called::default(); AlarmId::ALL.len()];
@@ -212,13 +214,13 @@ impl<'a> Watched<'a> {
         for look in 0..looks {
             self.advance()?;
             let snapshot = &self.snapshot;
-            book.observe_tool(snapshot, stamp(snapshot));
+            session.observe(snapshot, stamp(snapshot));
             // The journal of a fork has no reader, and would grow with the horizon.
-            book.forget_events();
+            session.alarms_mut().forget_events();
             // Only the second half decides on what lasts: the first half belongs to the transition.
             let lasts = 2 * (look + 1) >= looks;
             for ((id, called), stood) in AlarmId::ALL.into_iter().zip(&mut alarms).zip(&mut stood) {
-                let active = book.active(id);
+                let active = session.alarms().active(id);
                 // An alarm needs its delay before it stands; what the beginning brought is up by then.
                 if snapshot.time - begun < SETTLING {
                     *stood = active.is_some();

@@ -10,23 +10,18 @@ use tokio::sync::oneshot;
 use super::NodeError;
 use super::advisor::{Acting, Advisor, InForce};
 use super::publish::PublisherParts;
-use super::sinks::Sinks;
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
-use crate::compare::Comparison;
-use crate::window::SafeWindow;
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{
-    AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest,
-    ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse,
+    AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, ShelveAlarmRequest, ShelveAlarmResponse,
+    UnshelveAlarmRequest, UnshelveAlarmResponse,
 };
 use flexdrill_outputs::words;
-use flexdrill_outputs::{Encoded, ParameterChange};
 use flexdrill_realtime::PaceReading;
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::PortBuilder;
@@ -57,35 +52,39 @@ enum Saving {
     Pending(oneshot::Receiver<Result<(), String>>),
 }
 
-/// The alarms of a node, on the publisher's thread.
+/// What the node does about the alarms of its session, on the publisher's thread: it answers requests, takes advice from
+/// look-aheads, logs, and keeps their state over a restart.
 pub struct AlarmDesk {
-    book: AlarmBook,
     requests: Receiver<AlarmRequest>,
     /// Who looks ahead for advice; none where that is off.
     advisor: Option<Arc<Advisor>>,
-    /// The configuration in force, with its parameters that advice depends on.
-    config: Arc<Config>,
+    /// The parameters in force that advice depends on.
     parameters: InForce,
     /// Writes the state to its file, with the number of the newest event that it was given.
     writer: Option<(StateWriter, u64)>,
 }
 
 impl AlarmDesk {
-    /// Alarms with the state that an earlier run has left in `state_file`, or all normal. A problem of the file is logged.
-    pub fn new(config: Arc<Config>, state_file: Option<&Path>, requests: Receiver<AlarmRequest>, time: Time) -> Self {
+    /// Alarms with the state that an earlier run has left in `state_file`, or all normal, and their desk. A problem of the file
+    /// is logged.
+    pub fn open(
+        config: &Arc<Config>,
+        state_file: Option<&Path>,
+        requests: Receiver<AlarmRequest>,
+        time: Time,
+    ) -> (AlarmBook, Self) {
         let (saved, writer) = state_file.map(open).unwrap_or_default();
-        let book = AlarmBook::new(Arc::clone(&config), saved.as_ref(), time).unwrap_or_else(|error| {
+        let book = AlarmBook::new(Arc::clone(config), saved.as_ref(), time).unwrap_or_else(|error| {
             tracing::warn!("{error}; all alarms begin as normal");
-            AlarmBook::fresh(Arc::clone(&config), time)
+            AlarmBook::fresh(Arc::clone(config), time)
         });
-        Self {
-            book,
+        let desk = Self {
             requests,
             advisor: None,
-            parameters: InForce::of(&config),
-            config,
+            parameters: InForce::of(config),
             writer: writer.map(|writer| (writer, 0)),
-        }
+        };
+        (book, desk)
     }
 
     /// Takes advice from look-aheads.
@@ -93,51 +92,27 @@ impl AlarmDesk {
         self.advisor = Some(advisor);
     }
 
-    /// Judges speed and weight by a map.
-    pub fn judge_by(&mut self, window: Arc<SafeWindow>) {
-        self.book.set_window(window);
+    /// Adopts the parameters of a changed configuration.
+    pub fn reconfigure(&mut self, config: &Config) {
+        self.parameters = InForce::of(config);
     }
 
-    /// Adopts limits and rules that these requests have changed.
-    pub fn reconfigure(&mut self, config: &Arc<Config>, changes: &[ParameterChange]) {
-        // Inputs that change call this with the same configuration, again and again.
-        if !Arc::ptr_eq(config, &self.config) {
-            self.book.reconfigure(config, changes);
-            self.parameters = InForce::of(config);
-            self.config = Arc::clone(config);
-        }
-    }
-
-    /// Judges the hazards of a snapshot, at its stamp.
-    pub fn observe_tool(&mut self, snapshot: &Snapshot, stamp: Time) {
-        self.book.observe_tool(snapshot, stamp);
+    /// Gives the alarms that a snapshot has left what look-aheads have found for them.
+    pub fn advise(&self, book: &mut AlarmBook, snapshot: &Snapshot) {
         if let Some(advisor) = &self.advisor {
             let acting = Acting::new(&snapshot.applied, &self.parameters);
-            let tested = advisor.follow(self.book.leading(), &acting);
-            self.book.set_tested(tested, advisor.trial());
+            let tested = advisor.follow(book.leading(), &acting);
+            book.set_tested(tested, advisor.trial());
         }
-    }
-
-    /// Judges the comparison of rig and twin, at the stamp of its snapshot, and enters what was adjusted.
-    pub fn observe_rig(&mut self, comparison: &Comparison, bit_depth: f64, stamp: Time) {
-        self.book
-            .observe_rig(&comparison.compared, &comparison.followed(), bit_depth, stamp);
-        self.book.observe_adjusted(&comparison.message, stamp);
-    }
-
-    /// Judges the node's own state, at the present time on the rig's clock.
-    pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
-        self.book.advance(time);
-        self.book.observe_node(state, time);
     }
 
     /// Answers all waiting requests, at the present time on the rig's clock.
-    pub fn answer(&mut self, time: impl Fn() -> Time) {
+    pub fn answer(&mut self, book: &mut AlarmBook, time: impl Fn() -> Time) {
         while let Ok(AlarmRequest { request, answer }) = self.requests.try_recv() {
-            let result = self.book.request(&request, time());
+            let result = book.request(&request, time());
             let result = result.map(|text| Accepted {
                 text,
-                saved: self.save(),
+                saved: self.save(book),
             });
             // The service may not wait any more.
             let _ = answer.send(result);
@@ -146,54 +121,40 @@ impl AlarmDesk {
 
     /// Passes the state to the writer, which reports when it is on the disk. The publisher's thread does not wait for the
     /// disk.
-    fn save(&mut self) -> Saving {
+    fn save(&mut self, book: &AlarmBook) -> Saving {
         let Some((writer, written)) = &mut self.writer else {
             return Saving::Off;
         };
         let (sender, saved) = oneshot::channel();
         // The service may not wait any more.
         let report = move |result| drop(sender.send(result));
-        writer.save_then(self.book.save(), Box::new(report));
-        *written = self.book.sequence();
+        writer.save_then(book.save(), Box::new(report));
+        *written = book.sequence();
         Saving::Pending(saved)
     }
 
-    /// Whether something is due for publication, at an instant of a steady clock (ns).
-    pub fn is_due(&self, clock: u64) -> bool {
-        self.book.is_due(clock as Time)
-    }
-
-    /// Publishes events and list, logs the alarms that call for an operator, and saves a changed state.
-    ///
-    /// # Errors
-    /// When a message cannot be encoded.
-    pub fn publish(
-        &mut self,
-        header: Header,
-        clock: u64,
-        send: impl FnMut(Encoded<'_>) -> Result<(), CdrError>,
-    ) -> Result<(), CdrError> {
-        let events = self.book.publish(header, clock as Time, send)?;
-        for event in &events {
+    /// Logs those of these events that call for an operator, and saves a changed state.
+    pub fn published(&mut self, book: &AlarmBook, events: &[AlarmEvent]) {
+        for event in events {
             log(event);
         }
         if let (Some(newest), Some((writer, written))) = (events.last(), &mut self.writer)
             && newest.sequence > *written
         {
-            writer.save(self.book.save());
+            writer.save(book.save());
             *written = newest.sequence;
         }
-        Ok(())
-    }
-
-    /// The present state of all alarms.
-    pub fn list(&self, header: Header) -> AlarmList {
-        self.book.list(header)
     }
 }
 
-/// Judges the alarms of the node itself. They follow the wall clock, so that they work while the model stands still.
-pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure>, pace: PaceReading) {
+/// Judges the alarms of the node itself, at the present time on the rig's clock. They follow the wall clock, so that they work
+/// while the model stands still.
+pub(super) fn judge_node(
+    parts: &PublisherParts,
+    book: &mut AlarmBook,
+    failure: Option<StepFailure>,
+    pace: PaceReading,
+) {
     let inputs = parts.inputs.snapshot();
     let now = parts.clocks.age_time();
     let state = NodeState {
@@ -212,26 +173,8 @@ pub(super) fn judge_node(parts: &mut PublisherParts, failure: Option<StepFailure
         }),
     };
     let time = parts.clocks.rig_time();
-    parts.alarms.observe_node(&state, time);
-}
-
-/// Publishes the events and the list that are due.
-pub(super) fn publish(parts: &mut PublisherParts, header: Header, clock: u64) {
-    let sinks = Sinks {
-        recording: parts.recording.as_ref(),
-        live: parts.live.as_ref(),
-    };
-    let publishers = &parts.publishers;
-    let sent = parts.alarms.publish(header, clock, |encoded| {
-        publishers.publish(encoded.topic, encoded.cdr);
-        sinks.write(encoded);
-        Ok(())
-    });
-    if let Err(error) = sent
-        && let Some(more) = log_ending("alarm not encoded")
-    {
-        tracing::error!("an alarm could not be encoded: {error}{more}");
-    }
+    book.advance(time);
+    book.observe_node(&state, time);
 }
 
 /// The state of an earlier run and the writer for this one; neither where another node uses the file.
@@ -367,6 +310,7 @@ impl Accepted {
 mod tests {
     use super::*;
     use crate::alarms::{AlarmSet, Change, Quantity, Tested};
+    use flexdrill_messages::std_msgs::Header;
     use flexdrill_motion::{DriveState, HazardKind, Severity};
 
     #[test]
@@ -383,7 +327,7 @@ mod tests {
     }
 
     /// Shelves an alarm at a desk without a node, and returns the reply.
-    async fn shelved(desk: &mut AlarmDesk, sender: &Sender<AlarmRequest>) -> (bool, String) {
+    async fn shelved((book, desk): &mut (AlarmBook, AlarmDesk), sender: &Sender<AlarmRequest>) -> (bool, String) {
         let request = Request::Shelve(ShelveAlarmRequest {
             id: "shock".to_owned(),
             one_shot: true,
@@ -393,7 +337,7 @@ mod tests {
         });
         let answered = tokio::spawn(ask(sender.clone(), request));
         while !answered.is_finished() {
-            desk.answer(|| 5_000_000_000);
+            desk.answer(book, || 5_000_000_000);
             tokio::time::sleep(Duration::from_millis(1)).await;
         }
         answered.await.unwrap()
@@ -405,7 +349,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("alarms.json");
         let (sender, requests) = std::sync::mpsc::channel();
-        let mut desk = AlarmDesk::new(Arc::clone(&config), Some(&file), requests, 0);
+        let mut desk = AlarmDesk::open(&config, Some(&file), requests, 0);
         let (success, message) = shelved(&mut desk, &sender).await;
         assert!(success && message.contains("shock shelved"), "{message}");
         let state = std::fs::read_to_string(&file).unwrap();
@@ -417,7 +361,7 @@ mod tests {
         assert!(!success && message.contains("not kept over a restart"), "{message}");
         // This desk has no file.
         let (sender, requests) = std::sync::mpsc::channel();
-        let mut desk = AlarmDesk::new(config, None, requests, 0);
+        let mut desk = AlarmDesk::open(&config, None, requests, 0);
         let (success, message) = shelved(&mut desk, &sender).await;
         assert!(success && message.contains("for this run only"), "{message}");
     }
@@ -428,7 +372,7 @@ mod tests {
         let config = Arc::new(Config::from_text("default.yaml", include_str!("../../config/default.yaml")).unwrap());
         let config = Arc::new(config.with_value("look_ahead.advice", true).unwrap());
         let (_, requests) = std::sync::mpsc::channel();
-        let mut desk = AlarmDesk::new(Arc::clone(&config), None, requests, 0);
+        let (mut book, mut desk) = AlarmDesk::open(&config, None, requests, 0);
         let advisor = Arc::new(Advisor::default());
         desk.advised_by(Arc::clone(&advisor));
         let mut snapshot = Snapshot::default();
@@ -436,19 +380,20 @@ mod tests {
         snapshot.hazards.list[HazardKind::BackwardWhirl as usize].severity = Severity::Critical;
         (snapshot.applied.rotary_speed, snapshot.applied.weight_set) = (4.0 * std::f64::consts::PI, 10e3);
         let mut second = 0;
-        let mut advice = |desk: &mut AlarmDesk| {
+        let mut advice = |desk: &AlarmDesk| {
             second += 1;
-            desk.observe_tool(&snapshot, 1_000_000_000 * second);
+            book.observe_tool(&snapshot, 1_000_000_000 * second);
+            desk.advise(&mut book, &snapshot);
             // The texts are written after what was found was taken.
-            desk.observe_tool(&snapshot, 1_000_000_000 * second + 1);
-            let list = desk.list(Header::default());
+            book.observe_tool(&snapshot, 1_000_000_000 * second + 1);
+            let list = book.list(Header::default());
             let alarm = list.alarms.into_iter().find(|alarm| alarm.id == "backward_whirl");
             alarm.unwrap().what_to_do
         };
-        assert!(advice(&mut desk).contains("a rule of thumb: the twin has not tried it out."));
+        assert!(advice(&desk).contains("a rule of thumb: the twin has not tried it out."));
         advisor.settle();
         let (asked, _) = advisor.due().unwrap();
-        assert!(advice(&mut desk).contains("the twin is trying settings out now, which takes a few minutes."));
+        assert!(advice(&desk).contains("the twin is trying settings out now, which takes a few minutes."));
         let tested = Tested {
             alarm: asked.leading.alarm,
             ends: asked.leading.standing,
@@ -462,16 +407,13 @@ mod tests {
             of: 10,
         };
         advisor.answer(asked, Some(tested), Duration::from_secs(70));
-        assert!(advice(&mut desk).contains("84 r/min"));
+        assert!(advice(&desk).contains("84 r/min"));
         // The same configuration, and a parameter that has nothing to do with the motion.
-        desk.reconfigure(&config, &[]);
-        desk.reconfigure(&Arc::new(config.with_value("outputs.rates.whirl", 5.0).unwrap()), &[]);
-        assert!(advice(&mut desk).contains("84 r/min"));
-        desk.reconfigure(
-            &Arc::new(config.with_value("contact.inner.friction_tangential", 1.0).unwrap()),
-            &[],
-        );
-        let words = advice(&mut desk);
+        desk.reconfigure(&config);
+        desk.reconfigure(&config.with_value("outputs.rates.whirl", 5.0).unwrap());
+        assert!(advice(&desk).contains("84 r/min"));
+        desk.reconfigure(&config.with_value("contact.inner.friction_tangential", 1.0).unwrap());
+        let words = advice(&desk);
         assert!(
             words.contains("a rule of thumb") && !words.contains("84 r/min"),
             "{words}"

@@ -1,5 +1,4 @@
-//! The comparison of rig and twin in the node, and the parameters that follow it (`calibration.follow`). They change by the
-//! path of every parameter, [`Parameters`], so that the change is checked, logged, published on `/parameter_events` and
+//! The parameters that follow the comparison of rig and twin (`calibration.follow`) in the node. They change by the path of every parameter, [`Parameters`], so that the change is checked, logged, published on `/parameter_events` and
 //! recorded with the applied inputs.
 
 use std::sync::{Arc, Weak};
@@ -7,11 +6,7 @@ use std::sync::{Arc, Weak};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
 
 use super::control::{Control, Restore};
-use super::publish::PublisherParts;
-use crate::compare::{FOLLOW, FOLLOWED, RigComparison, followed};
-use flexdrill_core::twin::Frame;
-use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{Residuals, builtin_interfaces, topics};
+use crate::compare::{FOLLOW, FOLLOWED, followed};
 use flexdrill_ros2::parameters::{Parameter, ParameterValue, Parameters};
 use flexdrill_ros2::service::Task;
 
@@ -65,35 +60,6 @@ fn restore(parameters: &Arc<Parameters>, configured: [f64; 2]) -> Box<Restore> {
         }
         parameters.set_from(&[], &configured, RESET).map(drop)
     })
-}
-
-/// Compares a frame with what the rig has measured, once per second of model time: publishes the residuals, judges their
-/// alarm and passes on what follows. Returns the residuals.
-pub(super) fn compare_with_rig(
-    parts: &mut PublisherParts,
-    rig: &mut RigComparison,
-    frame: &Frame,
-    stamp: i64,
-) -> Option<Residuals> {
-    if !rig.is_due(frame.ticks) {
-        return None;
-    }
-    let samples = parts.inputs.with_measured(|measured| rig.samples(measured, stamp));
-    let header = Header {
-        stamp: builtin_interfaces::Time::from_nanoseconds(stamp),
-        frame_id: parts.config.outputs.frame_id.clone(),
-    };
-    let comparison = rig.compare(frame, &samples, header)?;
-    parts.send_message(&topics::RESIDUALS, &comparison.message, stamp);
-    parts.alarms.observe_rig(&comparison, samples.bit_depth, stamp);
-    if let Some(stopped) = comparison.stopped {
-        tracing::warn!("calibration.follow: {stopped}; it follows no further");
-    }
-    if let Some(moved) = comparison.moved {
-        // Sending fails only where the node ends.
-        let _ = parts.moves.send(moved);
-    }
-    Some(comparison.message)
 }
 
 #[cfg(test)]

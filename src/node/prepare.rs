@@ -25,6 +25,7 @@ use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameter
 use crate::bag::{RecordingThread, Topic};
 use crate::live::{Hub, LiveServer, Steering};
 use crate::rig_inputs::Driver;
+use crate::session::Session;
 use crate::window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
@@ -250,28 +251,28 @@ impl PreparedNode {
 
         // The alarms begin with the state of the last run: an acknowledgement survives a restart of the node.
         let finish = Arc::new(AtomicBool::new(false));
-        let mut alarms = AlarmDesk::new(
-            Arc::clone(&self.config),
+        let (book, mut alarms) = AlarmDesk::open(
+            &self.config,
             setup.alarm_state.as_deref(),
             self.alarm_requests,
             self.clocks.rig_time(),
         );
-        if let Some(window) = &self.window {
-            alarms.judge_by(Arc::clone(window));
+        let mut session = Session::new(Arc::clone(&self.config), book);
+        if let Some(window) = self.window {
+            session.judge_by(window);
         }
         if self.config.look_ahead.advice {
             alarms.advised_by(Arc::clone(&self.answering.advisor));
         }
         // The forecast desk exists only where forecasts are made, so that nothing is published that never changes.
         let forecasts = self.answering.forecasts.as_ref().map(Arc::clone);
-        let publisher = Publisher::new(PublisherParts {
+        let parts = PublisherParts {
             end: self.publisher_end,
             publishers: self.publishers,
             recording,
             live,
             received,
             parameter_updates: self.parameter_updates,
-            config: Arc::clone(&self.config),
             gauges: Arc::clone(&self.gauges),
             alarms,
             inputs: self.inputs,
@@ -279,11 +280,10 @@ impl PreparedNode {
             dds: port.monitor(),
             node_name: setup.identity.full_name(),
             finish: Arc::clone(&finish),
-            window: self.window,
             forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
             moves: self.moves,
-        })
-        .map_err(|error| NodeError::Stopped(error.to_string()))?;
+        };
+        let publisher = Publisher::new(parts, session).map_err(|error| NodeError::Stopped(error.to_string()))?;
         // The publisher runs before the solver builds its tool, which takes seconds: status and alarms of the node
         // exist from the beginning.
         let publisher_thread = spawn("publisher", move || publisher.run())?;

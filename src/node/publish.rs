@@ -9,29 +9,27 @@ use std::time::{Duration, Instant};
 use super::alarms::{self, AlarmDesk};
 use super::clocks::Clocks;
 use super::control::ParameterUpdate;
-use super::following::{self, Moves};
+use super::following::Moves;
 use super::forecast::ForecastDesk;
+use super::host::NodeHost;
 use super::inputs::RigInputs;
 use super::publishers::Publishers;
 use super::received::{Received, ReceivedQueue};
-use super::thinned::{Share, Thinned};
+use super::thinned::Thinned;
 use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
-use crate::compare::RigComparison;
 use crate::health::diagnostics::{self, RigEvidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
 use crate::live::LiveServer;
-use crate::window::SafeWindow;
-use flexdrill_config::Config;
+use crate::session::Session;
 use flexdrill_core::dynamics::StepFailure;
-use flexdrill_core::twin::{Output, RunInputs};
-use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_core::twin::RunInputs;
 use flexdrill_messages::diagnostic_msgs::DiagnosticArray;
 use flexdrill_messages::std_msgs::{Float64, Header};
 use flexdrill_messages::topics;
-use flexdrill_messages::{CdrError, Residuals, TwinStatus, to_cdr};
-use flexdrill_outputs::{Encoded, Outputs, ParameterChange};
+use flexdrill_messages::{CdrError, TwinStatus, to_cdr};
+use flexdrill_outputs::{Encoded, ParameterChange};
 use flexdrill_realtime::link::{Gauges, LoopEvent, PublisherEnd};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::Monitor;
@@ -62,11 +60,9 @@ pub struct PublisherParts {
     pub received: ReceivedQueue,
     /// Parameters that changed.
     pub parameter_updates: Receiver<ParameterUpdate>,
-    /// The configuration at the start.
-    pub config: Arc<Config>,
     /// Gauges of the solver.
     pub gauges: Arc<Gauges>,
-    /// Alarms.
+    /// Requests, advice and memory of the alarms.
     pub alarms: AlarmDesk,
     /// The rig's inputs.
     pub inputs: RigInputs,
@@ -78,8 +74,6 @@ pub struct PublisherParts {
     pub node_name: String,
     /// Set when the thread is to publish what is queued, and end.
     pub finish: Arc<AtomicBool>,
-    /// The map of speed and weight, where one is loaded.
-    pub window: Option<Arc<SafeWindow>>,
     /// Forecasts and what came; none where they are off.
     pub forecasts: Option<ForecastDesk>,
     /// Takes the moves of what follows the rig.
@@ -89,7 +83,7 @@ pub struct PublisherParts {
 /// Publishes the run.
 pub struct Publisher {
     parts: PublisherParts,
-    outputs: Option<Outputs>,
+    session: Session,
     thinned: Thinned,
     status: StatusKeeper,
     motion: MotionEvidence,
@@ -107,25 +101,20 @@ pub struct Publisher {
     failure_lines: Throttles<&'static str>,
     /// The last failure was logged.
     failure_logged: bool,
-    rig: RigComparison,
-    /// The newest comparison of rig and twin.
-    residuals: Option<Residuals>,
 }
 
 impl Publisher {
-    /// A publisher of a run with this configuration.
+    /// A publisher of the session of a run that has not begun.
     ///
     /// # Errors
     /// When the histogram of the step times cannot be created.
-    pub fn new(parts: PublisherParts) -> Result<Self, hdrhistogram::CreationError> {
-        let status = StatusKeeper::new(Arc::clone(&parts.config))?;
+    pub fn new(parts: PublisherParts, session: Session) -> Result<Self, hdrhistogram::CreationError> {
+        let status = StatusKeeper::new(Arc::clone(session.config()))?;
         let now = monotonic::now();
         Ok(Self {
-            thinned: Thinned::new(&parts.config),
-            rig: RigComparison::new(&parts.config),
-            residuals: None,
+            thinned: Thinned::new(session.config()),
             parts,
-            outputs: None,
+            session,
             status,
             motion: MotionEvidence::default(),
             failure: None,
@@ -155,8 +144,7 @@ impl Publisher {
             }
         }
         self.send_status();
-        let header = self.header();
-        alarms::publish(&mut self.parts, header, monotonic::now());
+        self.send_alarms(monotonic::now());
         if let Some(dropped) = self
             .parts
             .live
@@ -173,21 +161,20 @@ impl Publisher {
 
     /// Publishes everything that is queued or due. Returns whether the solver had sent something.
     fn poll(&mut self) -> bool {
-        // Stamps need the instant of the first step, so the outputs begin once the solver has fixed it.
-        match (self.parts.gauges.start(), &mut self.outputs) {
-            (Some(start), None) => self.begin(start),
-            (Some(start), Some(outputs)) => outputs.set_start(start),
-            (None, _) => {}
+        // Stamps need the instant of the first step, so the session begins once the solver has fixed it.
+        match self.parts.gauges.start() {
+            Some(start) if self.session.has_begun() => self.session.set_start(start),
+            Some(start) => {
+                let begun = self.session.begin(start, &mut NodeHost::all(&self.parts));
+                log_unsent(begun);
+            }
+            None => {}
         }
         let mut worked = false;
         // Events before statistics: a frame changes what the status reports in this same call.
         while let Ok(event) = self.parts.end.events.pop() {
             worked = true;
-            if let Err(error) = self.publish_event(event)
-                && let Some(more) = log_ending("message not encoded")
-            {
-                tracing::error!("a message could not be encoded: {error}{more}");
-            }
+            log_unsent(self.publish_event(event));
         }
         // Emptied at every call, as the ring has room for some time only; the percentiles need every step.
         while let Ok(time) = self.parts.end.step_times.pop() {
@@ -206,7 +193,7 @@ impl Publisher {
         // The rest runs by the wall clock: it must continue when the model stops or fails.
         let now = monotonic::now();
         self.status.note(self.pace_time(), &self.parts.gauges);
-        let rates = self.parts.config.outputs.rates;
+        let rates = self.session.config().outputs.rates;
         if due(&mut self.next_status, now, rates.status) {
             self.send_status();
         }
@@ -217,34 +204,26 @@ impl Publisher {
             let pace = self.status.pace();
             // The node's alarms are judged at a fixed rate, not with the status:
             // a rate that a client sets must not delay an alarm.
-            alarms::judge_node(&mut self.parts, self.failure, pace);
+            alarms::judge_node(&self.parts, self.session.alarms_mut(), self.failure, pace);
         }
         self.send_forecast();
-        let parts = &mut self.parts;
         // Requests of operators are answered before the list is published,
         // so that an acknowledgement is in the next list.
-        parts.alarms.answer(|| parts.clocks.rig_time());
-        if self.parts.alarms.is_due(now) {
-            let header = self.header();
-            alarms::publish(&mut self.parts, header, now);
+        let PublisherParts { alarms, clocks, .. } = &mut self.parts;
+        alarms.answer(self.session.alarms_mut(), || clocks.rig_time());
+        if self.session.alarms().is_due(now as i64) {
+            self.send_alarms(now);
         }
         worked
     }
 
-    /// Publishes the session. It needs the start of the model on the rig's clock.
-    fn begin(&mut self, start: i64) {
-        let config = Arc::clone(&self.parts.config);
-        let mut outputs = Outputs::new(&config, start);
-        let configuration = config.to_yaml().unwrap_or_default();
-        let parts = &self.parts;
-        let sent = outputs.session(&config.hash(), &configuration, |encoded| parts.send(encoded));
-        if let Err(error) = sent {
-            tracing::error!("{error}");
-        }
-        self.outputs = Some(outputs);
-        if let Some(window) = &self.parts.window {
-            let message = window.message(self.header());
-            self.parts.send_message(&topics::SAFE_WINDOW, &message, self.instant());
+    /// Publishes events and list of the alarms that are due at an instant of the steady clock (ns).
+    fn send_alarms(&mut self, clock: u64) {
+        let header = self.header();
+        let mut host = NodeHost::all(&self.parts);
+        match self.session.publish_alarms(header, clock as i64, &mut host) {
+            Ok(events) => self.parts.alarms.published(self.session.alarms(), &events),
+            Err(error) => log_unsent(Err(error)),
         }
     }
 
@@ -254,39 +233,18 @@ impl Publisher {
                 // The status sees every frame, also those that are not due on any topic.
                 self.status.observe(&frame.snapshot);
                 self.motion = MotionEvidence::of(&frame.snapshot);
-                let (parts, thinned) = (&self.parts, &mut self.thinned);
                 let began = monotonic::now();
-                let sent = self.outputs.as_mut().map_or(Ok(()), |outputs| {
-                    // Each message is encoded once. DDS may get fewer of them, and
-                    // combined ones; recording and viewers always get all.
-                    outputs.frame(&frame, |encoded| {
-                        match thinned.share(&frame, encoded.topic, encoded.cdr)? {
-                            Share::Same => parts.publishers.publish(encoded.topic, encoded.cdr),
-                            Share::Combined(cdr) => parts.publishers.publish(encoded.topic, &cdr),
-                            Share::Nothing => {}
-                        }
-                        parts.sinks().write(encoded);
-                        Ok::<(), CdrError>(())
-                    })?;
-                    thinned.end_frame(&frame);
-                    // The applied inputs are repeated, so that a recording that begins later has those in force.
-                    outputs.repeat_applied(&frame, |encoded| parts.send(encoded))
-                });
+                let mut host = NodeHost::of_frame(&self.parts, &mut self.thinned, &frame);
+                let sent = self.session.frame(&frame, &mut host);
+                self.thinned.end_frame(&frame);
+                let repeated = self.session.repeat_applied(&frame, &mut NodeHost::all(&self.parts));
                 self.status.add_publishing(monotonic::now().saturating_sub(began));
                 if let Some(desk) = &mut self.parts.forecasts {
                     desk.observe(&frame);
                 }
-                // Alarms are judged at their rate in model time, so that a replay judges at the same steps.
-                if let Some(outputs) = self.outputs.as_ref().filter(|_| frame.due.has(Output::Alarms)) {
-                    let stamp = outputs.instant(frame.ticks);
-                    self.parts.alarms.observe_tool(&frame.snapshot, stamp);
-                    let compared = following::compare_with_rig(&mut self.parts, &mut self.rig, &frame, stamp);
-                    // Between two comparisons the last one remains what the rig's alarm is judged by.
-                    self.residuals = compared.or(self.residuals.take());
-                }
                 // The ring has room for all frames in circulation, so that this cannot fail.
                 let _ = self.parts.end.empty.push(frame);
-                sent
+                sent.and(repeated)
             }
             LoopEvent::Applied {
                 inputs,
@@ -338,24 +296,21 @@ impl Publisher {
             .into_iter()
             .partition(|update| update.command <= commands);
         self.pending = pending;
-        let mut values: Vec<ParameterChange> = Vec::new();
+        let mut changes: Vec<ParameterChange> = Vec::new();
+        let mut config = Arc::clone(self.session.config());
         for update in acting {
-            values.extend(update.values);
-            self.parts.config = update.config;
-            self.status.reconfigure(&self.parts.config);
+            changes.extend(update.values);
+            config = update.config;
         }
-        self.rig.reconfigure(&self.parts.config);
-        if inputs.reset {
-            self.rig.restart();
+        // Inputs that change come with the same configuration, again and again.
+        if !Arc::ptr_eq(&config, self.session.config()) {
+            self.session.reconfigure(&config, &changes);
+            self.status.reconfigure(&config);
+            self.parts.alarms.reconfigure(&config);
         }
-        self.parts.alarms.reconfigure(&self.parts.config, &values);
-        self.thinned.reconfigure(inputs.schedule, &self.parts.config);
-        let parts = &self.parts;
-        let Some(outputs) = self.outputs.as_mut() else {
-            return Ok(());
-        };
-        outputs.reconfigure(&parts.config);
-        outputs.applied(inputs, &values, ticks, |encoded| parts.send(encoded))
+        self.thinned.reconfigure(inputs.schedule, &config);
+        let mut host = NodeHost::all(&self.parts);
+        self.session.applied(inputs, &changes, ticks, &mut host)
     }
 
     fn record_received(&self, received: Received) {
@@ -444,22 +399,23 @@ impl Publisher {
 
     /// Publishes the forecast that has arrived, or gives up the one that stands.
     fn send_forecast(&mut self) {
-        let (Some(desk), Some(outputs)) = (&mut self.parts.forecasts, &self.outputs) else {
+        let session = &self.session;
+        let Some(desk) = self.parts.forecasts.as_mut().filter(|_| session.has_begun()) else {
             return;
         };
-        let frame_id = &self.parts.config.outputs.frame_id;
-        if let Some(forecast) = desk.take(frame_id, |ticks| outputs.instant(ticks)) {
+        let frame_id = &session.config().outputs.frame_id;
+        if let Some(forecast) = desk.take(frame_id, |ticks| session.instant(ticks).unwrap_or_default()) {
             self.parts.send_message(&topics::FORECAST, &forecast, self.instant());
         }
     }
 
     fn send_diagnostics(&mut self) {
-        let alarms = self.parts.alarms.list(self.header());
+        let alarms = self.session.alarms().list(self.header());
         let intake = self.parts.inputs.snapshot();
         let rig = RigEvidence {
             measured: intake.measured(),
             now: self.parts.clocks.age_time(),
-            residuals: self.residuals.as_ref(),
+            residuals: self.session.residuals(),
         };
         let node = &self.parts.node_name;
         let mut status = diagnostics::items(node, &self.newest_status, &rig, &self.motion, &alarms);
@@ -477,7 +433,7 @@ impl Publisher {
     fn pace_time(&self) -> u64 {
         if self.parts.clocks.are_simulated() {
             let ticks = self.parts.gauges.ticks.load(Ordering::Relaxed);
-            (ticks as f64 * self.parts.config.solver.time_step * 1e9) as u64
+            (ticks as f64 * self.session.config().solver.time_step * 1e9) as u64
         } else {
             monotonic::now()
         }
@@ -485,17 +441,22 @@ impl Publisher {
 
     /// The present instant of the run (ns since 1970).
     fn instant(&self) -> i64 {
-        match &self.outputs {
-            Some(outputs) => outputs.instant(self.parts.gauges.ticks.load(Ordering::Relaxed)),
-            None => self.parts.clocks.rig_time(),
-        }
+        let ticks = self.parts.gauges.ticks.load(Ordering::Relaxed);
+        let of_run = self.session.instant(ticks);
+        of_run.unwrap_or_else(|| self.parts.clocks.rig_time())
     }
 
     fn header(&self) -> Header {
-        Header {
-            stamp: Time::from_nanoseconds(self.instant()),
-            frame_id: self.parts.config.outputs.frame_id.clone(),
-        }
+        self.session.header(self.instant())
+    }
+}
+
+/// Logs a message that could not be encoded.
+fn log_unsent(sent: Result<(), CdrError>) {
+    if let Err(error) = sent
+        && let Some(more) = log_ending("message not encoded")
+    {
+        tracing::error!("a message could not be encoded: {error}{more}");
     }
 }
 

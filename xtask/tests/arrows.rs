@@ -251,3 +251,35 @@ fn an_effect_is_one_file() {
         );
     }
 }
+
+/// What makes messages, alarms and comparisons of a run, and the hosts of runs. Only the session calls it, so that an output
+/// that is added there is in all of them.
+const OF_THE_SESSION: [&str; 7] = [
+    "Outputs::",
+    "RigComparison::new",
+    ".observe_tool(",
+    ".observe_rig(",
+    ".observe_adjusted(",
+    "fill::",
+    "&topics::RESIDUALS",
+];
+const HOSTS: [&str; 3] = ["src/node", "src/cli/replay", "src/ahead"];
+
+#[test]
+fn hosts_publish_nothing_of_their_own() {
+    for host in HOSTS {
+        let files = sources(&root().join(host));
+        let users = files.iter().filter(|file| code(file).contains("session::"));
+        assert!(users.count() > 0, "{host} has no session");
+        for file in files {
+            let code = code(&file);
+            for call in OF_THE_SESSION {
+                assert!(
+                    !code.contains(call),
+                    "{}: {call} is for src/session alone",
+                    file.display()
+                );
+            }
+        }
+    }
+}

@@ -7,6 +7,7 @@ mod log;
 mod player;
 mod recording;
 mod show;
+mod sink;
 mod steady;
 mod summary;
 

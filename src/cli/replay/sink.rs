@@ -1,0 +1,151 @@
+//! The bag of a replay, as the host of its session.
+
+use std::collections::VecDeque;
+
+use super::summary::Tally;
+use crate::bag::{BagError, Recorder};
+use crate::cli::output::tell;
+use crate::cli::source::{FromRig, MeasuredSample};
+use crate::compare::{Comparison, RigComparison, Samples};
+use crate::messages::topics::{self, TopicInfo};
+use crate::messages::{CdrError, RigInputs, to_cdr};
+use crate::rig_inputs::Measured;
+use crate::session::Host;
+use flexdrill_outputs::Encoded;
+
+/// Why a replay has not recorded a message.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum WriteError {
+    #[error(transparent)]
+    Cdr(#[from] CdrError),
+    #[error(transparent)]
+    Bag(#[from] BagError),
+}
+
+/// Refused messages of measured values that are reported one by one.
+const REFUSALS_SHOWN: u64 = 10;
+
+/// What the rig measured, for the comparison with the twin.
+enum Rig {
+    /// The newest values, as a node keeps them.
+    Received(Box<Measured>),
+    /// What a recorded run was compared with, by stamp (ns since 1970), the oldest first.
+    Recorded(VecDeque<(i64, Samples)>),
+}
+
+/// A bag that records a session, what the rig gave, and what of it follows the rig.
+pub(super) struct BagSink {
+    recorder: Recorder,
+    topics: Vec<&'static TopicInfo>,
+    rig: Rig,
+    /// What the rig measured, not yet in the bag, the newest first.
+    measured: Vec<MeasuredSample>,
+    /// The inputs as the rig or the log gave them, not yet in the bag, the newest first.
+    received: Vec<(i64, RigInputs)>,
+    /// Values of what follows the rig, in force and to be, since they were taken last.
+    pub(super) moved: Option<[[f64; 2]; 2]>,
+    /// The summary that is printed at the end.
+    pub(super) tally: Tally,
+}
+
+impl BagSink {
+    /// A bag with these topics, in this order, for a run with what came `from_rig` since its start, in the order of time.
+    pub(super) fn new(recorder: Recorder, topics: Vec<&'static TopicInfo>, from_rig: FromRig, tally: Tally) -> Self {
+        let FromRig {
+            inputs: mut received,
+            mut measured,
+        } = from_rig;
+        // Both lists are reversed, so that the next message is taken from the end without moving the others.
+        measured.reverse();
+        received.reverse();
+        Self {
+            recorder,
+            topics,
+            rig: Rig::Received(Box::default()),
+            measured,
+            received,
+            moved: None,
+            tally,
+        }
+    }
+
+    /// Compares the run at these stamps (ns since 1970), the oldest first, with what a recorded run was compared with,
+    /// instead of with the measured values.
+    pub(super) fn compare_with(&mut self, samples: impl IntoIterator<Item = (i64, Samples)>) {
+        self.rig = Rig::Recorded(samples.into_iter().collect());
+    }
+
+    /// Records what the rig sent up to an instant (ns since 1970), and keeps what it measured for the comparison. `start` is
+    /// the instant of the run's first step, and `max_skew` the longest age of a stamp (s).
+    ///
+    /// # Errors
+    /// When the bag cannot be written.
+    pub(super) fn record_from_rig(&mut self, until: i64, start: i64, max_skew: f64) -> Result<(), WriteError> {
+        while let Some((stamp, message)) = self.received.pop_if(|(time, _)| *time <= until) {
+            self.send(Encoded {
+                topic: &topics::RIG_INPUTS,
+                stamp,
+                cdr: &to_cdr(&message)?,
+            })?;
+        }
+        while let Some(sample) = self.measured.pop_if(|sample| sample.time <= until) {
+            if let Rig::Received(measured) = &mut self.rig {
+                let since_start = sample.time.saturating_sub(start) as f64 * 1e-9;
+                let accepted = measured.accept(&sample.message, sample.time, since_start, max_skew);
+                let [_, refused, ..] = measured.counts();
+                match accepted {
+                    Err(why) if refused <= REFUSALS_SHOWN => tell!("at {since_start:.2} s: {why}"),
+                    _ => {}
+                }
+            }
+            self.send(Encoded {
+                topic: &topics::RIG_MEASURED,
+                stamp: sample.time,
+                cdr: &to_cdr(&sample.message)?,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Ends the recording. Returns the recorder and the summary.
+    pub(super) fn end(self) -> (Recorder, Tally) {
+        if let Rig::Received(measured) = &self.rig {
+            let [_, refused, ..] = measured.counts();
+            if refused > REFUSALS_SHOWN {
+                tell!("{refused} messages of measured values were refused in total");
+            }
+        }
+        (self.recorder, self.tally)
+    }
+}
+
+impl Host for BagSink {
+    type Error = WriteError;
+
+    fn send(&mut self, Encoded { topic, stamp, cdr }: Encoded<'_>) -> Result<(), WriteError> {
+        match self.topics.iter().position(|known| known.name == topic.name) {
+            Some(index) => Ok(self.recorder.record(index, stamp, cdr)?),
+            None => Ok(()),
+        }
+    }
+
+    fn measured(&mut self, rig: &mut RigComparison, ticks: u64, stamp: i64) -> Option<Samples> {
+        match &mut self.rig {
+            Rig::Received(measured) => rig.is_due(ticks).then(|| rig.samples(measured, stamp)),
+            Rig::Recorded(samples) => {
+                while samples.front().is_some_and(|(at, _)| *at < stamp) {
+                    samples.pop_front();
+                }
+                samples.pop_front_if(|(at, _)| *at == stamp).map(|(_, samples)| samples)
+            }
+        }
+    }
+
+    fn compared(&mut self, comparison: &Comparison) {
+        self.tally.rig.observe(&comparison.message);
+        if let Some(stopped) = &comparison.stopped {
+            tell!("calibration.follow: {stopped}; it follows no further");
+        }
+        self.moved = comparison.moved;
+    }
+}

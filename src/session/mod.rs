@@ -1,0 +1,241 @@
+//! What the frames and the inputs of a run become: messages, alarms, and the comparison with the rig.
+//!
+//! A run is driven by a solver's thread, by a replay or by a look-ahead, and a [`Session`] is the same for each. A host gives
+//! what differs, as [`Host`]: where messages are sent, and what the rig has measured. The node is a host with a clock, DDS,
+//! recording and viewers; a replay one with a bag; a member of a look-ahead judges alone, and begins no outputs. An output
+//! that is added here is added for all of them, so that a replay repeats the node.
+
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use crate::alarms::AlarmBook;
+use crate::compare::{Comparison, RigComparison, Samples};
+use crate::window::SafeWindow;
+use flexdrill_config::Config;
+use flexdrill_core::twin::{Frame, Output, RunInputs, Snapshot};
+use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::{AlarmEvent, CdrError, Residuals, to_cdr, topics};
+use flexdrill_outputs::{Encoded, Outputs, ParameterChange};
+
+/// What a session takes from the program that hosts it.
+pub trait Host {
+    /// Why a message is not taken.
+    type Error: From<CdrError>;
+
+    /// Takes a message.
+    ///
+    /// # Errors
+    /// When it cannot be written or combined with others.
+    fn send(&mut self, encoded: Encoded<'_>) -> Result<(), Self::Error>;
+
+    /// What the rig has measured since the last comparison, if the frame at these ticks is compared with it. `stamp` is the
+    /// frame's instant (ns since 1970).
+    fn measured(&mut self, rig: &mut RigComparison, ticks: u64, stamp: i64) -> Option<Samples>;
+
+    /// Looks at the alarms once a snapshot has been judged.
+    fn judged(&mut self, _alarms: &mut AlarmBook, _snapshot: &Snapshot) {}
+
+    /// Looks at a comparison with the rig.
+    fn compared(&mut self, comparison: &Comparison);
+}
+
+/// What a run becomes.
+pub struct Session {
+    config: Arc<Config>,
+    alarms: AlarmBook,
+    rig: RigComparison,
+    /// The newest comparison of rig and twin.
+    residuals: Option<Residuals>,
+    window: Option<Arc<SafeWindow>>,
+    /// None before the instant of the first step is known, and in a run that publishes nothing.
+    outputs: Option<Outputs>,
+}
+
+impl Session {
+    /// The session of a run with this configuration, with the alarms that it begins with. It publishes no output before
+    /// [`Session::begin`].
+    pub fn new(config: Arc<Config>, alarms: AlarmBook) -> Self {
+        Self {
+            rig: RigComparison::new(&config),
+            config,
+            alarms,
+            residuals: None,
+            window: None,
+            outputs: None,
+        }
+    }
+
+    /// Judges speed and weight by a map, which [`Session::begin`] publishes.
+    pub fn judge_by(&mut self, window: Arc<SafeWindow>) {
+        self.alarms.set_window(Arc::clone(&window));
+        self.window = Some(window);
+    }
+
+    /// Begins the outputs of a run whose tick 0 is at `start` (ns since 1970, on the rig's clock): says what the run is.
+    ///
+    /// # Errors
+    /// When a message cannot be encoded, or what the host says.
+    pub fn begin<H: Host>(&mut self, start: i64, host: &mut H) -> Result<(), H::Error> {
+        let mut outputs = Outputs::new(&self.config, start);
+        let configuration = self.config.to_yaml().unwrap_or_default();
+        // The session is first in a recording, since all other messages refer to its configuration.
+        outputs.session(&self.config.hash(), &configuration, |encoded| host.send(encoded))?;
+        let header = outputs.header_at(0);
+        self.outputs = Some(outputs);
+        let Some(window) = &self.window else { return Ok(()) };
+        host.send(Encoded {
+            topic: &topics::SAFE_WINDOW,
+            stamp: start,
+            cdr: &to_cdr(&window.message(header))?,
+        })
+    }
+
+    /// Whether [`Session::begin`] was called.
+    pub fn has_begun(&self) -> bool {
+        self.outputs.is_some()
+    }
+
+    /// The clock of stamps was set: tick 0 is at `start` (ns since 1970) on it.
+    pub fn set_start(&mut self, start: i64) {
+        if let Some(outputs) = &mut self.outputs {
+            outputs.set_start(start);
+        }
+    }
+
+    /// The instant of a tick (ns since 1970); `None` before the run has begun.
+    pub fn instant(&self, ticks: u64) -> Option<i64> {
+        Some(self.outputs.as_ref()?.instant(ticks))
+    }
+
+    /// The header of a message at an instant (ns since 1970).
+    pub fn header(&self, stamp: i64) -> Header {
+        Header {
+            stamp: Time::from_nanoseconds(stamp),
+            frame_id: self.config.outputs.frame_id.clone(),
+        }
+    }
+
+    /// The configuration in force.
+    pub fn config(&self) -> &Arc<Config> {
+        &self.config
+    }
+
+    /// The alarms.
+    pub fn alarms(&self) -> &AlarmBook {
+        &self.alarms
+    }
+
+    /// The alarms, for what is not of the run: requests, and the state of a node.
+    pub fn alarms_mut(&mut self) -> &mut AlarmBook {
+        &mut self.alarms
+    }
+
+    /// The newest comparison of rig and twin. It is what the rig's alarm is judged by until the next one.
+    pub fn residuals(&self) -> Option<&Residuals> {
+        self.residuals.as_ref()
+    }
+
+    /// Adopts a configuration that these requests have changed while the run goes on.
+    pub fn reconfigure(&mut self, config: &Arc<Config>, changes: &[ParameterChange]) {
+        self.alarms.reconfigure(config, changes);
+        self.rig.reconfigure(config);
+        if let Some(outputs) = &mut self.outputs {
+            outputs.reconfigure(config);
+        }
+        self.config = Arc::clone(config);
+    }
+
+    /// Publishes the inputs that act from `ticks` on, with the parameters that changed.
+    ///
+    /// # Errors
+    /// As [`Session::begin`].
+    pub fn applied<H: Host>(
+        &mut self,
+        inputs: &RunInputs,
+        changes: &[ParameterChange],
+        ticks: u64,
+        host: &mut H,
+    ) -> Result<(), H::Error> {
+        if inputs.reset {
+            self.rig.restart();
+        }
+        match &mut self.outputs {
+            Some(outputs) => outputs.applied(inputs, changes, ticks, |encoded| host.send(encoded)),
+            None => Ok(()),
+        }
+    }
+
+    /// Publishes what is due with a frame, judges its alarms, and compares it with the rig.
+    ///
+    /// # Errors
+    /// As [`Session::begin`]. The alarms are judged all the same.
+    pub fn frame<H: Host>(&mut self, frame: &Frame, host: &mut H) -> Result<(), H::Error> {
+        let Some(outputs) = &mut self.outputs else {
+            return Ok(());
+        };
+        let sent = outputs.frame(frame, |encoded| host.send(encoded));
+        // Alarms are judged at their rate in model time, so that a replay judges at the same steps.
+        if frame.due.has(Output::Alarms) {
+            let stamp = outputs.instant(frame.ticks);
+            self.observe(&frame.snapshot, stamp);
+            host.judged(&mut self.alarms, &frame.snapshot);
+            self.compare(frame, stamp, host)?;
+        }
+        sent
+    }
+
+    /// Repeats the inputs that act, once a second, after [`Session::frame`]: a recording that begins later has those in
+    /// force. A replay of a recording has the repetitions among its inputs.
+    ///
+    /// # Errors
+    /// As [`Session::begin`].
+    pub fn repeat_applied<H: Host>(&mut self, frame: &Frame, host: &mut H) -> Result<(), H::Error> {
+        match &mut self.outputs {
+            Some(outputs) => outputs.repeat_applied(frame, |encoded| host.send(encoded)),
+            None => Ok(()),
+        }
+    }
+
+    /// Judges the alarms of a snapshot at its stamp (ns).
+    pub fn observe(&mut self, snapshot: &Snapshot, stamp: i64) {
+        self.alarms.observe_tool(snapshot, stamp);
+    }
+
+    /// Compares a frame with what the rig has measured: publishes the residuals and judges their alarm.
+    fn compare<H: Host>(&mut self, frame: &Frame, stamp: i64, host: &mut H) -> Result<(), H::Error> {
+        let Some(samples) = host.measured(&mut self.rig, frame.ticks, stamp) else {
+            return Ok(());
+        };
+        let header = self.header(stamp);
+        let Some(comparison) = self.rig.compare(frame, &samples, header) else {
+            return Ok(());
+        };
+        let (compared, followed) = (&comparison.compared, comparison.followed());
+        self.alarms.observe_rig(compared, &followed, samples.bit_depth, stamp);
+        self.alarms.observe_adjusted(&comparison.message, stamp);
+        host.compared(&comparison);
+        let residuals = self.residuals.insert(comparison.message);
+        host.send(Encoded {
+            topic: &topics::RESIDUALS,
+            stamp,
+            cdr: &to_cdr(residuals)?,
+        })
+    }
+
+    /// Publishes the alarms' new events, and their list when it is due at an instant of a steady clock (ns). Returns the
+    /// events.
+    ///
+    /// # Errors
+    /// As [`Session::begin`].
+    pub fn publish_alarms<H: Host>(
+        &mut self,
+        header: Header,
+        clock: i64,
+        host: &mut H,
+    ) -> Result<Vec<AlarmEvent>, H::Error> {
+        self.alarms.publish(header, clock, |encoded| host.send(encoded))
+    }
+}
