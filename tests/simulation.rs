@@ -387,9 +387,7 @@ impl World {
         book.observe_node(&state, time);
         let header = self.header();
         let mut sent = Sent::default();
-        self.session
-            .publish_alarms(header, self.now as i64, &mut sent)
-            .unwrap();
+        self.session.publish_alarms(header, self.now as i64, &mut sent).unwrap();
         self.check_alarms(&sent.0);
         self.check_all(&sent.0);
     }
@@ -428,8 +426,7 @@ impl Host for Sent {
     type Error = CdrError;
 
     fn send(&mut self, encoded: Encoded<'_>) -> Result<(), CdrError> {
-        self.0
-            .push((encoded.topic.name, encoded.stamp, encoded.cdr.to_vec()));
+        self.0.push((encoded.topic.name, encoded.stamp, encoded.cdr.to_vec()));
         Ok(())
     }
 

@@ -36,7 +36,15 @@ fn manifests() -> Vec<(String, String)> {
     let crates = std::fs::read_dir(root().join("crates")).unwrap();
     let mut folders: Vec<PathBuf> = crates.map(|entry| entry.unwrap().path()).collect();
     folders.extend(
-        ["", "xtask", "xtask/measurements", "xtask/pages", "xtask/studies", "benches"].map(|folder| root().join(folder)),
+        [
+            "",
+            "xtask",
+            "xtask/measurements",
+            "xtask/pages",
+            "xtask/studies",
+            "benches",
+        ]
+        .map(|folder| root().join(folder)),
     );
     folders
         .iter()

@@ -228,9 +228,7 @@ impl Player {
     /// Publishes the alarms at an instant of the run (ns since 1970), and takes them for the summary.
     fn publish_alarms(&mut self, stamp: i64) -> anyhow::Result<()> {
         let header = self.session.header(stamp);
-        let events = self
-            .session
-            .publish_alarms(header.clone(), stamp, &mut self.sink)?;
+        let events = self.session.publish_alarms(header.clone(), stamp, &mut self.sink)?;
         let alarms = &mut self.sink.tally.alarms;
         let changed = !events.is_empty();
         alarms.add((stamp - self.start) as f64 * 1e-9, events);
