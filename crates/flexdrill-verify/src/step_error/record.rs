@@ -1,5 +1,7 @@
 //! One run, sampled for comparison.
 
+use std::panic::resume_unwind;
+
 use super::{NUDGES, StepErrorFailure};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
@@ -164,12 +166,16 @@ impl Record {
         Ok(record)
     }
 
-    /// Three runs of `config`, nudged by [`NUDGES`].
+    /// Three runs of `config`, nudged by [`NUDGES`], each on a thread.
     ///
     /// # Errors
     /// As [`Record::run`].
     pub fn runs(config: &Config, motion: &Motion) -> Result<[Self; 3], StepErrorFailure> {
-        let [a, b, c] = NUDGES.map(|nudge| Self::run(config, motion, nudge));
+        let [a, b, c] = std::thread::scope(|scope| {
+            NUDGES
+                .map(|nudge| scope.spawn(move || Self::run(config, motion, nudge)))
+                .map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
+        });
         Ok([a?, b?, c?])
     }
 
