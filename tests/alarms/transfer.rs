@@ -115,12 +115,6 @@ const HELD_BACK: [(&str, &str); 2] = [
 ];
 
 #[test]
-fn normal_drilling_with_the_rigs_tool_calls_nothing() {
-    let outcome = drill(changed("rig.yaml", &[]), 40.0, 10.0, 110.0);
-    assert!(outcome.came.is_empty(), "{:?}", outcome.came);
-}
-
-#[test]
 fn weight_that_does_not_arrive_is_called() {
     let outcome = drill(changed("rig.yaml", &HELD_BACK), 40.0, 45.0, 40.0);
     let (_, _, _, evidence) = outcome.of(AlarmId::WeightTransfer).unwrap();
