@@ -124,7 +124,7 @@ fn a_danger_is_seen_before_it_is_there_and_the_way_out_of_it_too() {
     let whirling = start(&config, &run(&config, 120.0, 12.0));
     let ahead = ask(
         &whirling,
-        &goal(vec![candidate(120.0, 10.0), candidate(70.0, 10.0)], 6),
+        &goal(vec![candidate(120.0, 10.0), candidate(70.0, 10.0)], 3),
         2,
     );
     assert!(probability(&ahead, 0, AlarmId::BackwardWhirl) > 0.8);
@@ -135,15 +135,14 @@ fn a_danger_is_seen_before_it_is_there_and_the_way_out_of_it_too() {
 fn any_number_of_threads_gives_the_same_answer_and_members_part() {
     let config = config(0.2);
     let begin = start(&config, &run(&config, 60.0, 2.0));
+    // A turn parts the members, and three of them on three threads end in another order than in turn.
     let asked = Goal {
-        horizon: 10.0,
-        ..goal(vec![candidate(60.0, 10.0), candidate(90.0, 12.0)], 4)
+        horizon: 5.0,
+        ..goal(vec![candidate(60.0, 10.0), candidate(90.0, 12.0)], 3)
     };
     let text = |answer: &Answer| format!("{answer:?}");
     let once = ask(&begin, &asked, 1);
-    for threads in [2, 5] {
-        assert_eq!(text(&ask(&begin, &asked, threads)), text(&once), "{threads} threads");
-    }
+    assert_eq!(text(&ask(&begin, &asked, 3)), text(&once));
     assert_ne!(text(&ask(&begin, &Goal { seed: 8, ..asked }, 2)), text(&once));
     for of in &once.candidates {
         let [low, _, high] = of.figures[Figure::PipeGuideForce as usize].quantiles;
