@@ -12,10 +12,10 @@
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
-//! - [`compare`]: what the rig measures against what the twin computes, once per second.
+//! - [`residuals`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
-//! - [`window`]: the map of speed and weight, and where a point is on it.
+//! - [`safe_window`]: the map of speed and weight, and where a point is on it.
 //! - [`bridge`]: a rig's own protocols joined to the twin's topics.
 //! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
 //!
@@ -28,16 +28,16 @@ pub mod alarms;
 #[cfg(feature = "bridge")]
 pub mod bridge;
 pub mod cli;
-pub mod compare;
 pub mod health;
 #[cfg(feature = "sweep")]
 pub mod map;
 pub mod node;
 #[cfg(feature = "sweep")]
 pub mod reach;
+pub mod residuals;
 pub mod rig_inputs;
+pub mod safe_window;
 pub mod session;
-pub mod window;
 
 pub use flexdrill_bag as bag;
 pub use flexdrill_dashboard as dashboard;

@@ -22,12 +22,12 @@ use std::sync::{Arc, Mutex};
 
 use bag_support::witness::Witness;
 use flexdrill::alarms::{AlarmBook, NodeState};
-use flexdrill::compare::{Comparison, RigComparison, Samples};
 use flexdrill::dds::port::{Health, Restart};
 use flexdrill::health::status::{OutputCount, Sources, StatusKeeper};
 use flexdrill::messages::builtin_interfaces::Time as Stamp;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmList, CdrError, TwinStatus, from_cdr, topics};
+use flexdrill::residuals::{Comparison, RigComparison, Samples};
 use flexdrill::rig_inputs::{DriverId, Intake, RigSample};
 use flexdrill::session::{Host, Session};
 use flexdrill_config::Config;

@@ -7,7 +7,7 @@ use flexdrill_config::{ChangedNumber, Config};
 use flexdrill_text::six_digits;
 
 use super::finding::Finding;
-use crate::compare::FOLLOW;
+use crate::residuals::FOLLOW;
 use flexdrill_outputs::ParameterChange;
 
 /// Entries within [`SPAN`] (ns) after which changes wait for its end and share one, so that a client that changes a value

@@ -30,7 +30,7 @@ mod tool;
 mod window;
 mod worst_moment;
 
-pub use advice::{Change, Leading, Quantity, Tested, Trial, Unknown};
+pub use advice::{Change, Knob, Leading, Tested, Trial, Unknown};
 pub use catalogue::AlarmId;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
@@ -54,7 +54,7 @@ use flexdrill_core::twin::Snapshot;
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::{Encoded, ParameterChange};
 
-use crate::window::SafeWindow;
+use crate::safe_window::SafeWindow;
 use adjusted::Adjusted;
 use advice::{Ahead, Demand, Operating};
 use changed::Changed;

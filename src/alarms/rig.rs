@@ -4,7 +4,7 @@ use super::finding::Finding;
 use super::sentence::number;
 use flexdrill_alarms::{Priority, Time};
 use flexdrill_calibration::monitor::{Compared, LEVELS};
-use flexdrill_calibration::residual::{Cause, Quantity};
+use flexdrill_calibration::residual::{Cause, RigQuantity};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// Time without steady motion for which a standing alarm remains (ns): a connection lasts some minutes.
@@ -13,13 +13,13 @@ pub(super) const OUTLASTS: Time = 600_000_000_000;
 const NAMED: usize = 3;
 
 /// A quantity as the driller reads it: name, unit, factor from SI, digits.
-fn display(quantity: Quantity) -> (&'static str, &'static str, f64, usize) {
+fn display(quantity: RigQuantity) -> (&'static str, &'static str, f64, usize) {
     match quantity {
-        Quantity::SurfaceTorque => ("Surface torque", "N m", 1.0, 0),
-        Quantity::HookLoad => ("Hook load", "kN", n_to_kn(1.0), 1),
-        Quantity::DownholeSpeed => ("Rotary speed in the hole", "r/min", rad_per_s_to_rpm(1.0), 1),
-        Quantity::DownholeTorque => ("Torque in the hole", "N m", 1.0, 0),
-        Quantity::DownholeWeight => ("Weight on bit in the hole", "kN", n_to_kn(1.0), 1),
+        RigQuantity::SurfaceTorque => ("Surface torque", "N m", 1.0, 0),
+        RigQuantity::HookLoad => ("Hook load", "kN", n_to_kn(1.0), 1),
+        RigQuantity::DownholeSpeed => ("Rotary speed in the hole", "r/min", rad_per_s_to_rpm(1.0), 1),
+        RigQuantity::DownholeTorque => ("Torque in the hole", "N m", 1.0, 0),
+        RigQuantity::DownholeWeight => ("Weight on bit in the hole", "kN", n_to_kn(1.0), 1),
     }
 }
 
@@ -178,8 +178,8 @@ mod tests {
     use super::*;
     use flexdrill_calibration::residual::{Residual, causes};
 
-    fn compared(quantity: Quantity, measured: f64, drilling: bool) -> Compared {
-        let mut residuals = [None; Quantity::COUNT];
+    fn compared(quantity: RigQuantity, measured: f64, drilling: bool) -> Compared {
+        let mut residuals = [None; RigQuantity::COUNT];
         residuals[quantity as usize] = Some(Residual {
             measured,
             predicted: 300.0,
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn a_disagreement_has_evidence_cause_and_action() {
         let torque =
-            |measured, drilling| finding(&compared(Quantity::SurfaceTorque, measured, drilling), 1234.4).unwrap();
+            |measured, drilling| finding(&compared(RigQuantity::SurfaceTorque, measured, drilling), 1234.4).unwrap();
         assert_eq!(torque(329.0, true).priority, None);
         let low = torque(331.0, true);
         assert_eq!(low.priority, Some(Priority::Low));
@@ -216,7 +216,7 @@ mod tests {
         assert_eq!(medium.priority, Some(Priority::Medium));
         assert!((medium.threshold + 30.0).abs() < 1e-9, "{}", medium.threshold);
         assert!(medium.cause.contains("the bit is dull or balled"), "{}", medium.cause);
-        let weight = compared(Quantity::DownholeWeight, 100.0, true);
+        let weight = compared(RigQuantity::DownholeWeight, 100.0, true);
         let lost = finding(&weight, f64::NAN).unwrap();
         assert!(
             lost.evidence
@@ -252,9 +252,9 @@ mod tests {
 
     #[test]
     fn what_cannot_be_judged_is_no_finding() {
-        let mut none = compared(Quantity::HookLoad, 900.0, true);
+        let mut none = compared(RigQuantity::HookLoad, 900.0, true);
         assert!(finding(&none, f64::NAN).unwrap().priority.is_some());
-        none.residuals = [None; Quantity::COUNT];
+        none.residuals = [None; RigQuantity::COUNT];
         assert_eq!(finding(&none, f64::NAN), None);
     }
 }

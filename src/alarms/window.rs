@@ -4,7 +4,7 @@ use super::advice::Unknown;
 use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::{capitalized, number};
-use crate::window::{Location, SafeWindow};
+use crate::safe_window::{Location, SafeWindow};
 use flexdrill_alarms::Priority;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};

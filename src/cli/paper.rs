@@ -11,7 +11,7 @@ use super::progress::Progress;
 use crate::cli::output::{say, tell};
 use flexdrill_paper::hinge::Hinge;
 use flexdrill_paper::{
-    Case, Finding, PaperError, Record, Report, Verdict, figures, findings, findings_csv, record, write_figures,
+    Finding, PaperError, Record, Report, Setup, Verdict, figures, findings, findings_csv, record, write_figures,
     write_text,
 };
 
@@ -53,7 +53,7 @@ pub fn run(args: &PaperArgs) -> anyhow::Result<()> {
     draw(args)
 }
 
-fn case(args: &PaperArgs) -> anyhow::Result<Case> {
+fn case(args: &PaperArgs) -> anyhow::Result<Setup> {
     let mut config = BuiltIn::Paper.or_file(args.config.as_deref())?;
     if let Some(step) = args.time_step {
         config = config.with_value("solver.time_step", step)?;
@@ -69,14 +69,14 @@ fn case(args: &PaperArgs) -> anyhow::Result<Case> {
         let value = whole.or_else(|_| number()).unwrap_or_else(|_| value.into());
         values.push((key, value));
     }
-    let mut case = Case::new(config.with_values("parameter", values)?);
+    let mut case = Setup::new(config.with_values("parameter", values)?);
     case.rotary_speed_rpm = args.rpm.unwrap_or(case.rotary_speed_rpm);
     case.weight_on_bit_kn = args.wob.unwrap_or(case.weight_on_bit_kn);
     case.turns = args.turns;
     Ok(case)
 }
 
-fn recorded(case: &Case, what: &str) -> Result<Record, PaperError> {
+fn recorded(case: &Setup, what: &str) -> Result<Record, PaperError> {
     tell!(
         "{what}: {:.1} s of model time at a step of {} ms",
         case.times()[1],
@@ -98,7 +98,7 @@ fn draw(args: &PaperArgs) -> anyhow::Result<()> {
         None
     } else {
         let step = 0.5 * case.config.solver.time_step;
-        let half = Case {
+        let half = Setup {
             config: case.config.with_value("solver.time_step", step)?,
             ..case.clone()
         };

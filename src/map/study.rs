@@ -8,7 +8,7 @@ use crate::ahead::Chance;
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_sweep::choice::{Choice, Class, Wanted};
-use flexdrill_sweep::map::{Axis, Cell, FORMAT, Map, OfStart, ROTARY_SPEED, Start, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::map::{Axis, Cell, FORMAT, Map, OfStart, Origin, ROTARY_SPEED, Start, Verdict, WEIGHT_ON_BIT};
 use flexdrill_sweep::plan::{self, Grid, Plan, Running, Runs};
 use flexdrill_sweep::{Directory, Found, Outcome, SweepError};
 use serde_json::Value;
@@ -256,7 +256,11 @@ fn assemble(
 fn known(outcome: &Outcome, question: &Question) -> OfStart {
     let chance = chance(outcome, question);
     OfStart {
-        state: if chance.is_some() { State::Known } else { State::Unknown },
+        state: if chance.is_some() {
+            Origin::Known
+        } else {
+            Origin::Unknown
+        },
         expected: class(outcome, question) == Class::Expected,
         confidence: if chance.is_some() { 1.0 } else { 0.0 },
         chance: chance.map(|chance| chance.probability),
@@ -374,7 +378,7 @@ mod tests {
         let none = known(&outcome(20), &question(Priority::High));
         assert_eq!(
             (none.state, none.interval, none.confidence),
-            (State::Unknown, [0.0, 1.0], 0.0)
+            (Origin::Unknown, [0.0, 1.0], 0.0)
         );
     }
 }

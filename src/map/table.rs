@@ -4,7 +4,7 @@ use flexdrill_alarms::Priority;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_sweep::SweepError;
 use flexdrill_sweep::envelope::Envelope;
-use flexdrill_sweep::map::{Axis, Map, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::map::{Axis, Map, Origin, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
 use flexdrill_text::{counted, table_cell};
 
 /// Whose bounds a table of an envelope has.
@@ -113,7 +113,7 @@ pub fn csv(map: &Map) -> Result<Vec<u8>, SweepError> {
                         .find(|count| count.alarm == *alarm && count.priority == priority);
                     // An inferred start has no counts. Zero would claim that its members were run without an alarm.
                     row.push(match of.state {
-                        State::Known => count.map_or(0, |count| count.seen).to_string(),
+                        Origin::Known => count.map_or(0, |count| count.seen).to_string(),
                         _ => String::new(),
                     });
                 }
@@ -224,7 +224,7 @@ pub fn words(map: &Map) -> Vec<String> {
     ));
     // Each inferred start is wrong with its remaining doubt; the sum is the number to be expected.
     let starts = map.cells.iter().flat_map(|cell| &cell.starts);
-    let inferred = starts.filter(|start| start.state == State::Inferred);
+    let inferred = starts.filter(|start| start.state == Origin::Inferred);
     let (of, doubtful) = inferred.fold((0, 0.0), |(of, doubtful), start| {
         (of + 1, doubtful + 1.0 - start.confidence)
     });

@@ -309,7 +309,7 @@ impl Accepted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::alarms::{AlarmSet, Change, Quantity, Tested};
+    use crate::alarms::{AlarmSet, Change, Knob, Tested};
     use flexdrill_messages::std_msgs::Header;
     use flexdrill_motion::{DriveState, HazardKind, Severity};
 
@@ -400,7 +400,7 @@ mod tests {
             stays: AlarmSet::EMPTY,
             from: [120.0, 10.0],
             change: Change {
-                quantity: Quantity::Speed,
+                quantity: Knob::Speed,
                 to: 84.0,
             },
             ended: 10,

@@ -25,7 +25,7 @@ pub enum NodeError {
     Live(#[from] crate::live::LiveError),
     /// The map of speed and weight.
     #[error(transparent)]
-    Window(#[from] crate::window::WindowError),
+    Window(#[from] crate::safe_window::WindowError),
     /// A checkpoint cannot be read.
     #[error("checkpoint {path}: {why}", path = path.display())]
     Checkpoint {

@@ -6,7 +6,7 @@ use std::sync::{Arc, Weak};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
 
 use super::control::{Control, Restore};
-use crate::compare::{FOLLOW, FOLLOWED, followed};
+use crate::residuals::{FOLLOW, FOLLOWED, followed};
 use flexdrill_ros2::parameters::{Parameter, ParameterValue, Parameters};
 use flexdrill_ros2::service::Task;
 

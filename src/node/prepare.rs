@@ -25,8 +25,8 @@ use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameter
 use crate::bag::{RecordingThread, Topic};
 use crate::live::{Hub, LiveServer, Steering};
 use crate::rig_inputs::Driver;
+use crate::safe_window::SafeWindow;
 use crate::session::Session;
-use crate::window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_core::twin::{BuildError, Run, Simulation};

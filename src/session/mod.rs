@@ -11,8 +11,8 @@ mod tests;
 use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
-use crate::compare::{Comparison, RigComparison, Samples};
-use crate::window::SafeWindow;
+use crate::residuals::{Comparison, RigComparison, Samples};
+use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Snapshot};
 use flexdrill_messages::builtin_interfaces::Time;

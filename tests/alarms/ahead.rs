@@ -9,7 +9,7 @@ use std::time::Instant;
 use super::with_off_delay;
 use crate::random::Random;
 use flexdrill::ahead::{Answer, Candidate, Figure, Goal, GoalError, Start, keep_priority, look_ahead, search};
-use flexdrill::alarms::{AlarmBook, AlarmId, Quantity, Trial};
+use flexdrill::alarms::{AlarmBook, AlarmId, Knob, Trial};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -371,8 +371,8 @@ fn followed(
     book.set_tested(Some(tested), Trial::Waits);
     let [mut speed, mut weight] = [rpm, kn];
     match tested.change.quantity {
-        Quantity::Speed => speed = tested.change.to,
-        Quantity::Weight => weight = tested.change.to,
+        Knob::Speed => speed = tested.change.to,
+        Knob::Weight => weight = tested.change.to,
     }
     let followed = Inputs {
         rotary_speed: rpm_to_rad_per_s(speed),

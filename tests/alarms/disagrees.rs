@@ -7,7 +7,7 @@ use flexdrill::alarms::{AlarmBook, AlarmId, Followed};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill_alarms::Priority;
 use flexdrill_calibration::monitor::Compared;
-use flexdrill_calibration::residual::{Quantity, Residual, causes};
+use flexdrill_calibration::residual::{Residual, RigQuantity, causes};
 use flexdrill_config::Config;
 
 const SECOND: i64 = 1_000_000_000;
@@ -15,8 +15,8 @@ const SECOND: i64 = 1_000_000_000;
 /// A comparison of the surface torque with 300 N m, of which 20 N m is one standard deviation; `None` while nothing can be
 /// judged.
 fn compared(measured: Option<f64>) -> Compared {
-    let mut residuals = [None; Quantity::COUNT];
-    residuals[Quantity::SurfaceTorque as usize] = measured.map(|measured| Residual {
+    let mut residuals = [None; RigQuantity::COUNT];
+    residuals[RigQuantity::SurfaceTorque as usize] = measured.map(|measured| Residual {
         measured,
         predicted: 300.0,
         error: 20.0,

@@ -11,7 +11,7 @@ use flexdrill::map::study::{self, Question};
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::Directory;
-use flexdrill_sweep::map::{Map, ROTARY_SPEED, State, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::map::{Map, Origin, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
 
 fn flexdrill(arguments: &[&str], folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
@@ -176,7 +176,7 @@ fn a_map_has_the_same_bytes_with_any_threads_and_interruptions() {
         .cells
         .iter()
         .flat_map(|cell| &cell.starts)
-        .filter(|start| start.state == State::Known)
+        .filter(|start| start.state == Origin::Known)
         .count();
     assert_eq!(known, map.runs as usize);
     assert!(map.runs <= 14, "{}", map.runs);

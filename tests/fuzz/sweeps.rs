@@ -6,7 +6,7 @@ use flexdrill::map::program;
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::directory::plan_from_bytes;
-use flexdrill_sweep::map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Start, State, Verdict};
+use flexdrill_sweep::map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Origin, Start, Verdict};
 use flexdrill_sweep::{Outcome, Plan, Spec, outcome};
 
 use crate::engine::Target;
@@ -177,7 +177,7 @@ fn map_file() {
     let plan = plan();
     let outcome = result(&plan);
     let known = OfStart {
-        state: State::Known,
+        state: Origin::Known,
         expected: true,
         confidence: 1.0,
         chance: Some(0.5),

@@ -4,7 +4,7 @@ use flexdrill_config::{Config, ConfigError, Model};
 use serde_json::{Value, json};
 
 /// A tool and a load that the twin must keep pace with.
-pub struct Case {
+pub struct BenchCase {
     /// Name in tables.
     pub name: &'static str,
     /// Weight on bit (kN).
@@ -17,20 +17,20 @@ pub struct Case {
 
 /// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the
 /// wall.
-pub const CASES: &[Case] = &[
-    Case {
+pub const CASES: &[BenchCase] = &[
+    BenchCase {
         name: "as it is, 10 kN",
         wob: 10.0,
         rpm: None,
         changes: |config| Ok(config.clone()),
     },
-    Case {
+    BenchCase {
         name: "`wob_path: shared`, 30 kN",
         wob: 30.0,
         rpm: None,
         changes: |config| config.with_value("boundary.wob_path", "shared"),
     },
-    Case {
+    BenchCase {
         name: "contact 3e7 / 5e7 N/m, 10 kN",
         wob: 10.0,
         rpm: None,
@@ -40,7 +40,7 @@ pub const CASES: &[Case] = &[
                 .with_value("contact.outer.stiffness", 5e7)
         },
     },
-    Case {
+    BenchCase {
         name: "guide `bending_factor: 0.05`, 20 kN",
         wob: 20.0,
         rpm: None,
@@ -51,7 +51,7 @@ pub const CASES: &[Case] = &[
 /// Backward whirl, the motion that alarms are for: the pipe runs round the guide and rolls where it touches, so that
 /// friction at small slip turns its direction in every collision. What depends on the step is measured on [`CASES`] only,
 /// whose statistics scatter less.
-pub const WHIRLING: Case = Case {
+pub const WHIRLING: BenchCase = BenchCase {
     name: "whirling: pipe-guide friction 0.7, 120 r/min, 10 kN",
     wob: 10.0,
     rpm: Some(120.0),
@@ -64,20 +64,20 @@ pub const WHIRLING: Case = Case {
 
 /// A tool below a string: as it is, with a string that rubs on the wall of an inclined hole, with worn joints, with stiffer
 /// contact. The weight is that slacked off at the surface.
-pub const BELOW_A_STRING: &[Case] = &[
-    Case {
+pub const BELOW_A_STRING: &[BenchCase] = &[
+    BenchCase {
         name: "as it is, 10 kN",
         wob: 10.0,
         rpm: None,
         changes: |config| Ok(config.clone()),
     },
-    Case {
+    BenchCase {
         name: "string: 600 m vertical, 400 m at 60 deg; 10 kN",
         wob: 10.0,
         rpm: None,
         changes: |config| config.with_value("string.sections", inclined()),
     },
-    Case {
+    BenchCase {
         name: "pin friction 0.2, play 0.5 deg; 10 kN",
         wob: 10.0,
         rpm: None,
@@ -87,7 +87,7 @@ pub const BELOW_A_STRING: &[Case] = &[
                 .with_value("tool.joint.play_deg", 0.5)
         },
     },
-    Case {
+    BenchCase {
         name: "contact 3e7 / 5e7 N/m, 10 kN",
         wob: 10.0,
         rpm: None,
@@ -106,7 +106,7 @@ pub fn inclined() -> Value {
 }
 
 /// The hard cases of a tool: those of the rig's below a string, those of the paper's otherwise.
-pub fn hard(config: &Config) -> &'static [Case] {
+pub fn hard(config: &Config) -> &'static [BenchCase] {
     if config.string.model == Model::Line {
         BELOW_A_STRING
     } else {

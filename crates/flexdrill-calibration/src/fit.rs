@@ -8,7 +8,7 @@ use crate::random::Random;
 use crate::smoother::{SmootherSettings, smooth, standard_normal};
 use crate::surrogate::Surrogate;
 use crate::unknown::Unknown;
-use crate::windows::{Channel, Motion, Windows};
+use crate::windows::{Activity, Channel, Windows};
 use crate::{BAND, CalibrationError};
 
 /// Standardised value up to which the twin is run on both sides of the prior's median: 98.8 % of the prior.
@@ -22,11 +22,11 @@ const PRIOR_MEMBERS: usize = 16;
 
 /// A measured quantity that the twin predicts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Quantity {
+pub struct Predicted {
     /// What is measured.
     pub channel: Channel,
     /// In which state of motion.
-    pub motion: Motion,
+    pub motion: Activity,
     /// The twin's figure: inputs are the standardised modelled unknowns, then speed (rad/s) and, while drilling, weight (N).
     pub surrogate: Surrogate,
     /// The unknown that is added to the twin's figure: the tare of the sensor.
@@ -58,7 +58,7 @@ pub struct Problem {
     /// Number of unknowns that the twin's runs depend on.
     pub modelled: usize,
     /// Quantities.
-    pub quantities: Vec<Quantity>,
+    pub quantities: Vec<Predicted>,
     /// Standard deviation of each channel's drift after an hour, in the order of [`Channel::ALL`].
     pub drift: [f64; 4],
     /// What was observed.
@@ -122,8 +122,8 @@ impl Refusal {
 /// Channels that are refused although drilling windows have them.
 pub fn refusals(windows: &Windows) -> Vec<(Channel, Refusal)> {
     let channel = Channel::SurfaceTorque;
-    let drilled = windows.having(Motion::Drilling, channel).next().is_some();
-    let tared = windows.having(Motion::OffBottom, channel).next().is_some();
+    let drilled = windows.having(Activity::Drilling, channel).next().is_some();
+    let tared = windows.having(Activity::OffBottom, channel).next().is_some();
     if drilled && !tared {
         vec![(channel, Refusal::NoOffBottomTorque)]
     } else {
@@ -132,7 +132,7 @@ pub fn refusals(windows: &Windows) -> Vec<(Channel, Refusal)> {
 }
 
 /// The observations of all windows, without channels that are refused.
-pub fn observations(windows: &Windows, quantities: &[Quantity]) -> Vec<Observation> {
+pub fn observations(windows: &Windows, quantities: &[Predicted]) -> Vec<Observation> {
     let refused = refusals(windows);
     let mut all = Vec::new();
     for (index, window) in windows.steady.iter().enumerate() {
@@ -156,14 +156,14 @@ pub fn observations(windows: &Windows, quantities: &[Quantity]) -> Vec<Observati
 }
 
 /// The loads that a surrogate of a state of motion has as inputs.
-pub fn load(motion: Motion, rotary_speed: f64, weight: f64) -> Vec<f64> {
+pub fn load(motion: Activity, rotary_speed: f64, weight: f64) -> Vec<f64> {
     match motion {
-        Motion::OffBottom => vec![rotary_speed.abs()],
-        Motion::Drilling => vec![rotary_speed.abs(), weight],
+        Activity::OffBottom => vec![rotary_speed.abs()],
+        Activity::Drilling => vec![rotary_speed.abs(), weight],
     }
 }
 
-impl Quantity {
+impl Predicted {
     /// Correlation of the surrogates' errors of two quantities, from the runs that were left out.
     fn errors_alike(&self, other: &Self) -> f64 {
         let [a, b] = [self, other].map(|quantity| &quantity.surrogate.left_out);
@@ -244,7 +244,7 @@ impl Problem {
     fn surrogate_errors(&self, members: &DMatrix<f64>) -> DMatrix<f64> {
         let count = self.observations.len();
         let mut all = DMatrix::zeros(count, count);
-        for motion in [Motion::OffBottom, Motion::Drilling] {
+        for motion in [Activity::OffBottom, Activity::Drilling] {
             let of_motion: Vec<usize> = (0..count)
                 .filter(|k| self.quantities[self.observations[*k].quantity].motion == motion)
                 .collect();

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use crate::residual::{Cause, Expected, Quantity, Residual, Watch, causes};
+use crate::residual::{Cause, Expected, Residual, RigQuantity, Watch, causes};
 
 /// Readings whose median is judged: a weight that is derived from a hook load scatters by kilonewtons.
 const MEDIAN: usize = 5;
@@ -14,15 +14,15 @@ const MEDIAN: usize = 5;
 /// reaches 1.5 at 1.4 % of all loads, and 3 at none.
 pub const LEVELS: [f64; 2] = [1.5, 3.0];
 
-/// How rig and twin are compared. Arrays are in the order of [`Quantity::ALL`].
+/// How rig and twin are compared. Arrays are in the order of [`RigQuantity::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MonitorSettings {
     /// What is expected of each residual.
-    pub expected: [Expected; Quantity::COUNT],
+    pub expected: [Expected; RigQuantity::COUNT],
     /// Offset of each sensor: what it shows where the quantity is 0.
-    pub tare: [f64; Quantity::COUNT],
+    pub tare: [f64; RigQuantity::COUNT],
     /// Age of the newest sample (s) beyond which a quantity counts as not measured.
-    pub longest_age: [f64; Quantity::COUNT],
+    pub longest_age: [f64; RigQuantity::COUNT],
     /// Time of the sliding means (s).
     pub mean: f64,
     /// Time after a change in which nothing is judged (s).
@@ -54,7 +54,7 @@ impl Default for MonitorSettings {
                 expected(10.0, 0.05, 3.0, 0.0),
                 expected(400.0, 0.05, 200.0, 0.0),
             ],
-            tare: [0.0; Quantity::COUNT],
+            tare: [0.0; RigQuantity::COUNT],
             // A tool in the hole sends a word every half minute, by pulses in the mud.
             longest_age: [5.0, 5.0, 60.0, 60.0, 60.0],
             mean: 20.0,
@@ -70,12 +70,12 @@ impl Default for MonitorSettings {
 /// Errors of sensors and twin, as a configuration states them (SI).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stated {
-    /// Standard deviation of a sample, in the order of [`Quantity::ALL`].
-    pub noise: [f64; Quantity::COUNT],
+    /// Standard deviation of a sample, in the order of [`RigQuantity::ALL`].
+    pub noise: [f64; RigQuantity::COUNT],
     /// Offset of each sensor.
-    pub tare: [f64; Quantity::COUNT],
+    pub tare: [f64; RigQuantity::COUNT],
     /// Drift of that offset after an hour, standard deviation.
-    pub drift: [f64; Quantity::COUNT],
+    pub drift: [f64; RigQuantity::COUNT],
     /// Error of the twin as a share.
     pub model: f64,
 }
@@ -87,12 +87,12 @@ impl MonitorSettings {
             tare: stated.tare,
             ..Self::default()
         };
-        for quantity in Quantity::ALL {
+        for quantity in RigQuantity::ALL {
             let expected = &mut settings.expected[quantity as usize];
             expected.noise = stated.noise[quantity as usize];
             expected.drift = stated.drift[quantity as usize];
             // In steady motion all of the tool turns at the speed of the drive, whatever the model.
-            if quantity != Quantity::DownholeSpeed {
+            if quantity != RigQuantity::DownholeSpeed {
                 expected.model = stated.model;
             }
         }
@@ -112,16 +112,16 @@ pub struct Reading {
     /// Whether all inputs are fresh and good.
     pub good: bool,
     /// What was measured since the reading before.
-    pub measured: [f64; Quantity::COUNT],
+    pub measured: [f64; RigQuantity::COUNT],
     /// What the twin computes.
-    pub predicted: [f64; Quantity::COUNT],
+    pub predicted: [f64; RigQuantity::COUNT],
 }
 
 /// What the comparison says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compared {
-    /// Per quantity, in the order of [`Quantity::ALL`]; `None` while it cannot be judged.
-    pub residuals: [Option<Residual>; Quantity::COUNT],
+    /// Per quantity, in the order of [`RigQuantity::ALL`]; `None` while it cannot be judged.
+    pub residuals: [Option<Residual>; RigQuantity::COUNT],
     /// Speed and weight have been steady for the settling time.
     pub steady: bool,
     /// Whether the bit drills.
@@ -132,8 +132,8 @@ pub struct Compared {
 
 impl Compared {
     /// The quantity that is farthest from what is expected, against its limit; `None` while none can be judged.
-    pub fn worst(&self) -> Option<(Quantity, Residual)> {
-        Quantity::ALL
+    pub fn worst(&self) -> Option<(RigQuantity, Residual)> {
+        RigQuantity::ALL
             .into_iter()
             .filter_map(|quantity| Some((quantity, self.residuals[quantity as usize]?)))
             .max_by(|a, b| against_limit(&a.1).abs().total_cmp(&against_limit(&b.1).abs()))
@@ -149,7 +149,7 @@ fn against_limit(residual: &Residual) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Monitor {
     settings: MonitorSettings,
-    watches: [Watch; Quantity::COUNT],
+    watches: [Watch; RigQuantity::COUNT],
     /// The newest speeds (rad/s) and weights (N), the newest last.
     newest: VecDeque<[f64; 2]>,
     /// Time of all readings (s).
@@ -162,7 +162,7 @@ impl Monitor {
     /// A comparison that knows nothing yet.
     pub fn new(settings: MonitorSettings) -> Self {
         Self {
-            watches: [Watch::new(settings.mean); Quantity::COUNT],
+            watches: [Watch::new(settings.mean); RigQuantity::COUNT],
             newest: VecDeque::with_capacity(MEDIAN),
             time: 0.0,
             steady: None,
@@ -171,7 +171,7 @@ impl Monitor {
     }
 
     /// Replaces the offsets of the sensors from the next reading on.
-    pub fn set_tare(&mut self, tare: [f64; Quantity::COUNT]) {
+    pub fn set_tare(&mut self, tare: [f64; RigQuantity::COUNT]) {
         self.settings.tare = tare;
     }
 
@@ -191,11 +191,11 @@ impl Monitor {
                 watch.reset();
             }
         }
-        let residual = |quantity: Quantity| {
+        let residual = |quantity: RigQuantity| {
             let index = quantity as usize;
             self.watches[index].residual(&s.expected[index], s.longest_age[index], hours)
         };
-        let residuals = Quantity::ALL.map(residual);
+        let residuals = RigQuantity::ALL.map(residual);
         let drilling = reading.weight >= s.off_bottom;
         let ratios = residuals
             .each_ref()
@@ -255,10 +255,10 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    const TORQUE: usize = Quantity::SurfaceTorque as usize;
+    const TORQUE: usize = RigQuantity::SurfaceTorque as usize;
 
     fn reading(torque: f64, predicted: f64) -> Reading {
-        let mut measured = [f64::NAN; Quantity::COUNT];
+        let mut measured = [f64::NAN; RigQuantity::COUNT];
         measured[TORQUE] = torque;
         Reading {
             step: 1.0,

@@ -5,7 +5,7 @@ use crate::BAND;
 /// What rig and twin are compared in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(usize)]
-pub enum Quantity {
+pub enum RigQuantity {
     /// Torque of the drive at the surface, N m.
     SurfaceTorque,
     /// Load on the hook, N.
@@ -18,7 +18,7 @@ pub enum Quantity {
     DownholeWeight,
 }
 
-impl Quantity {
+impl RigQuantity {
     /// Number of quantities.
     pub const COUNT: usize = 5;
     /// All, in the order of every array with an entry per quantity.
@@ -183,7 +183,7 @@ enum Side {
 
 /// Likely causes of residuals, given as ratios to what is surely beyond their bands, on or off bottom; the likeliest first, none where all are
 /// within their bands. What is measured in the hole decides between causes that look the same from the surface.
-pub fn causes(ratios: &[Option<f64>; Quantity::COUNT], drilling: bool) -> Vec<Cause> {
+pub fn causes(ratios: &[Option<f64>; RigQuantity::COUNT], drilling: bool) -> Vec<Cause> {
     use Cause::*;
     // A quantity that is not measured (unknown) and one that agrees (within) mean different causes.
     let [torque, hook_load, speed, bit_torque, bit_weight] = ratios.map(|ratio| match ratio {
@@ -317,7 +317,7 @@ mod tests {
     }
 
     /// Ratios of surface torque, hook load, speed, torque and weight in the hole.
-    fn of(drilling: bool, ratios: [Option<f64>; Quantity::COUNT]) -> Vec<Cause> {
+    fn of(drilling: bool, ratios: [Option<f64>; RigQuantity::COUNT]) -> Vec<Cause> {
         causes(&ratios, drilling)
     }
 

@@ -20,7 +20,7 @@ use flexdrill_calibration::study::points::{Cover, design};
 use flexdrill_calibration::study::unknowns::Unknowns;
 use flexdrill_calibration::study::{self, Study};
 use flexdrill_calibration::surrogate::usual_points;
-use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, Windows, find};
+use flexdrill_calibration::windows::{Activity, Channel, Sample, WindowSettings, Windows, find};
 use flexdrill_config::Config;
 use flexdrill_core::tool::{HoleInterval, SectionProperties};
 
@@ -54,8 +54,8 @@ fn world(level: bool) -> World {
     let rpm = |rpm: f64| rpm * std::f64::consts::TAU / 60.0;
     let mut points = Vec::new();
     for (motion, weight, inputs) in [
-        (Motion::OffBottom, [0.0; 2], modelled + 1),
-        (Motion::Drilling, [9e3, 21e3], modelled + 2),
+        (Activity::OffBottom, [0.0; 2], modelled + 1),
+        (Activity::Drilling, [9e3, 21e3], modelled + 2),
     ] {
         let cover = Cover {
             motion,
@@ -102,8 +102,8 @@ fn soft_string(config: &Config, unknowns: &Unknowns, z: &[f64], load: &Load) -> 
         on_bit += (ARC * guide * cos - arc * (on_bit + ARC * whole * sin)) * turn;
     }
     let on_bit = match load.motion {
-        Motion::OffBottom => 0.0,
-        Motion::Drilling => on_bit - after * whole * level.max(0.0),
+        Activity::OffBottom => 0.0,
+        Activity::Drilling => on_bit - after * whole * level.max(0.0),
     };
     // The wear flats carry up to their force; what is beyond cuts.
     let rock = &config.rock.depth_of_cut;
@@ -168,7 +168,11 @@ fn log(world: &World, truth: &[f64], schedule: &[(f64, f64, u32)], random: &mut 
     let (mut walk, mut samples) = ([0.0; 4], Vec::new());
     for &(rpm, kn, seconds) in schedule {
         let load = Load {
-            motion: if kn > 0.0 { Motion::Drilling } else { Motion::OffBottom },
+            motion: if kn > 0.0 {
+                Activity::Drilling
+            } else {
+                Activity::OffBottom
+            },
             rotary_speed: rpm * std::f64::consts::TAU / 60.0,
             weight: 1e3 * kn,
         };

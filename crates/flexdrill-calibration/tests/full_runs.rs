@@ -9,7 +9,7 @@ use flexdrill_calibration::study::cover;
 use flexdrill_calibration::study::points::{design, run};
 use flexdrill_calibration::study::unknowns::Unknowns;
 use flexdrill_calibration::study::{StudySettings, study};
-use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, find};
+use flexdrill_calibration::windows::{Activity, Channel, Sample, WindowSettings, find};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -101,7 +101,7 @@ fn a_log_of_the_twin_gives_its_truth_back() {
         windows.steady.len(),
         windows.left_out_by_reason()
     );
-    let covers: Vec<_> = [Motion::OffBottom, Motion::Drilling]
+    let covers: Vec<_> = [Activity::OffBottom, Activity::Drilling]
         .into_iter()
         .filter_map(|motion| cover(&windows, motion, unknowns.modelled.len()))
         .collect();

@@ -1,6 +1,6 @@
 //! Whether a map that was read makes sense.
 
-use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, SURE, Start, State, Verdict};
+use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, Origin, SURE, Start, Verdict};
 
 /// Longest text of a map (bytes).
 const MOST_TEXT: usize = 4096;
@@ -151,7 +151,7 @@ impl OfStart {
         // Without a chance zero stands in for the bounds; whether one must be given is checked next.
         let chance = self.chance.unwrap_or(0.0);
         ensure((0.0..=1.0).contains(&chance), at("chance"), chance, "0 to 1")?;
-        let known = self.state == State::Known;
+        let known = self.state == Origin::Known;
         ensure(
             self.chance.is_some() == known,
             at("chance"),
@@ -162,9 +162,9 @@ impl OfStart {
         // differ was changed by hand or made by a faulty program.
         let said = chance > map.limit;
         let judged = match self.state {
-            State::Known => self.expected == said,
-            State::Unknown | State::NotKnown => !self.expected,
-            State::Inferred => true,
+            Origin::Known => self.expected == said,
+            Origin::Unknown | Origin::NotKnown => !self.expected,
+            Origin::Inferred => true,
         };
         ensure(
             judged,
@@ -173,7 +173,7 @@ impl OfStart {
             "what the chance and `limit` say, false where unknown or not known",
         )?;
         // An inferred state needs the certainty by which it was inferred.
-        let least = if self.state == State::Inferred { SURE } else { 0.0 };
+        let least = if self.state == Origin::Inferred { SURE } else { 0.0 };
         let confident = (least..=1.0).contains(&self.confidence);
         ensure(
             confident,

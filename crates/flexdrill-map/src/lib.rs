@@ -160,7 +160,7 @@ impl Verdict {
     pub fn of(starts: &[OfStart]) -> Self {
         let expected = starts.iter().filter(|start| start.expected).count();
         let unknown = starts.iter().any(|start| !start.expected && start.is_unknown());
-        let not_known = starts.iter().any(|start| start.state == State::NotKnown);
+        let not_known = starts.iter().any(|start| start.state == Origin::NotKnown);
         // Rounding must not turn what each start alone is sure of.
         let sure = starts.iter().map(|start| start.confidence).product::<f64>() >= SURE - 1e-12;
         match expected {
@@ -177,7 +177,7 @@ impl Verdict {
 /// Where a cell's figures come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum State {
+pub enum Origin {
     /// It was run.
     Known,
     /// It was not run; whether an alarm must be expected is inferred from the cells that were, with [`SURE`].
@@ -188,7 +188,7 @@ pub enum State {
     NotKnown,
 }
 
-impl State {
+impl Origin {
     /// Name in files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -210,7 +210,7 @@ impl State {
 #[serde(deny_unknown_fields)]
 pub struct OfStart {
     /// Whether it was run.
-    pub state: State,
+    pub state: Origin,
     /// Whether an alarm must be expected: the chance of any is above [`Map::limit`], or is inferred to be. It says nothing
     /// where the state is unknown or not known.
     pub expected: bool,
@@ -238,13 +238,13 @@ pub struct OfStart {
 impl OfStart {
     /// Whether a member failed, so that what would have come is unknown.
     pub fn is_unknown(&self) -> bool {
-        self.state == State::Unknown || self.failed > 0
+        self.state == Origin::Unknown || self.failed > 0
     }
 
     /// What was not run, and is not known: `confidence` is that of the most likely class.
     pub fn not_known(confidence: f64) -> Self {
         Self {
-            state: State::NotKnown,
+            state: Origin::NotKnown,
             ..Self::inferred(false, confidence)
         }
     }
@@ -252,7 +252,7 @@ impl OfStart {
     /// What was not run, and is inferred.
     pub fn inferred(expected: bool, confidence: f64) -> Self {
         Self {
-            state: State::Inferred,
+            state: Origin::Inferred,
             expected,
             confidence,
             chance: None,
@@ -356,7 +356,7 @@ impl Map {
     pub fn members_ended(&self) -> Option<[u32; 2]> {
         let starts = self.cells.iter().flat_map(|cell| &cell.starts);
         let ended = starts
-            .filter(|start| start.state == State::Known)
+            .filter(|start| start.state == Origin::Known)
             .map(|start| start.members - start.failed);
         ended.fold(None, |range: Option<[u32; 2]>, of| {
             let [least, most] = range.unwrap_or([of, of]);
@@ -368,7 +368,7 @@ impl Map {
     /// without a sighting exclude: the upper end of the 95 % interval (Wilson). Nothing where no start is.
     pub fn excluded(&self) -> Option<(u32, f64)> {
         let starts = self.cells.iter().flat_map(|cell| &cell.starts);
-        let clear = starts.filter(|start| start.state == State::Known && !start.expected && start.failed == 0);
+        let clear = starts.filter(|start| start.state == Origin::Known && !start.expected && start.failed == 0);
         let least = clear.map(|start| start.members).min()?;
         const Z: f64 = 1.959_963_984_540_054;
         Some((least, Z * Z / (f64::from(least) + Z * Z)))

@@ -7,7 +7,7 @@
 )]
 
 use flexdrill_alarms::Priority;
-use flexdrill_map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Start, State, Verdict};
+use flexdrill_map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Origin, Start, Verdict};
 use serde_json::{Value, json};
 
 fn axis(key: &str, values: &[f64]) -> Axis {
@@ -21,7 +21,7 @@ fn axis(key: &str, values: &[f64]) -> Axis {
 
 fn known(seen: u32, of: u32) -> OfStart {
     OfStart {
-        state: State::Known,
+        state: Origin::Known,
         expected: seen > 0,
         confidence: 1.0,
         chance: Some(f64::from(seen) / f64::from(of)),
@@ -50,7 +50,7 @@ fn known(seen: u32, of: u32) -> OfStart {
 
 fn map() -> Map {
     let unknown = OfStart {
-        state: State::Unknown,
+        state: Origin::Unknown,
         members: 2,
         failed: 2,
         failure: "a step failed".to_owned(),
@@ -134,7 +134,7 @@ fn the_words_say_how_many_members_ran_and_what_these_exclude() {
     map.members = 20;
     for (of, most) in [(0, 6), (1, 9), (2, 6), (3, 7)] {
         for start in &mut map.cells[of].starts {
-            if start.state == State::Known {
+            if start.state == Origin::Known {
                 start.members = most;
             }
         }
@@ -152,7 +152,7 @@ fn the_words_say_how_many_members_ran_and_what_these_exclude() {
     // All ran: 0.1611 is Newcombe's figure for none of 20 (Stat. Med. 17, 1998, 857, table I).
     map.run_all = true;
     for start in map.cells.iter_mut().flat_map(|cell| &mut cell.starts) {
-        if start.state == State::Known {
+        if start.state == Origin::Known {
             start.members = 20;
         }
     }
@@ -166,7 +166,7 @@ fn the_words_say_how_many_members_ran_and_what_these_exclude() {
     // One is singular.
     map.members = 1;
     for start in map.cells.iter_mut().flat_map(|cell| &mut cell.starts) {
-        if start.state == State::Known {
+        if start.state == Origin::Known {
             start.members = 1;
         }
     }

@@ -4,14 +4,13 @@
 //! Source: Lin, Luo, Wang, Xiu, Li, Scientific Reports 2024, figures 9 to 17.
 //!
 //! # Layout
-//! - [`Case`] says what is run; [`record`] runs it and keeps a [`Record`]. A record whose energy audit fails is an
+//! - [`Setup`] says what is run; [`record`] runs it and keeps a [`Record`]. A record whose energy audit fails is an
 //!   error.
 //! - [`findings()`] turns a record into [`Finding`]s, each with its definition, the paper's number and a [`Verdict`].
 //!   `series` and `motion` hold what it measures with.
 //! - [`hinge`]: the case of Fig. 9. [`figures`]: the drawings, as SVG, and their data.
 //! - [`Report`]: the table of findings with what makes them trustworthy, as Markdown and HTML.
 
-mod case;
 mod error;
 pub mod figures;
 mod files;
@@ -21,8 +20,8 @@ mod motion;
 mod record;
 mod report;
 mod series;
+mod setup;
 
-pub use case::{Case, record};
 pub use error::PaperError;
 pub use files::{findings_csv, write_figures, write_text};
 pub use findings::{Finding, Verdict, findings, score};
@@ -30,3 +29,4 @@ pub use motion::{Motion, Whirl};
 pub use record::{Axis, Layer, Record, Recorder, Series, Stations};
 pub use report::Report;
 pub use series::{Period, contact_episodes, dominant_period, rms};
+pub use setup::{Setup, record};

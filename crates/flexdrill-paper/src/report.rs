@@ -6,12 +6,12 @@ use super::error::ENERGY_LIMIT;
 use super::figures::Figure;
 use super::findings::{Finding, Verdict, score};
 use super::hinge::Hinge;
-use super::{Case, Record};
+use super::{Record, Setup};
 
 /// Contents of the report.
 pub struct Report<'a> {
     /// The case.
-    pub case: &'a Case,
+    pub case: &'a Setup,
     /// Its record.
     pub record: &'a Record,
     /// Its findings.

@@ -7,7 +7,7 @@ use crate::page::{document, drawn, text};
 use flexdrill_calibration::BAND;
 use flexdrill_calibration::fit::{Outcome, Problem};
 use flexdrill_calibration::identify::{Estimate, Verdict};
-use flexdrill_calibration::windows::{Channel, Motion, Windows};
+use flexdrill_calibration::windows::{Activity, Channel, Windows};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_plot::{Figure, Line, Panel};
 
@@ -207,10 +207,10 @@ fn unit(channel: Channel) -> (&'static str, f64) {
     }
 }
 
-fn state(motion: Motion) -> &'static str {
+fn state(motion: Activity) -> &'static str {
     match motion {
-        Motion::OffBottom => "off bottom",
-        Motion::Drilling => "drilling",
+        Activity::OffBottom => "off bottom",
+        Activity::Drilling => "drilling",
     }
 }
 
@@ -227,7 +227,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
     for channel in Channel::ALL {
         let (unit, factor) = unit(channel);
         // Off bottom and drilling have different surrogates and are shown apart.
-        let of = |motion: Motion| {
+        let of = |motion: Activity| {
             let all = problem.observations.iter().zip(&outcome.explained);
             all.filter(move |(observation, _)| {
                 let quantity = &problem.quantities[observation.quantity];
@@ -245,7 +245,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut any = false;
         // Both states share one panel of a channel, because one coefficient explains both.
-        for (motion, color) in [(Motion::Drilling, 0), (Motion::OffBottom, 1)] {
+        for (motion, color) in [(Activity::Drilling, 0), (Activity::OffBottom, 1)] {
             let points: Vec<(f64, f64)> = of(motion)
                 .map(|(o, e)| (factor * o.value, factor * e.predicted))
                 .collect();
@@ -259,7 +259,7 @@ fn fit(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Result<Markup
                 low = low.min(*x).min(*y);
                 high = high.max(*x).max(*y);
             }
-            if motion == Motion::Drilling {
+            if motion == Activity::Drilling {
                 against = against.line(Line::new("as configured before", prior).dots().color(6));
             }
             against = against.line(Line::new(state(motion), points).dots().color(color));

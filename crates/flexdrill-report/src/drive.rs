@@ -49,7 +49,7 @@ pub(crate) struct ParameterChange {
 
 /// Mean torques over the time in which the drive turns.
 #[derive(Debug, Default, Clone, Copy)]
-pub(crate) struct Transfer {
+pub(crate) struct TorqueMeans {
     /// Integral of the torque at the uppermost joint (N m s).
     top: f64,
     /// Integral of the torque at the bit (N m s).
@@ -60,7 +60,7 @@ pub(crate) struct Transfer {
     last: Option<(f64, Option<[f64; 2]>)>,
 }
 
-impl Transfer {
+impl TorqueMeans {
     /// Mean torque at the uppermost joint and of the bit (N m); `None` when the drive never turned.
     pub(crate) fn means(&self) -> Option<[f64; 2]> {
         (self.time > 0.0).then(|| [self.top / self.time, self.bit / self.time])
@@ -96,7 +96,7 @@ pub(crate) struct Drive {
     pub bit_torque: History,
     pub stick_slip: History,
     pub lateral_acceleration: History,
-    pub transfer: Transfer,
+    pub transfer: TorqueMeans,
     /// The worst state of the inputs.
     pub input_quality: Shares,
     pub changes: Vec<ParameterChange>,

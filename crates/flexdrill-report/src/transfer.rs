@@ -6,7 +6,7 @@ use flexdrill_outputs::figures::{Figure, Group, Shown, TRANSFER};
 
 /// A figure of `twin/transfer` that tables show, with its history.
 #[derive(Debug)]
-pub(crate) struct Quantity {
+pub(crate) struct FigureHistory {
     pub figure: &'static Figure<Transfer>,
     pub shown: Shown,
     pub history: History,
@@ -16,7 +16,7 @@ pub(crate) struct Quantity {
 #[derive(Debug)]
 pub(crate) struct TransferHistory {
     /// In the order of the tables.
-    pub quantities: Vec<Quantity>,
+    pub quantities: Vec<FigureHistory>,
     /// Time that a mean covers (s).
     pub window: f64,
 }
@@ -24,7 +24,7 @@ pub(crate) struct TransferHistory {
 impl Default for TransferHistory {
     fn default() -> Self {
         let quantity = |figure: &'static Figure<Transfer>| {
-            Some(Quantity {
+            Some(FigureHistory {
                 figure,
                 shown: figure.shown?,
                 history: History::default(),
@@ -47,7 +47,7 @@ impl TransferHistory {
     }
 
     /// The quantities of a group, from the surface to the bit.
-    pub(crate) fn group(&self, group: Group) -> impl Iterator<Item = &Quantity> + Clone {
+    pub(crate) fn group(&self, group: Group) -> impl Iterator<Item = &FigureHistory> + Clone {
         self.quantities
             .iter()
             .filter(move |quantity| quantity.shown.group == group)

@@ -31,7 +31,7 @@ impl Envelope {
             .cells
             .iter()
             .map(|cell| {
-                let ran = cell.starts.iter().all(|start| start.state == crate::map::State::Known);
+                let ran = cell.starts.iter().all(|start| start.state == crate::map::Origin::Known);
                 cell.verdict == Verdict::Clear && (ran || inferred)
             })
             .collect();

@@ -8,7 +8,7 @@
 )]
 
 use flexdrill_sweep::choice::{Choice, Class};
-use flexdrill_sweep::map::{OfStart, State, Verdict};
+use flexdrill_sweep::map::{OfStart, Origin, Verdict};
 use flexdrill_sweep::plan::Grid;
 use proptest::prelude::*;
 
@@ -171,9 +171,9 @@ impl World {
 fn ran(class: Class) -> OfStart {
     OfStart {
         state: if class == Class::Unknown {
-            State::Unknown
+            Origin::Unknown
         } else {
-            State::Known
+            Origin::Known
         },
         members: 3,
         failed: if class == Class::Unknown { 3 } else { 0 },
@@ -323,7 +323,7 @@ proptest! {
         for (verdict, starts, truth) in mapped(&world) {
             if verdict == Verdict::Clear {
                 prop_assert!(!truth.contains(&Class::Unknown), "{truth:?} {starts:?}");
-                let known = |start: &OfStart| matches!(start.state, State::Known | State::Inferred);
+                let known = |start: &OfStart| matches!(start.state, Origin::Known | Origin::Inferred);
                 prop_assert!(starts.iter().all(known), "{starts:?}");
                 prop_assert!(starts.iter().map(|start| start.confidence).product::<f64>() > 0.9499, "{starts:?}");
             }

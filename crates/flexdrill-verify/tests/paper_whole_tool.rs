@@ -9,7 +9,7 @@
 
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
-use flexdrill_verify::step_error::{Calm, Figure, Motion, Record, Statistics, refined};
+use flexdrill_verify::step_error::{Calm, Course, Figure, Record, Statistics, refined};
 
 const RATED: Inputs = Inputs {
     rotary_speed: 40.0 * std::f64::consts::TAU / 60.0,
@@ -30,7 +30,7 @@ fn default_step() -> f64 {
 #[test]
 fn an_eighth_of_the_step_changes_little_without_bit_torque() {
     let config = configured(0.0, default_step());
-    let motion = Motion::of(&config, RATED, 5.0);
+    let motion = Course::of(&config, RATED, 5.0);
     let run = |config: &Config| Record::run(config, &motion, 0.0).unwrap();
     let calm = Calm::of(&run(&config), &run(&refined(&config).unwrap()));
     println!("{calm:?}");
@@ -57,7 +57,7 @@ fn an_eighth_of_the_step_changes_little_without_bit_torque() {
 #[test]
 fn with_bit_torque_statistics_agree_and_energy_adds_up() {
     let config = configured(0.235, default_step());
-    let motion = Motion::of(&config, RATED, 30.0);
+    let motion = Course::of(&config, RATED, 30.0);
     // The error of the step falls with its square: finer runs have a sixteenth of it, which their scatter hides.
     let finer = configured(0.235, default_step() / 4.0);
     let (runs, fine) = std::thread::scope(|scope| {
@@ -131,7 +131,7 @@ fn schemes_and_steps() {
     };
     let duration = 30.0;
     // Intervals of 20 ms are whole numbers of every step.
-    let motion = Motion {
+    let motion = Course {
         inputs: RATED,
         duration,
         interval: 0.02,

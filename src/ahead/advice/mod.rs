@@ -10,7 +10,7 @@ use super::engine::{Start, disturbed, on_threads};
 use super::goal::{Candidate, MOST_RUN_UP};
 use super::measured::{Measured, is_judged_at};
 use super::member::{Called, Ended, LOOK, Watched};
-use crate::alarms::{AlarmId, AlarmSet, Change, Leading, Quantity, Tested, rule};
+use crate::alarms::{AlarmId, AlarmSet, Change, Knob, Leading, Tested, rule};
 use flexdrill_config::{Advice, Config};
 use flexdrill_core::twin::SimulationSettings;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
@@ -63,13 +63,13 @@ fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
     for (size, part) in parts {
         for (quantity, value, step, [least, most]) in [
             (
-                Quantity::Speed,
+                Knob::Speed,
                 rpm,
                 1.0,
                 [inputs.rotary_speed.min_rpm, inputs.rotary_speed.max_rpm],
             ),
             (
-                Quantity::Weight,
+                Knob::Weight,
                 kn,
                 0.5,
                 [inputs.weight_on_bit.min_kn, inputs.weight_on_bit.max_kn],
@@ -95,10 +95,10 @@ fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<Trial> {
     // The rule names directions from the mechanics of the alarm. They
     // order the trials only, because the look-ahead decides.
     let named = |quantity, raises| match (quantity, raises) {
-        (Quantity::Speed, false) => rule.lower_rotary_speed_rpm.is_some(),
-        (Quantity::Speed, true) => rule.raise_rotary_speed_rpm.is_some(),
-        (Quantity::Weight, false) => rule.lower_weight_on_bit_kn.is_some(),
-        (Quantity::Weight, true) => rule.raise_weight_on_bit_kn.is_some(),
+        (Knob::Speed, false) => rule.lower_rotary_speed_rpm.is_some(),
+        (Knob::Speed, true) => rule.raise_rotary_speed_rpm.is_some(),
+        (Knob::Weight, false) => rule.lower_weight_on_bit_kn.is_some(),
+        (Knob::Weight, true) => rule.raise_weight_on_bit_kn.is_some(),
     };
     let rank = |trial: &Trial| {
         let quantity = trial.change.quantity;
@@ -190,8 +190,8 @@ struct Stopped;
 /// Speed (r/min) and weight (kN) after a change from `from`.
 fn point(from: [f64; 2], change: Change) -> [f64; 2] {
     match change.quantity {
-        Quantity::Speed => [change.to, from[1]],
-        Quantity::Weight => [from[0], change.to],
+        Knob::Speed => [change.to, from[1]],
+        Knob::Weight => [from[0], change.to],
     }
 }
 

@@ -8,7 +8,7 @@ fn set(ids: &[AlarmId]) -> AlarmSet {
     ids.iter().copied().collect()
 }
 
-fn order(rule: &Advice) -> Vec<(Quantity, f64)> {
+fn order(rule: &Advice) -> Vec<(Knob, f64)> {
     let trials = trials(&config(), rule, 60.0, 20.0);
     trials
         .iter()
@@ -24,23 +24,19 @@ fn the_smallest_come_first_and_those_against_the_rule_last() {
         ..Advice::default()
     });
     assert_eq!(order.len(), 20);
-    let first = [(Quantity::Weight, 18.0), (Quantity::Speed, 69.0)];
+    let first = [(Knob::Weight, 18.0), (Knob::Speed, 69.0)];
     assert_eq!(order[..2], first);
-    assert_eq!(order[order.len() - 1], (Quantity::Speed, 18.0));
+    assert_eq!(order[order.len() - 1], (Knob::Speed, 18.0));
     let against = order
         .iter()
-        .position(|(quantity, to)| *quantity == Quantity::Speed && *to < 60.0);
+        .position(|(quantity, to)| *quantity == Knob::Speed && *to < 60.0);
     assert_eq!(against, Some(10), "{order:?}");
 }
 
 #[test]
 fn without_a_rule_less_comes_before_more() {
     let order = order(&Advice::default());
-    let first = [
-        (Quantity::Speed, 54.0),
-        (Quantity::Weight, 18.0),
-        (Quantity::Speed, 69.0),
-    ];
+    let first = [(Knob::Speed, 54.0), (Knob::Weight, 18.0), (Knob::Speed, 69.0)];
     assert_eq!(order[..3], first);
 }
 
@@ -64,7 +60,7 @@ fn no_change_goes_below_the_gate_of_the_alarm_that_it_is_to_end() {
         of_quantity.map(|trial| trial.change.to).fold(f64::INFINITY, f64::min)
     };
     let gate = |alarm, from, quantity, expected: f64| assert_eq!(least(alarm, from, quantity), expected, "{alarm:?}");
-    let (speed, weight) = (Quantity::Speed, Quantity::Weight);
+    let (speed, weight) = (Knob::Speed, Knob::Weight);
     gate(AlarmId::StickSlip, [20.0, 40.0], speed, 12.0);
     gate(AlarmId::BackwardWhirl, [20.0, 40.0], speed, 6.0);
     for alarm in [
@@ -124,7 +120,7 @@ fn found(standing: &[AlarmId], member: impl Fn(&Trial, u32, bool) -> Outcome + S
 fn is_to(trial: &Trial, rpm: f64) -> bool {
     trial.change
         == Change {
-            quantity: Quantity::Speed,
+            quantity: Knob::Speed,
             to: rpm,
         }
 }

@@ -115,7 +115,7 @@ impl Unknown {
 
 /// An input that the driller can change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum Knob {
     /// Rotary speed (r/min).
     Speed,
     /// Weight on bit (kN).
@@ -126,7 +126,7 @@ pub enum Quantity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
     /// Which input.
-    pub quantity: Quantity,
+    pub quantity: Knob,
     /// r/min or kN.
     pub to: f64,
 }
@@ -175,8 +175,8 @@ impl fmt::Display for Tested {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Change { quantity, to } = self.change;
         let (from, unit) = match quantity {
-            Quantity::Speed => (self.from[0], "r/min"),
-            Quantity::Weight => (self.from[1], "kN"),
+            Knob::Speed => (self.from[0], "r/min"),
+            Knob::Weight => (self.from[1], "kN"),
         };
         let verb = if to > from { "Raise" } else { "Lower" };
         let what = match (self.ends.len(), self.stays.is_empty()) {
@@ -242,7 +242,7 @@ impl Trial {
     }
 }
 
-impl Quantity {
+impl Knob {
     fn name(self) -> &'static str {
         match self {
             Self::Speed => "speed",

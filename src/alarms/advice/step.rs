@@ -1,6 +1,6 @@
 //! One change of one input, as a rule of the configuration asks for it.
 
-use super::{FLUCTUATION, Operating, Quantity};
+use super::{FLUCTUATION, Knob, Operating};
 use crate::alarms::sentence::number;
 use flexdrill_config::{Advice, InputsConfig};
 
@@ -11,7 +11,7 @@ const MOST_RAISE: f64 = 3.0;
 /// One change of one input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Step {
-    pub quantity: Quantity,
+    pub quantity: Knob,
     pub raise: bool,
     /// r/min or kN.
     limit: f64,
@@ -23,10 +23,10 @@ impl Step {
     pub fn of(rule: &Advice) -> impl Iterator<Item = Self> {
         let step = |quantity, raise, limit: Option<f64>| limit.map(|limit| Self { quantity, raise, limit });
         [
-            step(Quantity::Speed, false, rule.lower_rotary_speed_rpm),
-            step(Quantity::Weight, false, rule.lower_weight_on_bit_kn),
-            step(Quantity::Speed, true, rule.raise_rotary_speed_rpm),
-            step(Quantity::Weight, true, rule.raise_weight_on_bit_kn),
+            step(Knob::Speed, false, rule.lower_rotary_speed_rpm),
+            step(Knob::Weight, false, rule.lower_weight_on_bit_kn),
+            step(Knob::Speed, true, rule.raise_rotary_speed_rpm),
+            step(Knob::Weight, true, rule.raise_weight_on_bit_kn),
         ]
         .into_iter()
         .flatten()
@@ -78,8 +78,8 @@ impl Step {
             (false, true) => ("Lower", "well below"),
         };
         let (unit, digits) = match self.quantity {
-            Quantity::Speed => ("r/min", 0),
-            Quantity::Weight => ("kN", 1),
+            Knob::Speed => ("r/min", 0),
+            Knob::Weight => ("kN", 1),
         };
         if self.quantity.is_unknown(now) {
             let (beyond, change) = if self.raise {

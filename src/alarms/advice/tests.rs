@@ -136,7 +136,7 @@ fn without_the_rigs_speed_and_weight_no_number_of_the_twin_is_given() {
         stays: AlarmSet::EMPTY,
         from: [95.0, 20.0],
         change: Change {
-            quantity: Quantity::Speed,
+            quantity: Knob::Speed,
             to: 66.0,
         },
         ended: 10,
@@ -270,7 +270,7 @@ fn a_tested_change_says_which_alarms_it_ends_and_which_stay() {
         stays: set(&[AlarmId::ChaoticWhirl]),
         from: [120.0, 10.0],
         change: Change {
-            quantity: Quantity::Speed,
+            quantity: Knob::Speed,
             to: 84.0,
         },
         ended: 9,

@@ -22,7 +22,7 @@ use flexdrill_calibration::study::overlay::{self, Provenance};
 use flexdrill_calibration::study::points::{self, Cover, Point};
 use flexdrill_calibration::study::unknowns::Unknowns;
 use flexdrill_calibration::study::{self, Study, StudySettings};
-use flexdrill_calibration::windows::{self, Motion, Sample, WindowSettings, Windows};
+use flexdrill_calibration::windows::{self, Activity, Sample, WindowSettings, Windows};
 use flexdrill_config::Config;
 use flexdrill_text::{counted, printable};
 
@@ -97,7 +97,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
     let unknowns = Unknowns::of(&config)?;
     // Off bottom and drilling need separate designs: off bottom the
     // weight is zero and the bit has no part in the torque.
-    let covers: Vec<Cover> = [Motion::OffBottom, Motion::Drilling]
+    let covers: Vec<Cover> = [Activity::OffBottom, Activity::Drilling]
         .into_iter()
         .filter_map(|motion| study::cover(&windows, motion, unknowns.modelled.len()))
         .collect();
@@ -171,8 +171,8 @@ fn tell_windows(samples: &[Sample], windows: &Windows) {
     say!(
         "{used} of {} samples are in steady windows: {} off bottom, {} drilling",
         samples.len(),
-        count(Motion::OffBottom),
-        count(Motion::Drilling)
+        count(Activity::OffBottom),
+        count(Activity::Drilling)
     );
     for (reason, samples) in windows.left_out_by_reason() {
         say!("  left out: {}, {reason}", counted(samples as u64, "sample"));
@@ -192,7 +192,7 @@ fn check_covers(config: &Config, covers: &[Cover]) -> anyhow::Result<()> {
             speed.max_rpm
         );
         anyhow::ensure!(
-            cover.motion == Motion::OffBottom || kn <= weight.max_kn,
+            cover.motion == Activity::OffBottom || kn <= weight.max_kn,
             "the log drills with up to {kn:.0} kN: must be at most inputs.weight_on_bit.max_kn, {} kN; scale the weight in \
              the mapping or change the configuration",
             weight.max_kn

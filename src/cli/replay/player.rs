@@ -11,9 +11,9 @@ use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{Recorder, Recording, Topic};
 use crate::cli::source::FromRig;
-use crate::compare::{self, Samples};
 use crate::field_log::LogRows;
 use crate::messages::topics::{self, Cadence, TopicInfo};
+use crate::residuals::{self, Samples};
 use crate::session::Session;
 use flexdrill_config::{Config, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
@@ -116,7 +116,7 @@ impl Player {
     /// among its inputs.
     pub(super) fn take_followed(&mut self) -> Vec<ParameterChange> {
         let moved = self.sink.moved.take();
-        moved.map_or_else(Vec::new, |[from, to]| compare::changes(from, to))
+        moved.map_or_else(Vec::new, |[from, to]| residuals::changes(from, to))
     }
 
     /// Steps taken since the start or the last reset.

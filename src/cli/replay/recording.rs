@@ -14,11 +14,11 @@ use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::cli::source::{FromRig, MeasuredSample};
-use crate::compare::Samples;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{
     AppliedInputs, JointDeflections, Message, Residuals, RigInputs, RigMeasured, SessionInfo, TwinStatus,
 };
+use crate::residuals::Samples;
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_outputs::{ParameterChange, run_inputs};

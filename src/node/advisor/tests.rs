@@ -1,7 +1,7 @@
 //! What is asked of the search for advice, and how long its answer holds.
 
 use super::*;
-use crate::alarms::{AlarmId, AlarmSet, Change, Quantity};
+use crate::alarms::{AlarmId, AlarmSet, Change, Knob};
 
 const AT: [f64; 2] = [120.0, 10.0];
 
@@ -50,7 +50,7 @@ fn tested() -> Tested {
         stays: AlarmSet::EMPTY,
         from: AT,
         change: Change {
-            quantity: Quantity::Speed,
+            quantity: Knob::Speed,
             to: 72.0,
         },
         ended: 9,

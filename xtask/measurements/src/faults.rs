@@ -4,9 +4,9 @@
 
 use flexdrill_bench::table::Table;
 use flexdrill_calibration::monitor::{LEVELS, Monitor, MonitorSettings, Reading};
-use flexdrill_calibration::residual::{Cause, Quantity};
+use flexdrill_calibration::residual::{Cause, RigQuantity};
 use flexdrill_calibration::study::point::{Figures, Load, run};
-use flexdrill_calibration::windows::Motion;
+use flexdrill_calibration::windows::Activity;
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
@@ -62,9 +62,9 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
         eprintln!("the twin at {RPM} r/min and {weight} kN");
         let load = Load {
             motion: if weight > 0.0 {
-                Motion::Drilling
+                Activity::Drilling
             } else {
-                Motion::OffBottom
+                Activity::OffBottom
             },
             rotary_speed: rpm_to_rad_per_s(RPM),
             weight: kn_to_n(weight),
@@ -255,15 +255,15 @@ impl Rig {
             let of = |shown: &Shown| if off_bottom { shown.off_bottom } else { shown.drilling };
             let (truth, twin) = (of(&truth(second)), of(twin));
             let speed = if rests { 0.0 } else { rpm_to_rad_per_s(RPM) };
-            let noise = |quantity: Quantity| self.monitor.expected[quantity as usize].noise;
-            let mut measured = [f64::NAN; Quantity::COUNT];
-            measured[0] = truth[0] * shares[0] + drift[0] + noise(Quantity::SurfaceTorque) * normal();
-            measured[1] = truth[1] * shares[1] + drift[1] + noise(Quantity::HookLoad) * normal();
+            let noise = |quantity: RigQuantity| self.monitor.expected[quantity as usize].noise;
+            let mut measured = [f64::NAN; RigQuantity::COUNT];
+            measured[0] = truth[0] * shares[0] + drift[0] + noise(RigQuantity::SurfaceTorque) * normal();
+            measured[1] = truth[1] * shares[1] + drift[1] + noise(RigQuantity::HookLoad) * normal();
             // Mud pulse telemetry brings a word now and then; between two there is no value.
             if self.in_the_hole && second.is_multiple_of(WORD) {
-                measured[2] = speed + noise(Quantity::DownholeSpeed) * normal();
-                measured[3] = truth[2] * shares[2] + noise(Quantity::DownholeTorque) * normal();
-                measured[4] = truth[3] * shares[3] + noise(Quantity::DownholeWeight) * normal();
+                measured[2] = speed + noise(RigQuantity::DownholeSpeed) * normal();
+                measured[3] = truth[2] * shares[2] + noise(RigQuantity::DownholeTorque) * normal();
+                measured[4] = truth[3] * shares[3] + noise(RigQuantity::DownholeWeight) * normal();
             }
             let compared = monitor.push(&Reading {
                 step: 1.0,

@@ -1,16 +1,16 @@
 //! `--cases quality`: the model's own estimate of its error, next to the error against finer steps.
 
-use flexdrill_bench::cases::{Case, hard};
+use flexdrill_bench::cases::{BenchCase, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{ModelQuality, QualityLevel};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
-use flexdrill_verify::step_error::{Motion, Record, StepErrorFailure, refined};
+use flexdrill_verify::step_error::{Course, Record, StepErrorFailure, refined};
 
 /// Beside the hard cases: contacts too stiff for the step, and a longer tool.
-const MORE: &[Case] = &[
-    Case {
+const MORE: &[BenchCase] = &[
+    BenchCase {
         name: "contact 1e8 / 5e8 N/m, 10 kN",
         wob: 10.0,
         rpm: None,
@@ -20,7 +20,7 @@ const MORE: &[Case] = &[
                 .with_value("contact.outer.stiffness", 5e8)
         },
     },
-    Case {
+    BenchCase {
         name: "66 links, 10 kN",
         wob: 10.0,
         rpm: None,
@@ -62,11 +62,11 @@ pub(crate) fn tables(config: &Config, rpm: f64, duration: f64, steps: &[f64]) ->
             ..Inputs::default()
         };
         // The motion of the tool sets the interval for all its runs.
-        let motion = Motion::of(&tool, inputs, duration);
+        let motion = Course::of(&tool, inputs, duration);
         let run = |config: &Config| {
             eprintln!("{}: {duration} s in steps of {} s", case.name, config.solver.time_step);
             // Intervals are whole numbers of each step.
-            let motion = Motion::of(config, inputs, motion.duration);
+            let motion = Course::of(config, inputs, motion.duration);
             Record::run(config, &motion, 0.0)
         };
         // The fine run is the reference for all others of the case, and comes first.

@@ -1,12 +1,12 @@
 //! `--cases step-error`: the configured step against an eighth of it, with its speed.
 
-use flexdrill_bench::cases::{Case, hard};
+use flexdrill_bench::cases::{BenchCase, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_realtime::monotonic;
-use flexdrill_verify::step_error::{Calm, Figure, Motion, Profile, Record, Statistics, StepErrorFailure, refined};
+use flexdrill_verify::step_error::{Calm, Course, Figure, Profile, Record, Statistics, StepErrorFailure, refined};
 
 /// The stable runs are shorter by this than the chaotic ones: after 5 s the run-up and a whole turn are over.
 const CALM_SHORTER: f64 = 6.0;
@@ -95,17 +95,17 @@ impl Tables {
         }
     }
 
-    fn take(&mut self, name: &str, case: &Case, config: &Config, rpm: f64, duration: f64) -> anyhow::Result<()> {
+    fn take(&mut self, name: &str, case: &BenchCase, config: &Config, rpm: f64, duration: f64) -> anyhow::Result<()> {
         let inputs = Inputs {
             rotary_speed: rpm_to_rad_per_s(rpm),
             weight_on_bit: kn_to_n(case.wob),
             ..Inputs::default()
         };
-        let calm = Motion::of(config, inputs, duration / CALM_SHORTER);
+        let calm = Course::of(config, inputs, duration / CALM_SHORTER);
         if let Some(row) = self.kept(name, calm_row(name, config, &calm))? {
             self.calm.row(row);
         }
-        let chaotic = Motion::of(config, inputs, duration);
+        let chaotic = Course::of(config, inputs, duration);
         if let Some((row, profiles)) = self.kept(name, chaotic_rows(name, config, &chaotic))? {
             self.chaotic.row(row);
             profiles.into_iter().for_each(|row| self.profiles.row(row));
@@ -126,7 +126,7 @@ impl Tables {
     }
 }
 
-fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5], StepErrorFailure> {
+fn calm_row(name: &str, config: &Config, motion: &Course) -> Result<[String; 5], StepErrorFailure> {
     eprintln!("{name}: two runs of {} s without bit torque", motion.duration);
     let config = config.with_value("tool.bit.friction_factor", 0.0)?;
     let coarse = Record::run(&config, motion, 0.0)?;
@@ -155,7 +155,7 @@ fn calm_row(name: &str, config: &Config, motion: &Motion) -> Result<[String; 5],
 
 type ChaoticRows = ([String; 6], Vec<[String; 8]>);
 
-fn chaotic_rows(name: &str, config: &Config, motion: &Motion) -> Result<ChaoticRows, StepErrorFailure> {
+fn chaotic_rows(name: &str, config: &Config, motion: &Course) -> Result<ChaoticRows, StepErrorFailure> {
     eprintln!(
         "{name}: three runs of {} s and three of an eighth of the step",
         motion.duration

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use flexdrill_bench::cases::{Case, hard};
+use flexdrill_bench::cases::{BenchCase, hard};
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::units::{kn_to_n, n_to_kn, rpm_to_rad_per_s};
 use flexdrill_motion::{BIT, KICK_OFF};
-use flexdrill_verify::step_error::{Motion, Record};
+use flexdrill_verify::step_error::{Course, Record};
 
 use crate::parts::{Parts, Run};
 
@@ -133,7 +133,7 @@ pub(crate) struct Plan<'a> {
 /// A run that is to be done.
 struct Task {
     config: Config,
-    motion: Motion,
+    motion: Course,
     nudge: f64,
     run: Run,
 }
@@ -194,7 +194,7 @@ pub(crate) fn tables(plan: &Plan<'_>) -> anyhow::Result<String> {
 }
 
 /// All runs in the order of the table.
-fn tasks(plan: &Plan<'_>, cases: &[Case]) -> anyhow::Result<Vec<Task>> {
+fn tasks(plan: &Plan<'_>, cases: &[BenchCase]) -> anyhow::Result<Vec<Task>> {
     let mut tasks = Vec::new();
     for (number, case) in cases.iter().enumerate() {
         let tool = (case.changes)(plan.config)?;
@@ -204,7 +204,7 @@ fn tasks(plan: &Plan<'_>, cases: &[Case]) -> anyhow::Result<Vec<Task>> {
             ..Inputs::default()
         };
         // Intervals are those of the whole step.
-        let motion = Motion::of(&tool, inputs, plan.duration);
+        let motion = Course::of(&tool, inputs, plan.duration);
         for (index, part) in plan.steps.iter().enumerate() {
             let config = tool.with_value("solver.time_step", part * tool.solver.time_step)?;
             for run in 0..plan.runs {

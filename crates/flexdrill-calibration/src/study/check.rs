@@ -9,7 +9,7 @@ use super::point::Load;
 use super::points::{self, Point};
 use crate::BAND;
 use crate::fit::EXPLAINS;
-use crate::windows::{Channel, Motion};
+use crate::windows::{Activity, Channel};
 use flexdrill_config::Config;
 
 /// Largest number of loads that are checked, in each state of motion.
@@ -190,7 +190,7 @@ fn beyond(checked: &[Checked], of: impl Fn(&Checked) -> Option<f64>) -> Option<(
 /// Windows that are checked: in each state of motion those of the least, the middle and the largest load.
 fn chosen(study: &Study) -> Vec<usize> {
     let mut chosen = Vec::new();
-    for motion in [Motion::OffBottom, Motion::Drilling] {
+    for motion in [Activity::OffBottom, Activity::Drilling] {
         let mut of_motion: Vec<usize> = study
             .problem
             .observations
@@ -245,8 +245,8 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
                     rotary_speed: of_log.rotary_speed.abs(),
                     // Off bottom the log's weight is that of its sensor's error.
                     weight: match of_log.motion {
-                        Motion::OffBottom => 0.0,
-                        Motion::Drilling => of_log.weight,
+                        Activity::OffBottom => 0.0,
+                        Activity::Drilling => of_log.weight,
                     },
                 },
                 found: None,

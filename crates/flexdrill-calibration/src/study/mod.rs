@@ -7,11 +7,11 @@ pub mod points;
 pub mod unknowns;
 
 use crate::CalibrationError;
-use crate::fit::{Outcome, Problem, Quantity, Refusal, observations, refusals};
+use crate::fit::{Outcome, Predicted, Problem, Refusal, observations, refusals};
 use crate::smoother::SmootherSettings;
 use crate::surrogate::{Surrogate, usual_points};
 use crate::unknown::Unknown;
-use crate::windows::{Channel, Motion, Window, Windows};
+use crate::windows::{Activity, Channel, Window, Windows};
 use check::{Checked, Objection, check, objections};
 use flexdrill_config::Config;
 use flexdrill_core::units::kn_to_n;
@@ -68,7 +68,7 @@ impl Study {
 /// Ranges of speed and weight that the points of a state of motion cover, from the windows.
 ///
 /// `None` without a window in that state.
-pub fn cover(windows: &Windows, motion: Motion, unknowns: usize) -> Option<Cover> {
+pub fn cover(windows: &Windows, motion: Activity, unknowns: usize) -> Option<Cover> {
     let of = |of: fn(&Window) -> f64| {
         let all = windows.steady.iter().filter(|window| window.motion == motion).map(of);
         let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
@@ -91,13 +91,13 @@ pub fn cover(windows: &Windows, motion: Motion, unknowns: usize) -> Option<Cover
 }
 
 /// What is fitted with: the surrogates of every state of motion and channel that the windows have.
-fn quantities(windows: &Windows, points: &[Point], unknowns: &Unknowns) -> Result<Vec<Quantity>, CalibrationError> {
+fn quantities(windows: &Windows, points: &[Point], unknowns: &Unknowns) -> Result<Vec<Predicted>, CalibrationError> {
     let modelled = unknowns.modelled.len();
     let mut all = Vec::new();
-    for motion in [Motion::OffBottom, Motion::Drilling] {
+    for motion in [Activity::OffBottom, Activity::Drilling] {
         for channel in Channel::ALL {
             let off_bottom_of_the_bit =
-                motion == Motion::OffBottom && matches!(channel, Channel::BitTorque | Channel::BitWeight);
+                motion == Activity::OffBottom && matches!(channel, Channel::BitTorque | Channel::BitWeight);
             // Off bottom the bit carries nothing, whatever the coefficients are.
             if off_bottom_of_the_bit || windows.having(motion, channel).next().is_none() {
                 continue;
@@ -118,11 +118,11 @@ fn quantities(windows: &Windows, points: &[Point], unknowns: &Unknowns) -> Resul
                 continue;
             }
             let state = match motion {
-                Motion::OffBottom => "off bottom",
-                Motion::Drilling => "while drilling",
+                Activity::OffBottom => "off bottom",
+                Activity::Drilling => "while drilling",
             };
             let name = format!("{} {state}", channel.name_and_unit().0);
-            all.push(Quantity {
+            all.push(Predicted {
                 channel,
                 motion,
                 // The surrogate is fitted to the figures without tare, which is added afterwards as its own unknown.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::windows::{Channel, Motion};
+use crate::windows::{Activity, Channel};
 use flexdrill_config::{Config, ConfigError, Law};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -25,7 +25,7 @@ const RUN_UP: f64 = 12.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Load {
     /// Off bottom or drilling.
-    pub motion: Motion,
+    pub motion: Activity,
     /// Speed of the drive (rad/s), above 0.
     pub rotary_speed: f64,
     /// Weight at the surface (N); 0 off bottom.

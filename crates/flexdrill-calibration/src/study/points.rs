@@ -12,7 +12,7 @@ use super::point::{self, Figures, Load};
 use super::unknowns::Unknowns;
 use crate::design::latin_hypercube;
 use crate::fit::DESIGN;
-use crate::windows::{Channel, Motion};
+use crate::windows::{Activity, Channel};
 use flexdrill_config::Config;
 
 /// A point: standardised unknowns and load, with the twin's figures or why there are none.
@@ -43,7 +43,7 @@ impl Point {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cover {
     /// State of motion.
-    pub motion: Motion,
+    pub motion: Activity,
     /// Range of the speed (rad/s).
     pub rotary_speed: [f64; 2],
     /// Range of the weight (N).
@@ -69,8 +69,8 @@ pub fn design(unknowns: usize, cover: &Cover, seed: u64) -> Vec<Point> {
                 motion: cover.motion,
                 rotary_speed: between(cover.rotary_speed, shares[unknowns]),
                 weight: match cover.motion {
-                    Motion::OffBottom => 0.0,
-                    Motion::Drilling => between(cover.weight, shares[unknowns + 1]),
+                    Activity::OffBottom => 0.0,
+                    Activity::Drilling => between(cover.weight, shares[unknowns + 1]),
                 },
             },
             found: None,
@@ -251,10 +251,10 @@ fn key(point: &Point) -> String {
     text
 }
 
-const fn name(motion: Motion) -> &'static str {
+const fn name(motion: Activity) -> &'static str {
     match motion {
-        Motion::OffBottom => "off_bottom",
-        Motion::Drilling => "drilling",
+        Activity::OffBottom => "off_bottom",
+        Activity::Drilling => "drilling",
     }
 }
 
@@ -277,7 +277,7 @@ fn point_of(line: &str, modelled: usize) -> Option<Point> {
     let [problem] = problem else {
         return None;
     };
-    let motion = [Motion::OffBottom, Motion::Drilling]
+    let motion = [Activity::OffBottom, Activity::Drilling]
         .into_iter()
         .find(|motion| name(*motion) == inputs[0])?;
     let numbers: Vec<f64> = inputs[1..]
@@ -313,7 +313,7 @@ mod tests {
         let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
         let unknowns = Unknowns::of(&config).unwrap();
         let cover = Cover {
-            motion: Motion::Drilling,
+            motion: Activity::Drilling,
             rotary_speed: [4.0, 6.0],
             weight: [8e3, 15e3],
             points: 6,
@@ -343,7 +343,7 @@ mod tests {
     #[test]
     fn the_design_covers_loads_and_priors() {
         let cover = Cover {
-            motion: Motion::OffBottom,
+            motion: Activity::OffBottom,
             rotary_speed: [4.0, 6.0],
             weight: [0.0, 0.0],
             points: 40,

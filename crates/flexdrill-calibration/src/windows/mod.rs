@@ -55,7 +55,7 @@ pub struct Sample {
 
 /// State of motion of a window. It decides which contacts slide in which direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Motion {
+pub enum Activity {
     /// Rotating without weight: friction and tare alone.
     OffBottom,
     /// Rotating with weight.
@@ -124,7 +124,7 @@ pub struct Window {
     /// Samples.
     pub samples: usize,
     /// State of motion.
-    pub motion: Motion,
+    pub motion: Activity,
     /// Mean speed (rad/s).
     pub rotary_speed: f64,
     /// Mean weight at the surface (N).
@@ -199,7 +199,7 @@ impl Windows {
     }
 
     /// The windows in a state of motion that have a channel.
-    pub fn having(&self, motion: Motion, channel: Channel) -> impl Iterator<Item = (&Window, Mean)> {
+    pub fn having(&self, motion: Activity, channel: Channel) -> impl Iterator<Item = (&Window, Mean)> {
         self.steady
             .iter()
             .filter(move |window| window.motion == motion)
@@ -272,21 +272,21 @@ fn smoothed(samples: &[Sample], settings: &WindowSettings) -> Vec<Sample> {
         .collect()
 }
 
-fn motion(sample: &Sample, settings: &WindowSettings) -> Result<Motion, Reason> {
+fn motion(sample: &Sample, settings: &WindowSettings) -> Result<Activity, Reason> {
     if !(sample.rotary_speed.is_finite() && sample.weight.is_finite() && sample.time.is_finite()) {
         Err(Reason::Missing)
     } else if sample.rotary_speed.abs() < settings.standing {
         Err(Reason::Standing)
     } else if sample.weight < settings.off_bottom {
-        Ok(Motion::OffBottom)
+        Ok(Activity::OffBottom)
     } else {
-        Ok(Motion::Drilling)
+        Ok(Activity::Drilling)
     }
 }
 
 /// The end (exclusive) of the part from `begin` on in which the motion stays the same, time goes on, and speed and weight
 /// stay within their bands about their means so far.
-fn steady_until(samples: &[Sample], begin: usize, state: Motion, settings: &WindowSettings) -> usize {
+fn steady_until(samples: &[Sample], begin: usize, state: Activity, settings: &WindowSettings) -> usize {
     let (mut speed, mut weight) = (samples[begin].rotary_speed, samples[begin].weight);
     for next in begin + 1..samples.len() {
         let sample = &samples[next];
@@ -327,7 +327,7 @@ impl Windows {
     }
 
     /// Divides a steady part into windows of equal length.
-    fn add_windows(&mut self, part: &[Sample], motion: Motion, settings: &WindowSettings) {
+    fn add_windows(&mut self, part: &[Sample], motion: Activity, settings: &WindowSettings) {
         let (Some(first), Some(last)) = (part.first(), part.last()) else {
             return;
         };
@@ -343,7 +343,7 @@ impl Windows {
         }
     }
 
-    fn add_window(&mut self, part: &[Sample], motion: Motion, settings: &WindowSettings) {
+    fn add_window(&mut self, part: &[Sample], motion: Activity, settings: &WindowSettings) {
         let (Some(first), Some(last)) = (part.first(), part.last()) else {
             return;
         };

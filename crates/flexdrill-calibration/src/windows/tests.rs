@@ -50,11 +50,11 @@ fn steady_parts_are_windows_and_everything_else_has_its_reason() {
     assert_eq!(
         windows,
         [
-            (Motion::OffBottom, [17, 63], true),
+            (Activity::OffBottom, [17, 63], true),
             // The end of the ramp lies within the band of the weight, so the settling begins on it.
-            (Motion::Drilling, [101, 201], true),
-            (Motion::Drilling, [247, 301], false),
-            (Motion::Drilling, [317, 401], false),
+            (Activity::Drilling, [101, 201], true),
+            (Activity::Drilling, [247, 301], false),
+            (Activity::Drilling, [317, 401], false),
         ],
         "{found:?}"
     );
@@ -87,7 +87,7 @@ fn a_noisy_weight_is_steady_and_a_step_of_it_is_not() {
     assert!(used > 300, "{found:?}");
     for window in &found.steady {
         let near = [15e3, 25e3].iter().any(|weight| (window.weight - weight).abs() < 2e3);
-        assert!(near && window.motion == Motion::Drilling, "{window:?}");
+        assert!(near && window.motion == Activity::Drilling, "{window:?}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{AlarmPair, Along, Comparison, Figures, Pair, Quantity, Stood};
+use super::{AlarmPair, Along, ComparedQuantity, Comparison, Figures, Pair, Stood};
 use crate::reading::Summary;
 use flexdrill_outputs::words;
 
@@ -39,7 +39,7 @@ fn run(summary: &Summary) -> Value {
 }
 
 /// Values of the table are in the unit that is shown there; here everything is SI.
-fn quantity(quantity: &Quantity) -> Value {
+fn quantity(quantity: &ComparedQuantity) -> Value {
     let figures = |figures: &Option<Figures>| {
         figures
             .as_ref()

@@ -10,7 +10,7 @@ pub(crate) mod quantity;
 use std::collections::BTreeMap;
 
 pub(crate) use along::Along;
-pub(crate) use quantity::Quantity;
+pub(crate) use quantity::ComparedQuantity;
 
 use crate::incidents::seconds;
 use crate::reading::Summary;
@@ -71,7 +71,7 @@ fn relative(a: f64, b: f64, small: f64) -> f64 {
 pub struct Comparison<'a> {
     pub(crate) a: &'a Summary,
     pub(crate) b: &'a Summary,
-    pub(crate) quantities: Vec<Quantity>,
+    pub(crate) quantities: Vec<ComparedQuantity>,
     pub(crate) along: Vec<Along>,
     pub(crate) alarms: Vec<AlarmPair>,
 }
@@ -169,7 +169,7 @@ mod tests {
                 max,
             })
         };
-        let mut quantity = Quantity {
+        let mut quantity = ComparedQuantity {
             name: String::new(),
             unit: quantity::Unit {
                 shown: "N m",

@@ -53,13 +53,13 @@ pub(crate) enum Importance {
 
 /// The comparison of one quantity over time. Values in SI.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Quantity {
+pub(crate) struct ComparedQuantity {
     pub name: String,
     pub unit: Unit,
     pub runs: Pair<Option<Figures>>,
 }
 
-impl Quantity {
+impl ComparedQuantity {
     /// How much the difference of this quantity matters.
     pub(crate) fn importance(&self) -> Importance {
         match self.name.as_str() {
@@ -107,11 +107,11 @@ fn figures(histories: [&History; 2]) -> Pair<Option<Figures>> {
 }
 
 /// All quantities that at least one run has and that are not zero throughout in both.
-pub(crate) fn all(a: &Summary, b: &Summary) -> Vec<Quantity> {
+pub(crate) fn all(a: &Summary, b: &Summary) -> Vec<ComparedQuantity> {
     let acts = |figures: &Option<Figures>| figures.as_ref().is_some_and(|f| f.min != 0.0 || f.max != 0.0);
     known(a, b)
         .into_iter()
-        .map(|known| Quantity {
+        .map(|known| ComparedQuantity {
             name: known.name,
             unit: known.unit,
             runs: figures(known.histories),

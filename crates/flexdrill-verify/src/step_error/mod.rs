@@ -10,7 +10,7 @@ mod record;
 mod statistics;
 
 pub use calm::Calm;
-pub use record::{Motion, Record};
+pub use record::{Course, Record};
 pub use statistics::{Figure, Profile, Statistics};
 
 use flexdrill_config::{Config, ConfigError};

@@ -19,7 +19,7 @@ const WHIRL_EVERY: f64 = 0.5;
 
 /// Inputs and duration of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct Course {
     /// Constant inputs; the weight is on before the start, so that the run begins at rest under it.
     pub inputs: Inputs,
     /// Model time after the static start (s).
@@ -28,7 +28,7 @@ pub struct Motion {
     pub interval: f64,
 }
 
-impl Motion {
+impl Course {
     /// With intervals of some 20 ms that are whole numbers of `config`'s steps, and so of steps that are a whole part
     /// of them.
     pub fn of(config: &Config, inputs: Inputs, duration: f64) -> Self {
@@ -96,7 +96,7 @@ impl Record {
     ///
     /// # Errors
     /// When the tool cannot be built or a step fails.
-    pub fn run(config: &Config, motion: &Motion, nudge: f64) -> Result<Self, StepErrorFailure> {
+    pub fn run(config: &Config, motion: &Course, nudge: f64) -> Result<Self, StepErrorFailure> {
         let step = config.solver.time_step;
         // The run starts under its weight, so that the nudge is the only disturbance.
         let weight = motion.inputs.weight_on_bit;
@@ -170,7 +170,7 @@ impl Record {
     ///
     /// # Errors
     /// As [`Record::run`].
-    pub fn runs(config: &Config, motion: &Motion) -> Result<[Self; 3], StepErrorFailure> {
+    pub fn runs(config: &Config, motion: &Course) -> Result<[Self; 3], StepErrorFailure> {
         let [a, b, c] = std::thread::scope(|scope| {
             NUDGES
                 .map(|nudge| scope.spawn(move || Self::run(config, motion, nudge)))

@@ -16,7 +16,7 @@ use flexdrill_calibration::study::points::{self, Cover, Point, design};
 use flexdrill_calibration::study::unknowns::Unknowns;
 use flexdrill_calibration::study::{StudySettings, study};
 use flexdrill_calibration::surrogate::usual_points;
-use flexdrill_calibration::windows::{Channel, Motion, Sample, WindowSettings, Windows, find};
+use flexdrill_calibration::windows::{Activity, Channel, Sample, WindowSettings, Windows, find};
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, n_to_kn, rad_per_s_to_rpm, rpm_to_rad_per_s};
 
@@ -84,13 +84,13 @@ fn covers(config: &Config, unknowns: &Unknowns) -> [Cover; 2] {
     let rotary_speed = SPEEDS.map(rpm_to_rad_per_s);
     [
         Cover {
-            motion: Motion::OffBottom,
+            motion: Activity::OffBottom,
             rotary_speed,
             weight: [0.0; 2],
             points: usual_points(modelled + 1),
         },
         Cover {
-            motion: Motion::Drilling,
+            motion: Activity::Drilling,
             rotary_speed,
             weight: WEIGHTS.map(|share| share * config.rock.depth_of_cut.wear_flat_force),
             points: usual_points(modelled + 2),
@@ -114,12 +114,12 @@ impl Log {
             let [low, high] = drilling.weight;
             let load = match part.checked_sub(1) {
                 None => Load {
-                    motion: Motion::OffBottom,
+                    motion: Activity::OffBottom,
                     rotary_speed,
                     weight: 0.0,
                 },
                 Some(fifth) => Load {
-                    motion: Motion::Drilling,
+                    motion: Activity::Drilling,
                     rotary_speed,
                     weight: low + (fifth as f64 + random.f64()) / DRILLING as f64 * (high - low),
                 },
@@ -161,8 +161,8 @@ impl Log {
                 None => anyhow::bail!("a run of a log did not take place"),
             };
             let seconds = match point.load.motion {
-                Motion::OffBottom => OFF_BOTTOM_TIME,
-                Motion::Drilling => DRILLING_TIME,
+                Activity::OffBottom => OFF_BOTTOM_TIME,
+                Activity::Drilling => DRILLING_TIME,
             };
             for _ in 0..seconds {
                 // Channels start as NaN, so that one that is forgotten counts as not measured.
@@ -382,8 +382,8 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
     for quantity in &first.problem.quantities {
         let (name, unit) = quantity.channel.name_and_unit();
         let motion = match quantity.motion {
-            Motion::OffBottom => "off bottom",
-            Motion::Drilling => "drilling",
+            Activity::OffBottom => "off bottom",
+            Activity::Drilling => "drilling",
         };
         let [low, high] = quantity.surrogate.range;
         surrogates.row([

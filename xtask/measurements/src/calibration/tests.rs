@@ -85,7 +85,7 @@ fn full_runs_find_a_surrogate_that_has_never_seen_the_kink() {
     let flats = short.config.rock.depth_of_cut.wear_flat_force;
     let cuts = |point: &&Point| match &point.found {
         Some(Ok(figures)) => {
-            point.load.motion == Motion::OffBottom || figures[Channel::BitWeight as usize] > 1.02 * flats
+            point.load.motion == Activity::OffBottom || figures[Channel::BitWeight as usize] > 1.02 * flats
         }
         _ => false,
     };

@@ -6,7 +6,7 @@ use super::outcome::{Outcome, Trial};
 use super::random::Random;
 use super::space::{DIMENSIONS, Scale, case, starts, written};
 use flexdrill_config::Config;
-use flexdrill_paper::{Case, record};
+use flexdrill_paper::{Setup, record};
 
 /// How much is tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,7 +147,7 @@ fn outcome(plan: &Plan, stage: Stage, point: &[f64]) -> Outcome {
         Ok(mut case) => {
             if stage == Stage::Confirmation {
                 case.turns = plan.full_turns;
-                case.settling_turns = Case::new(case.config.clone()).settling_turns;
+                case.settling_turns = Setup::new(case.config.clone()).settling_turns;
             } else {
                 case.turns = plan.turns;
             }

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use flexdrill_config::{Config, ConfigError};
 
-use flexdrill_paper::Case;
+use flexdrill_paper::Setup;
 
 /// How a coordinate from 0 to 1 is spread over a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -308,7 +308,7 @@ pub fn written(dimension: &Dimension, at: f64) -> String {
 ///
 /// # Errors
 /// When a value is refused.
-pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
+pub fn case(base: &Config, point: &[f64]) -> Result<Setup, ConfigError> {
     let at = |name: &str| DIMENSIONS.iter().position(|d| d.name == name).unwrap_or_default();
     let number = |name: &str| value(&DIMENSIONS[at(name)], point[at(name)]);
     let word = |name: &str| written(&DIMENSIONS[at(name)], point[at(name)]);
@@ -358,7 +358,7 @@ pub fn case(base: &Config, point: &[f64]) -> Result<Case, ConfigError> {
             ("boundary.supports", supports(&word("guide_top"))),
         ]);
     // Checked as a whole: combinations that no tool can have are refused here.
-    let mut case = Case::new(base.with_values("parameter", values)?);
+    let mut case = Setup::new(base.with_values("parameter", values)?);
     case.weight_on_bit_kn = number("wob_kn");
     case.settling_turns = 1.0;
     case.impatient = true;

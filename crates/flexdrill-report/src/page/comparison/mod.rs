@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::text::{capital, duration, number, percent, times};
 use super::{document, drawn, facts, priority_class};
 use crate::ReportError;
-use crate::compare::{AlarmPair, Along, Comparison, Figures, Quantity, Stood, figures};
+use crate::compare::{AlarmPair, Along, ComparedQuantity, Comparison, Figures, Stood, figures};
 use crate::incidents::{Incident, seconds};
 use crate::plots;
 use crate::reading::Summary;
@@ -102,7 +102,7 @@ fn verdict(comparison: &Comparison<'_>, tolerance: Option<f64>) -> Markup {
     }
 }
 
-fn of_run(figures: &Option<Figures>, quantity: &Quantity) -> String {
+fn of_run(figures: &Option<Figures>, quantity: &ComparedQuantity) -> String {
     number(
         figures
             .as_ref()
@@ -137,8 +137,8 @@ fn raised_otherwise(alarms: &[AlarmPair]) -> Vec<&AlarmPair> {
 
 /// The quantities that differ, the most important first: a large difference of a small drag matters less than a small one
 /// of the weight at the bit.
-fn largest(quantities: &[Quantity]) -> Vec<&Quantity> {
-    let mut order: Vec<&Quantity> = quantities
+fn largest(quantities: &[ComparedQuantity]) -> Vec<&ComparedQuantity> {
+    let mut order: Vec<&ComparedQuantity> = quantities
         .iter()
         .filter(|quantity| quantity.difference().is_some_and(|difference| difference > 0.0))
         .collect();
@@ -188,7 +188,7 @@ fn over_time(comparison: &Comparison<'_>, tolerance: Option<f64>) -> Markup {
     }
 }
 
-fn row(quantity: &Quantity, tolerance: Option<f64>) -> Markup {
+fn row(quantity: &ComparedQuantity, tolerance: Option<f64>) -> Markup {
     let factor = quantity.unit.factor;
     let values = |figures: &Option<Figures>| match figures {
         Some(figures) => [figures.min, figures.mean, figures.max].map(|value| number(factor * value)),

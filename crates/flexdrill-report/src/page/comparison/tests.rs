@@ -12,7 +12,7 @@ fn cards_begin_with_what_matters_most() {
                 max: mean,
             })
         };
-        Quantity {
+        ComparedQuantity {
             name: name.to_owned(),
             unit: Unit {
                 shown: "kN",

@@ -277,7 +277,7 @@ fn beyond(axis: &'static str, values: &[f64], value: f64, unit: &'static str) ->
 mod tests {
     use super::*;
     use flexdrill_alarms::Priority;
-    use flexdrill_map::{FORMAT, OfStart, Start, State};
+    use flexdrill_map::{FORMAT, OfStart, Origin, Start};
 
     fn config() -> Config {
         Config::from_text("coarse.yaml", include_str!("../config/coarse.yaml")).unwrap()
@@ -294,7 +294,7 @@ mod tests {
 
     fn known(chance: f64, alarm: &str) -> OfStart {
         OfStart {
-            state: State::Known,
+            state: Origin::Known,
             expected: chance > 0.1,
             confidence: 1.0,
             chance: Some(chance),
@@ -324,7 +324,7 @@ mod tests {
             (40.0, 10.0) => [
                 known(0.0, ""),
                 OfStart {
-                    state: State::Unknown,
+                    state: Origin::Unknown,
                     members: 1,
                     failed: 1,
                     ..OfStart::inferred(false, 0.5)

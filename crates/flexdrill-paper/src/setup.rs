@@ -10,7 +10,7 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
 /// A configuration at constant inputs, from rest.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case {
+pub struct Setup {
     /// Tool, well, solver.
     pub config: Config,
     /// Rotary speed (r/min).
@@ -32,10 +32,10 @@ pub struct Case {
 const PAPER_RPM: f64 = 40.0;
 /// Weight on bit (kN) where the configuration has none.
 const USUAL_KN: f64 = 10.0;
-/// Steps before [`Case::impatient`] judges.
+/// Steps before [`Setup::impatient`] judges.
 const PATIENCE: u64 = 400;
 
-impl Case {
+impl Setup {
     /// The configuration at its initial inputs, or at 40 r/min and 10 kN where these are zero.
     pub fn new(config: Config) -> Self {
         let given = |value: f64, otherwise: f64| if value > 0.0 { value } else { otherwise };
@@ -63,7 +63,7 @@ impl Case {
 ///
 /// # Errors
 /// When the configuration is refused, a step fails, or the energy audit does.
-pub fn record(case: &Case, mut progress: impl FnMut(f64)) -> Result<Record, PaperError> {
+pub fn record(case: &Setup, mut progress: impl FnMut(f64)) -> Result<Record, PaperError> {
     // Turns are the unit of the record, so a standing tool has none.
     if case.rotary_speed_rpm.is_nan() || case.rotary_speed_rpm <= 0.0 {
         return Err(PaperError::Standing {

@@ -9,7 +9,7 @@ mod following;
 
 use flexdrill_calibration::follow::Instant;
 use flexdrill_calibration::monitor::{Compared, Monitor, MonitorSettings, Reading};
-use flexdrill_calibration::residual::{Quantity, Residual};
+use flexdrill_calibration::residual::{Residual, RigQuantity};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputState, MeasuredKind};
 use flexdrill_core::twin::{Frame, Snapshot};
@@ -29,19 +29,19 @@ const INTERVAL: f64 = 1.0;
 const DEPTH_AGE: f64 = 60.0;
 
 /// What rig and twin are compared in, as the rig measures it.
-const fn kind(quantity: Quantity) -> MeasuredKind {
+const fn kind(quantity: RigQuantity) -> MeasuredKind {
     match quantity {
-        Quantity::SurfaceTorque => MeasuredKind::SurfaceTorque,
-        Quantity::HookLoad => MeasuredKind::HookLoad,
-        Quantity::DownholeSpeed => MeasuredKind::DownholeRotarySpeed,
-        Quantity::DownholeTorque => MeasuredKind::DownholeTorque,
-        Quantity::DownholeWeight => MeasuredKind::DownholeWeightOnBit,
+        RigQuantity::SurfaceTorque => MeasuredKind::SurfaceTorque,
+        RigQuantity::HookLoad => MeasuredKind::HookLoad,
+        RigQuantity::DownholeSpeed => MeasuredKind::DownholeRotarySpeed,
+        RigQuantity::DownholeTorque => MeasuredKind::DownholeTorque,
+        RigQuantity::DownholeWeight => MeasuredKind::DownholeWeightOnBit,
     }
 }
 
 /// What the twin computes for each quantity (SI), as means over the window of transfer. A tool without a string above has
 /// its drive at the kick-off.
-fn predicted(snapshot: &Snapshot) -> [f64; Quantity::COUNT] {
+fn predicted(snapshot: &Snapshot) -> [f64; RigQuantity::COUNT] {
     let mean = &snapshot.transfer.mean;
     let top = if mean.torque[SURFACE].is_finite() {
         SURFACE
@@ -50,7 +50,7 @@ fn predicted(snapshot: &Snapshot) -> [f64; Quantity::COUNT] {
     };
     // Before the first window the means are zeros that nothing has filled.
     if snapshot.transfer.duration <= 0.0 {
-        return [f64::NAN; Quantity::COUNT];
+        return [f64::NAN; RigQuantity::COUNT];
     }
     [
         mean.torque[top],
@@ -64,8 +64,8 @@ fn predicted(snapshot: &Snapshot) -> [f64; Quantity::COUNT] {
 /// What the rig has measured since the comparison before; NaN where nothing came.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Samples {
-    /// In the order of [`Quantity::ALL`] (SI).
-    pub values: [f64; Quantity::COUNT],
+    /// In the order of [`RigQuantity::ALL`] (SI).
+    pub values: [f64; RigQuantity::COUNT],
     /// Measured depth of the bit (m), the newest that is known.
     pub bit_depth: f64,
 }
@@ -73,8 +73,8 @@ pub struct Samples {
 impl Samples {
     /// The samples of a recorded comparison.
     pub fn of(message: &messages::Residuals) -> Self {
-        let mut values = [f64::NAN; Quantity::COUNT];
-        for quantity in Quantity::ALL {
+        let mut values = [f64::NAN; RigQuantity::COUNT];
+        for quantity in RigQuantity::ALL {
             let name = kind(quantity).name();
             if let Some(of) = message.residuals.iter().find(|of| of.name == name) {
                 values[quantity as usize] = of.sample;
@@ -125,7 +125,7 @@ pub struct RigComparison {
     estimate: Estimate,
     time_step: f64,
     /// Stamps of the newest samples that were taken (ns).
-    taken: [i64; Quantity::COUNT],
+    taken: [i64; RigQuantity::COUNT],
     /// Time of the last comparison (s of model time, skipped steps included), once there was one.
     last: Option<f64>,
     /// The rig has measured one of the quantities.
@@ -141,7 +141,7 @@ impl RigComparison {
             estimate: Estimate::new(config),
             settings,
             time_step: config.solver.time_step,
-            taken: [i64::MIN; Quantity::COUNT],
+            taken: [i64::MIN; RigQuantity::COUNT],
             last: None,
             heard: false,
         }
@@ -172,8 +172,8 @@ impl RigComparison {
             let newest = measured.newest(kind).filter(|newest| !newest.suspect);
             newest.filter(|newest| instant.saturating_sub(newest.stamp) as f64 * 1e-9 <= longest)
         };
-        let mut values = [f64::NAN; Quantity::COUNT];
-        for quantity in Quantity::ALL {
+        let mut values = [f64::NAN; RigQuantity::COUNT];
+        for quantity in RigQuantity::ALL {
             let index = quantity as usize;
             let newest = known(kind(quantity), self.settings.longest_age[index]);
             if let Some(newest) = newest.filter(|newest| newest.stamp != self.taken[index]) {
@@ -201,7 +201,7 @@ impl RigComparison {
         let snapshot = &frame.snapshot;
         let good = [InputState::Ok as u8, InputState::Slow as u8].contains(&frame.input_quality);
         let (computed, friction) = (predicted(snapshot), layers_friction(snapshot));
-        let surface = Quantity::SurfaceTorque as usize;
+        let surface = RigQuantity::SurfaceTorque as usize;
         let mut expected = computed;
         expected[surface] -= self.estimate.excess(friction);
         let compared = self.monitor.push(&Reading {
@@ -239,7 +239,7 @@ fn layers_friction(snapshot: &Snapshot) -> f64 {
 }
 
 fn message(header: Header, compared: &Compared, samples: &Samples) -> messages::Residuals {
-    let residual = |quantity: Quantity| {
+    let residual = |quantity: RigQuantity| {
         let of = compared.residuals[quantity as usize].as_ref();
         let number = |get: fn(&Residual) -> f64| of.map_or(f64::NAN, get);
         messages::Residual {
@@ -255,7 +255,7 @@ fn message(header: Header, compared: &Compared, samples: &Samples) -> messages::
     };
     messages::Residuals {
         header,
-        residuals: Quantity::ALL.map(residual).into(),
+        residuals: RigQuantity::ALL.map(residual).into(),
         steady: compared.steady,
         drilling: compared.drilling,
         bit_depth: samples.bit_depth,
@@ -420,7 +420,7 @@ mod tests {
             &[(MeasuredKind::HookLoad, 1e5)],
         );
         let samples = rig.samples(&measured, START);
-        assert_eq!(samples.values[Quantity::HookLoad as usize], 1e5);
+        assert_eq!(samples.values[RigQuantity::HookLoad as usize], 1e5);
         assert!(rig.compare(&frame(&config, 1), &samples, Header::default()).is_some());
         // Inputs that are not good judge nothing.
         let mut stale = frame(&config, 2);
