@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use super::*;
 use crate::rig_inputs::Measured;
-use flexdrill_core::inputs::{InputState, MeasuredKind};
+use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_core::twin::{Run, Simulation};
 use flexdrill_messages::topics::Cadence;
 use flexdrill_messages::{RigMeasured, from_cdr};
@@ -68,7 +68,7 @@ fn hosted(config: &Arc<Config>) -> (Session, Kept) {
     let mut run = Run::new(simulation, schedule(config, &config.outputs.rates));
     let mut frame = run.new_frame();
     let (mut session, mut host) = (session(config), Kept::default());
-    let mut message = RigMeasured::not_given(session.header(START), InputState::Ok as u8, "test".into());
+    let mut message = RigMeasured::not_given(session.header(START), RigMeasured::GOOD, "test".into());
     message.set(MeasuredKind::SurfaceTorque, 300.0);
     host.measured.accept(&message, START, 0.0, 1.0).unwrap();
     session.begin(START, &mut host).unwrap();

@@ -57,13 +57,16 @@ pub(crate) struct CoupledParts {
     pub damping: [DMatrix<f64>; 3],
 }
 
+/// A node's first unknown (of the model), and the masses (kg, kg m2) of its six directions.
+pub(crate) type NodeMasses = (usize, [f64; 6]);
+
 /// How effects act on the chain that is built: `every_station` is a node where one acts at single stations in a way that does
-/// not follow from the ends of a span, `at_nodes` gives the first unknowns (of the model) of what must be nodes, with the
-/// masses (kg, kg m2) of their six directions, and `linear` adds what they have along a part of the tool.
+/// not follow from the ends of a span, `at_nodes` gives what must be nodes, and `linear` adds what they have along a part of
+/// the tool.
 #[derive(Clone, Copy)]
 pub(crate) struct Acting {
     pub every_station: bool,
-    pub at_nodes: fn(&Model) -> Vec<(usize, [f64; 6])>,
+    pub at_nodes: fn(&Model) -> Vec<NodeMasses>,
     pub linear: fn(&Segment<'_>, &mut Parts),
 }
 

@@ -122,7 +122,6 @@ impl<S: Precision> Additions<S> {
 
     /// Fills the additions, joints left out, from what was linearised by the last residual at `state`, where it is
     /// `active`, and from what is coupled everywhere by the step-constant `crossing`.
-    #[expect(clippy::too_many_arguments, reason = "the parts of one linearisation")]
     pub(super) fn linearise(
         &mut self,
         chain: &ChainModel,
