@@ -4,8 +4,8 @@ use super::*;
 use crate::rig_inputs::Measured;
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_core::twin::{Run, Simulation};
+use flexdrill_messages::RigMeasured;
 use flexdrill_messages::topics::Cadence;
-use flexdrill_messages::{RigMeasured, from_cdr};
 use flexdrill_outputs::{MeasuredValues as _, schedule};
 
 const SECOND: i64 = 1_000_000_000;
@@ -125,7 +125,8 @@ fn all_topics_of_a_run_come_from_the_session() {
         .iter()
         .rfind(|(topic, ..)| *topic == topics::RESIDUALS.name)
         .unwrap();
-    assert_eq!(Some(&from_cdr::<Residuals>(newest).unwrap()), session.residuals());
+    // By bytes: values that are not known are not equal to themselves.
+    assert_eq!(*newest, to_cdr(session.residuals().unwrap()).unwrap());
     // One message of applied inputs at the start and one repetition a second later; the second one is due at 2 s.
     assert_eq!(counts[topics::APPLIED_INPUTS.name], 3);
     assert_eq!(host.sent[0].0, topics::SESSION.name);
