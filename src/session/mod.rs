@@ -82,9 +82,11 @@ impl Session {
         let mut outputs = Outputs::new(&self.config, start);
         let configuration = self.config.to_yaml().unwrap_or_default();
         // The session is first in a recording, since all other messages refer to its configuration.
-        outputs.session(&self.config.hash(), &configuration, |encoded| host.send(encoded))?;
+        let sent = outputs.session(&self.config.hash(), &configuration, |encoded| host.send(encoded));
         let header = outputs.header_at(0);
+        // A run whose first message cannot be sent has begun all the same: its outputs follow.
         self.outputs = Some(outputs);
+        sent?;
         let Some(window) = &self.window else { return Ok(()) };
         host.send(Encoded {
             topic: &topics::SAFE_WINDOW,
