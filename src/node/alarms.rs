@@ -148,7 +148,7 @@ impl AlarmDesk {
 }
 
 /// Judges the alarms of the node itself, at the present time on the rig's clock. They follow the wall clock, so that they work
-/// while the model stands still.
+/// while the model stands.
 pub(super) fn judge_node(
     parts: &PublisherParts,
     book: &mut AlarmBook,

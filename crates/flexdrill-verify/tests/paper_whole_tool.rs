@@ -1,5 +1,5 @@
-//! The whole tool of `config/default.yaml`: its step is converged, its energy adds up. `flexdrill bench --cases
-//! step-error` tells the same of the hard cases.
+//! The whole tool of `config/default.yaml`: its step is converged, its energy adds up. `cargo xtask measure
+//! --cases step-error` has the same of the hard cases.
 
 #![allow(
     clippy::unwrap_used,
