@@ -79,7 +79,7 @@ impl Bound {
         InSchema(self)
     }
 
-    fn holds(self, value: f64) -> bool {
+    pub(crate) fn holds(self, value: f64) -> bool {
         let low = if self.low_is_in {
             value >= self.low
         } else {
@@ -88,7 +88,7 @@ impl Bound {
         low && value <= self.high
     }
 
-    fn words(self, unit: &str) -> String {
+    pub(crate) fn words(self, unit: &str) -> String {
         let space = if unit.is_empty() { "" } else { " " };
         let (low, high) = (number(self.low), number(self.high));
         if self.low_is_in {

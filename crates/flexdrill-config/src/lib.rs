@@ -42,6 +42,7 @@ mod string;
 mod texts;
 mod tool;
 mod transfer;
+mod uncertainty;
 mod vibration;
 mod warnings;
 mod well;
@@ -91,6 +92,10 @@ pub use string::{DrillString, Feed, Friction, Hoist, Model, Section as StringSec
 pub use texts::key_texts;
 pub use tool::{Bit, Damping, Joint, Material, Tool};
 pub use transfer::{GuidePreload, PressureFolding, Transfer};
+pub use uncertainty::{
+    Correlated, Distribution, DownholeTorque, DownholeWeight, Factor, Form, Sensors, SpeedSensor, UncertainKey,
+    Uncertainty, WeightIndicator,
+};
 pub use vibration::{ChaoticWhirl, JointLoad, Repeats, Shock, Steps, StickSlip};
 pub use well::{Section, Well};
 pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
@@ -205,6 +210,10 @@ pub struct Schema {
     /// What `flexdrill calibrate` fits to a log, and what follows the rig while it drills.
     #[serde(default)]
     pub calibration: Calibration,
+    /// What is not known: distributions of keys, errors of sensors. Default none: nothing is drawn.
+    // Left out where there is none, so that such a file has the hash that it had before the section existed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<Uncertainty>,
     /// Frames and publishing rates of the outputs.
     #[serde(default)]
     pub outputs: Outputs,
@@ -265,7 +274,8 @@ impl Config {
     }
 
     /// A copy with one value changed, checked as a whole. `key` is a dotted path (`contact.inner.friction_axial`) of a
-    /// key that [`Config::to_yaml`] shows.
+    /// key that [`Config::to_yaml`] shows. A distribution in `uncertainty` that the change takes its meaning from, such as
+    /// a factor on a value that is now 0, is removed with it.
     ///
     /// # Errors
     /// When the key does not exist, or the value is of the wrong type or out of bounds.
@@ -284,8 +294,10 @@ impl Config {
     ) -> Result<Self, ConfigError> {
         let mut tree = self.to_tree();
         let mut schema = self.schema.clone();
+        let mut states_priors = false;
         for (key, value) in values {
             let (key, value) = (key.as_ref(), value.into());
+            states_priors |= key.starts_with("uncertainty");
             let Some(node) = slot(&mut tree, key) else {
                 return Err(ConfigError::UnknownKey {
                     key: key.to_string(),
@@ -306,6 +318,10 @@ impl Config {
                 },
             })?;
         }
+        // A sweep of a tool or a client that sets a parameter says nothing of its priors, and must not fail by them.
+        if !states_priors && let Some(stated) = schema.uncertainty.take() {
+            schema.uncertainty = Some(stated.that_holds(&schema.numbers()));
+        }
         Self::from_schema(origin, schema)
     }
 
@@ -323,6 +339,15 @@ impl Config {
             begun_factor: self.begun_factor,
             ..self.with_values(origin, values)?
         })
+    }
+
+    /// A copy without the section `uncertainty`: the values that stand in the file are what is known.
+    #[must_use]
+    pub fn without_uncertainty(&self) -> Self {
+        let mut copy = self.clone();
+        // No other section depends on it, so that the rest remains checked.
+        copy.schema.uncertainty = None;
+        copy
     }
 
     /// Whether there is a key of this dotted path, with a value or an optional one without.
@@ -344,10 +369,7 @@ impl Config {
 
     /// Every numeric key with value, limits, unit and the reason of the limits.
     pub fn numbers(&self) -> Vec<NumberKey> {
-        let lines = Lines::default();
-        let mut checker = Checker::new("", &lines);
-        self.schema.check(&mut checker);
-        checker.numbers
+        self.schema.numbers()
     }
 
     /// The tool, for the mechanics.

@@ -122,6 +122,7 @@ mod tests {
         "look_ahead",
         "map",
         "outputs",
+        "uncertainty",
     ];
 
     fn config() -> Config {

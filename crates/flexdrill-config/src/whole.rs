@@ -2,8 +2,9 @@
 
 use super::Schema;
 use super::boundary::{BottomAxial, Drive, Preset};
-use super::checker::Checker;
+use super::checker::{Checker, NumberKey};
 use super::inputs::Measured;
+use super::lines::Lines;
 use super::place::Mesh;
 use super::rock::Law;
 use super::start::Start;
@@ -122,6 +123,14 @@ impl Schema {
         );
     }
 
+    /// Every numeric key.
+    pub(crate) fn numbers(&self) -> Vec<NumberKey> {
+        let lines = Lines::default();
+        let mut checker = Checker::new("", &lines);
+        self.check(&mut checker);
+        checker.numbers
+    }
+
     pub(crate) fn check(&self, c: &mut Checker) {
         // The mesh is needed by checks of places; it is formed from numbers that may be wrong, and must only not fail.
         let mesh = self.mesh();
@@ -219,5 +228,10 @@ impl Schema {
         // Alarms and outputs come last: they refer to places and quantities of everything before.
         c.below("alarms", |c| self.alarms.check(c));
         c.below("outputs", |c| self.outputs.check(c));
+        // Distributions are held against the limits of their keys, which are known once all other sections were read.
+        if let Some(uncertainty) = &self.uncertainty {
+            let known = c.numbers.clone();
+            c.below("uncertainty", |c| uncertainty.check(c, &known));
+        }
     }
 }

@@ -1,0 +1,38 @@
+//! Why a configuration has no priors, or a member cannot be drawn.
+
+use flexdrill_config::ConfigError;
+
+/// Why a configuration has no priors, or a member cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum UncertaintyError {
+    /// A key that an entry names has no value that could be replaced.
+    #[error("uncertainty: {key} has a value that cannot be changed by its name; leave it out of uncertainty.keys")]
+    Fixed {
+        /// Dotted path.
+        key: String,
+    },
+    /// The distribution has no values within the limits of its keys.
+    #[error("uncertainty: the distribution of {key} has no values from {low} to {high}, the limits of its keys")]
+    Empty {
+        /// Dotted path of the first key.
+        key: String,
+        /// Smallest draw that the limits of all keys allow.
+        low: f64,
+        /// Largest.
+        high: f64,
+    },
+    /// The correlations are not those of any set of values.
+    #[error("uncertainty.correlated: the correlations of all pairs are not positive definite")]
+    Correlation,
+    /// The configuration refuses every draw of a member.
+    #[error("uncertainty: {attempts} draws of member {member} were refused; the last one because of {reason}")]
+    Refused {
+        /// Number of the member.
+        member: u64,
+        /// Draws.
+        attempts: u32,
+        /// Why the last one was refused.
+        reason: Box<ConfigError>,
+    },
+}

@@ -1,0 +1,28 @@
+//! What is not known of a tool and its rig: the section `uncertainty` of a configuration as distributions, and plausible
+//! tools drawn from them.
+//!
+//! [`Priors::of`] reads a configuration. [`Priors::member`] draws a plausible tool: a configuration with other values,
+//! and errors of the rig's sensors. A member is a function of configuration, seed and its own number: it does not depend
+//! on how many are drawn, nor on which.
+//!
+//! # Layout
+//! - [`law`]: a distribution cut off at limits: its quantiles.
+//! - [`priors`]: all entries of a configuration, with the correlation of their draws.
+//! - [`sensors`]: the errors of the rig's sensors, by channel.
+//! - [`member`]: the draws.
+//! - [`effects`]: the table of what each prior moves, as `flexdrill sensitivity` writes it.
+
+pub mod effects;
+mod error;
+pub mod law;
+pub mod member;
+pub mod priors;
+mod random;
+pub mod sensors;
+
+pub use effects::Effects;
+pub use error::UncertaintyError;
+pub use law::Law;
+pub use member::Member;
+pub use priors::{Entry, Priors};
+pub use sensors::{Channel, Sensor, SensorError};
