@@ -11,6 +11,7 @@
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
+//! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
 //! - [`residuals`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
@@ -37,6 +38,8 @@ pub mod reach;
 pub mod residuals;
 pub mod rig_inputs;
 pub mod safe_window;
+#[cfg(feature = "sweep")]
+pub mod sensitivity;
 pub mod session;
 
 pub use flexdrill_bag as bag;

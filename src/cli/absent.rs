@@ -38,5 +38,6 @@ absent! {
     paper, PaperArgs, "paper", "paper";
     reach, ReachArgs, "reach", "sweep";
     report, ReportArgs, "report", "report";
+    sensitivity, SensitivityArgs, "sensitivity", "sweep";
     sweep, SweepArgs, "sweep", "sweep";
 }

@@ -6,13 +6,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::built_in;
+use super::{built_in, priors};
 use crate::cli::output::{say, say_text};
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::{JointKind, TorsionalMode};
 use flexdrill_core::units::kn_to_n;
+use flexdrill_uncertainty::Priors;
 
-/// Checks a configuration file and prints a summary.
+/// Checks a configuration file and prints a summary, with what is not known of its tool.
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// The configuration file (YAML).
@@ -38,6 +39,9 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
         say_text!("{}", config.to_yaml()?);
     } else {
         say_text!("{}", Summary(&config));
+        for line in priors::lines(&Priors::of(&config)?, path, &config.hash()) {
+            say!("{line}");
+        }
     }
     Ok(())
 }

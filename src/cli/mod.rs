@@ -31,6 +31,7 @@ mod numbers;
 mod output;
 #[cfg(feature = "paper")]
 mod paper;
+mod priors;
 #[cfg_attr(
     not(feature = "full"),
     allow(dead_code, reason = "commands that this build lacks use the rest")
@@ -45,6 +46,8 @@ mod replay;
 mod report;
 mod rig;
 mod run;
+#[cfg(feature = "sweep")]
+mod sensitivity;
 mod shell;
 mod signals;
 #[cfg_attr(
@@ -77,6 +80,8 @@ use self::absent::paper;
 use self::absent::reach;
 #[cfg(not(feature = "report"))]
 use self::absent::report;
+#[cfg(not(feature = "sweep"))]
+use self::absent::sensitivity;
 #[cfg(not(feature = "sweep"))]
 use self::absent::sweep;
 use crate::cli::output::{tell, tell_text};
@@ -111,6 +116,7 @@ enum Command {
     Calibrate(Box<calibrate::CalibrateArgs>),
     Map(Box<map::MapArgs>),
     Sweep(sweep::SweepArgs),
+    Sensitivity(sensitivity::SensitivityArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
 }
@@ -293,6 +299,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Sweep(args) => sweep::run(&args),
+        Command::Sensitivity(args) => sensitivity::run(&args),
         Command::Completions(args) => {
             shell::completions(&args);
             Ok(())

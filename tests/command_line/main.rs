@@ -8,6 +8,7 @@
 
 mod paper;
 mod reach;
+mod sensitivity;
 mod sweep;
 mod usage;
 mod verify;

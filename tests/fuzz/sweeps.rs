@@ -1,4 +1,4 @@
-//! Files of sweeps: specification, plan, a point's result, a map.
+//! Files of sweeps: specification, plan, a point's result, a map; the table of a sensitivity.
 
 use std::path::Path;
 
@@ -8,6 +8,7 @@ use flexdrill_config::Config;
 use flexdrill_sweep::directory::plan_from_bytes;
 use flexdrill_sweep::map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Origin, Start, Verdict};
 use flexdrill_sweep::{Outcome, Plan, Spec, outcome};
+use flexdrill_uncertainty::Effects;
 
 use crate::engine::Target;
 use crate::{file, says_why};
@@ -239,6 +240,36 @@ fn map_file() {
                 assert_eq!((again.cells.len(), again.runs), (map.cells.len(), map.runs));
                 assert!(flexdrill::map::table::words(&map).len() > 2);
                 flexdrill::map::table::csv(&map).unwrap();
+                true
+            }
+            Err(error) => says_why(&error),
+        },
+    }
+    .fuzz();
+}
+
+const EFFECTS: &str = r#"{"format": 1, "program": "flexdrill 0.2.0", "configuration": "00ff", "rotary_speed_rpm": 40.0,
+"weight_on_bit_kn": 10.0, "seconds": 40.0, "outputs": [{"name": "bit_torque", "unit": "N m", "nominal": 92.5, "scatter": 0.5},
+{"name": "whirl_ratio", "unit": "", "nominal": null, "scatter": null}], "rows": [
+{"key": "a.b", "quantile": 0.05, "value": 0.2, "unit": "", "results": [90.0, null], "cause": ""},
+{"key": "a.b", "quantile": 0.95, "value": 0.4, "unit": "", "results": [null, null], "cause": "a step failed"}]}"#;
+
+#[test]
+fn effects() {
+    Target {
+        name: "effects",
+        seeds: vec![EFFECTS.into()],
+        words: JSON,
+        run: &mut |bytes| match Effects::from_json(bytes) {
+            Ok(effects) => {
+                for key in effects.keys() {
+                    assert!(!effects.largest_in_words(key).is_empty());
+                }
+                for output in 0..effects.outputs.len() {
+                    effects.ranked(output);
+                }
+                let again = Effects::from_json(effects.to_json().unwrap().as_bytes()).unwrap();
+                assert_eq!(again.rows.len(), effects.rows.len());
                 true
             }
             Err(error) => says_why(&error),

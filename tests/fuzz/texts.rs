@@ -3,6 +3,7 @@
 use flexdrill::field_log::{self, Mapping, Position, Range};
 use flexdrill::ros::args::{NodeIdentity, Overrides, RosArgs, split};
 use flexdrill_config::Config;
+use flexdrill_uncertainty::Priors;
 
 use crate::engine::Target;
 use crate::{file, folder, says_why};
@@ -55,6 +56,7 @@ fn configuration() {
             file("tests/data/small.yaml"),
             file("config/coarse.yaml"),
             file("config/paper.yaml"),
+            file("config/rig.yaml"),
         ],
         words: &[
             YAML,
@@ -71,6 +73,12 @@ fn configuration() {
                 "whirl: ",
                 "hard_limits: ",
                 "start: as_given\n",
+                "uncertainty: ",
+                "distribution: {uniform: {low: 1, high: 2}}",
+                "triangular: {low: 0, mode: 1, high: 2}",
+                "form: factor",
+                "correlation: -0.9",
+                "correlated: ",
             ],
         ]
         .concat(),
@@ -87,6 +95,12 @@ fn configuration() {
             // What was accepted is fit for the mechanics, which check once more.
             config.tool().validate().unwrap();
             config.simulation();
+            // So are its priors, unless a key is a number by the name of the check alone.
+            if let Ok(priors) = Priors::of(&config) {
+                let draws = priors.draws(1, 2);
+                assert!(draws.iter().all(|draw| !draw.is_nan()));
+                priors.sensor_errors(1, 2);
+            }
             true
         },
     }

@@ -160,7 +160,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 13] = [
+const WRITTEN_FILES: [&str; 15] = [
     "metadata.yaml",
     "report.md",
     "findings.csv",
@@ -175,6 +175,8 @@ const WRITTEN_FILES: [&str; 13] = [
     "overlay.yaml",
     "calibrated.yaml",
     "calibration.json",
+    "sensitivity.csv",
+    "sensitivity.json",
 ];
 
 #[test]

@@ -35,6 +35,8 @@ const TITLE: u32 = 17;
 const TEXT: u32 = 15;
 const ROW: u32 = 22;
 const LEFT: u32 = 62;
+/// Width of a letter of a row's name, of medium width.
+const LETTER: u32 = 7;
 const BOTTOM: u32 = 46;
 const MARGIN: u32 = 12;
 
@@ -136,7 +138,8 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
     let top = 8 + ROW + legend_rows * ROW;
     legend(area, panel.legend, &named)?;
     let (width, height) = area.dim_in_pixel();
-    let plot_width = f64::from(width) - f64::from((LEFT + 2 * MARGIN) * SCALE);
+    let left = left(panel);
+    let plot_width = f64::from(width) - f64::from((left + 2 * MARGIN) * SCALE);
     let plot_height = f64::from(height) - f64::from((top + BOTTOM + MARGIN) * SCALE);
     // Ranges of equal scale depend on the shape of the plot, which is known only now.
     let (x, y) = ranges(panel, plot_width / plot_height);
@@ -148,17 +151,23 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .margin_right(MARGIN * SCALE)
         .margin_bottom(MARGIN * SCALE)
         .x_label_area_size(BOTTOM * SCALE)
-        .y_label_area_size(LEFT * SCALE)
+        .y_label_area_size(left * SCALE)
         .build_cartesian_2d(x[0]..x[1], y_from..y_to)?;
     let grey = RGBColor(110, 110, 110);
     // Names are at whole numbers only.
-    let at_x = |x: &f64| {
-        if panel.names.is_empty() {
-            return tick(x);
+    let at = |names: &[String], value: &f64| {
+        if names.is_empty() {
+            return tick(value);
         }
-        let whole = (x - x.round()).abs() < 1e-9 && *x > -0.5;
-        let name = whole.then(|| panel.names.get(x.round() as usize)).flatten();
+        let whole = (value - value.round()).abs() < 1e-9 && *value > -0.5;
+        let name = whole.then(|| names.get(value.round() as usize)).flatten();
         name.cloned().unwrap_or_default()
+    };
+    let (at_x, at_y) = (|x: &f64| at(&panel.names, x), |y: &f64| at(&panel.rows, y));
+    // Labels by the size of the plot: about 45 units apart, so that numbers never overlap. Rows are named each.
+    let y_labels = match panel.rows.len() {
+        0 => ((plot_height / f64::from(SCALE) / 45.0) as usize).clamp(4, 9),
+        rows => rows + 1,
     };
     chart
         .configure_mesh()
@@ -166,11 +175,11 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         .bold_line_style(RGBColor(225, 225, 225).stroke_width(SCALE))
         .axis_style(grey.stroke_width(SCALE))
         .set_all_tick_mark_size((4 * SCALE) as i32)
-        // Labels by the size of the plot: about 50 units apart on x and 45 on y, so that numbers never overlap.
+        // About 50 units apart on x.
         .x_labels(((plot_width / f64::from(SCALE) / 50.0) as usize).clamp(5, 10))
-        .y_labels(((plot_height / f64::from(SCALE) / 45.0) as usize).clamp(4, 9))
+        .y_labels(y_labels)
         .x_label_formatter(&at_x)
-        .y_label_formatter(&tick)
+        .y_label_formatter(&at_y)
         .label_style(font(TEXT - 1))
         .axis_desc_style(font(TEXT))
         .x_desc(panel.x.as_str())
@@ -229,6 +238,12 @@ fn draw<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
         }
     }
     Ok(())
+}
+
+/// Width left of the plot: of numbers, or of the longest name of a row.
+fn left(panel: &Panel) -> u32 {
+    let letters = panel.rows.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+    LEFT.max(LETTER * letters as u32 + MARGIN)
 }
 
 fn stroke(mark: Mark) -> u32 {
@@ -342,6 +357,9 @@ fn ranges(panel: &Panel, aspect: f64) -> ([f64; 2], [f64; 2]) {
         return (around(x, scale * aspect), around(y, scale));
     }
     let mut y = padded(y, 0.06);
+    if !panel.rows.is_empty() {
+        y = [-0.5, panel.rows.len() as f64 - 0.5];
+    }
     // After the padding, which would lower the zero line.
     if panel.from_zero {
         y[0] = 0.0;

@@ -70,6 +70,8 @@ pub struct Panel {
     pub x_range: Option<[f64; 2]>,
     /// Names at x = 0, 1, ... instead of numbers.
     pub names: Vec<String>,
+    /// Names at y = 0, 1, ... from the top down, instead of numbers.
+    pub rows: Vec<String>,
     /// y begins at zero.
     pub from_zero: bool,
     /// Position of the legend.
@@ -124,6 +126,13 @@ impl Panel {
         self.x_range = Some([-0.5, names.len() as f64 - 0.5]);
         self.names = names;
         self
+    }
+
+    /// With names at y = 0, 1, ... from the top down, instead of numbers.
+    #[must_use]
+    pub fn rows(mut self, rows: Vec<String>) -> Self {
+        self.rows = rows;
+        self.down()
     }
 
     /// With y from zero.
