@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError, mpsc};
 
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_uncertainty::effects::{Effects, FORMAT, Output, Row};
-use flexdrill_uncertainty::{Channel, Law, Priors};
+use flexdrill_uncertainty::{Channel, Priors};
 
 pub use kept::{KeepError, Kept};
 pub use point::{Figure, Found, Load, Point};
