@@ -13,6 +13,7 @@
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
+//! - [`ensemble`]: plausible tools that run with the twin, and what they do together.
 //! - [`residuals`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
@@ -29,6 +30,7 @@ pub mod alarms;
 #[cfg(feature = "bridge")]
 pub mod bridge;
 pub mod cli;
+pub mod ensemble;
 pub mod health;
 #[cfg(feature = "sweep")]
 pub mod map;

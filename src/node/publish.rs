@@ -207,6 +207,7 @@ impl Publisher {
             alarms::judge_node(&self.parts, self.session.alarms_mut(), self.failure, pace);
         }
         self.send_forecast();
+        log_unsent(self.session.publish_bands(false, &mut NodeHost::all(&self.parts)));
         // Requests of operators are answered before the list is published,
         // so that an acknowledgement is in the next list.
         let PublisherParts { alarms, clocks, .. } = &mut self.parts;

@@ -41,7 +41,7 @@ const fn kind(quantity: RigQuantity) -> MeasuredKind {
 
 /// What the twin computes for each quantity (SI), as means over the window of transfer. A tool without a string above has
 /// its drive at the kick-off.
-fn predicted(snapshot: &Snapshot) -> [f64; RigQuantity::COUNT] {
+pub fn predicted(snapshot: &Snapshot) -> [f64; RigQuantity::COUNT] {
     let mean = &snapshot.transfer.mean;
     let top = if mean.torque[SURFACE].is_finite() {
         SURFACE

@@ -11,7 +11,8 @@ mod tests;
 use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
-use crate::residuals::{Comparison, RigComparison, Samples};
+use crate::ensemble::{self, Beside, Found, Told};
+use crate::residuals::{Comparison, RigComparison, Samples, predicted};
 use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Snapshot};
@@ -50,6 +51,8 @@ pub struct Session {
     /// The newest comparison of rig and twin.
     residuals: Option<Residuals>,
     window: Option<Arc<SafeWindow>>,
+    /// Plausible tools under the same inputs.
+    ensemble: Option<Beside>,
     /// None before the instant of the first step is known, and in a run that publishes nothing.
     outputs: Option<Outputs>,
 }
@@ -64,6 +67,7 @@ impl Session {
             alarms,
             residuals: None,
             window: None,
+            ensemble: None,
             outputs: None,
         }
     }
@@ -72,6 +76,11 @@ impl Session {
     pub fn judge_by(&mut self, window: Arc<SafeWindow>) {
         self.alarms.set_window(Arc::clone(&window));
         self.window = Some(window);
+    }
+
+    /// Takes plausible tools that run with it; [`Session::publish_bands`] publishes what they do.
+    pub fn run_with(&mut self, ensemble: Beside) {
+        self.ensemble = Some(ensemble);
     }
 
     /// Begins the outputs of a run whose tick 0 is at `start` (ns since 1970, on the rig's clock): says what the run is.
@@ -164,6 +173,9 @@ impl Session {
         if inputs.reset {
             self.rig.restart();
         }
+        if let Some(ensemble) = &self.ensemble {
+            ensemble.tell(Told::Applied(ticks, Box::new(*inputs), Arc::clone(&self.config)));
+        }
         match &mut self.outputs {
             Some(outputs) => outputs.applied(inputs, changes, ticks, |encoded| host.send(encoded)),
             None => Ok(()),
@@ -185,6 +197,10 @@ impl Session {
             self.observe(&frame.snapshot, stamp);
             host.judged(&mut self.alarms, &frame.snapshot);
             self.compare(frame, stamp, host)?;
+        }
+        // After the comparison, which is of the same ticks.
+        if let Some(ensemble) = &mut self.ensemble {
+            ensemble.reached(frame.ticks);
         }
         sent
     }
@@ -216,6 +232,14 @@ impl Session {
             return Ok(());
         };
         let (compared, followed) = (&comparison.compared, comparison.followed());
+        if let Some(ensemble) = &self.ensemble {
+            let compared = ensemble::Compared {
+                steady: compared.steady,
+                measured: samples.values,
+                predicted: predicted(&frame.snapshot),
+            };
+            ensemble.tell(Told::Compared(frame.ticks, compared));
+        }
         self.alarms.observe_rig(compared, &followed, samples.bit_depth, stamp);
         self.alarms.observe_adjusted(&comparison.message, stamp);
         host.compared(&comparison);
@@ -225,6 +249,39 @@ impl Session {
             stamp,
             cdr: &to_cdr(residuals)?,
         })
+    }
+
+    /// Publishes the bands that plausible tools have come to. Once the run has `ended`, and is one that waits for them, those
+    /// up to its end.
+    ///
+    /// # Errors
+    /// As [`Session::begin`].
+    pub fn publish_bands<H: Host>(&mut self, ended: bool, host: &mut H) -> Result<(), H::Error> {
+        let Some(ensemble) = &mut self.ensemble else {
+            return Ok(());
+        };
+        if ended {
+            ensemble.finish();
+        }
+        while let Some(Found {
+            ticks,
+            begun,
+            mut bands,
+        }) = self.ensemble.as_mut().and_then(Beside::take)
+        {
+            // Members run only once the instant of the first step is known.
+            let Some((stamp, begun)) = self.instant(ticks).zip(self.instant(begun)) else {
+                continue;
+            };
+            bands.header = self.header(stamp);
+            bands.begun = Time::from_nanoseconds(begun);
+            host.send(Encoded {
+                topic: &topics::BANDS,
+                stamp,
+                cdr: &to_cdr(&bands)?,
+            })?;
+        }
+        Ok(())
     }
 
     /// Publishes the alarms' new events, and their list when it is due at an instant of a steady clock (ns). Returns the

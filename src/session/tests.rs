@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
+use crate::ensemble::{Ensemble, Pace};
 use crate::rig_inputs::Measured;
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_core::twin::{Run, Simulation};
@@ -53,8 +54,11 @@ impl Kept {
     }
 }
 
+/// With as few plausible tools as have bands.
 fn config() -> Arc<Config> {
-    Arc::new(Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/config/default.yaml")).unwrap())
+    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/config/default.yaml")).unwrap();
+    let text = format!("{}ensemble: {{members: 8}}\n", config.to_yaml().unwrap());
+    Arc::new(Config::from_text("default.yaml with an ensemble", &text).unwrap())
 }
 
 fn session(config: &Arc<Config>) -> Session {
@@ -71,6 +75,8 @@ fn hosted(config: &Arc<Config>) -> (Session, Kept) {
     let mut message = RigMeasured::not_given(session.header(START), RigMeasured::GOOD, "test".into());
     message.set(MeasuredKind::SurfaceTorque, 300.0);
     host.measured.accept(&message, START, 0.0, 1.0).unwrap();
+    let ensemble = Ensemble::of(config).unwrap().unwrap();
+    session.run_with(Beside::start(ensemble, Pace::Waits(Vec::new())).unwrap());
     session.begin(START, &mut host).unwrap();
     session.applied(&run.applied(), &[], 0, &mut host).unwrap();
     for _ in 0..(2.0 / config.solver.time_step) as usize {
@@ -87,7 +93,9 @@ fn hosted(config: &Arc<Config>) -> (Session, Kept) {
         let stamp = session.instant(frame.ticks).unwrap();
         let header = session.header(stamp);
         session.publish_alarms(header, stamp, &mut host).unwrap();
+        session.publish_bands(false, &mut host).unwrap();
     }
+    session.publish_bands(true, &mut host).unwrap();
     (session, host)
 }
 
@@ -120,6 +128,7 @@ fn all_topics_of_a_run_come_from_the_session() {
     // Twenty looks at the alarms, two comparisons, and their residuals as the newest.
     assert_eq!((host.judged, host.compared), (20, 2));
     assert_eq!(counts[topics::RESIDUALS.name], host.compared);
+    assert_eq!(counts[topics::BANDS.name], 2);
     let (_, _, newest) = host
         .sent
         .iter()

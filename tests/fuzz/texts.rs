@@ -74,6 +74,7 @@ fn configuration() {
                 "hard_limits: ",
                 "start: as_given\n",
                 "uncertainty: ",
+                "ensemble: {members: 8}",
                 "distribution: {uniform: {low: 1, high: 2}}",
                 "triangular: {low: 0, mode: 1, high: 2}",
                 "form: factor",

@@ -31,6 +31,12 @@ const ALLOWED: &[(&str, &str, &str)] = &[
         "configuration, once, at the start",
     ),
     ("src/node/prepare.rs", "model time runs", "once, at the start"),
+    ("src/ensemble/beside.rs", "{why}", "once, at the start"),
+    (
+        "src/ensemble/beside.rs",
+        "plausible tools run with the twin",
+        "once, at the start",
+    ),
     ("src/node/running.rs", "the configured duration", "once, at the end"),
     ("src/node/running.rs", "the node ends without it", "once, at the end"),
     ("src/node/publish.rs", "did not reach the viewers", "once, at the end"),

@@ -15,6 +15,7 @@ mod changed;
 pub mod checker;
 mod contact;
 mod derived;
+mod ensemble;
 mod environment;
 mod error;
 mod hard_limits;
@@ -69,6 +70,7 @@ pub use changed::{ChangedNumber, FOLLOWED};
 pub use checker::NumberKey;
 pub use contact::{Contact, Layer, WallFrictionFactors};
 pub use derived::Unknowns;
+pub use ensemble::{Ensemble, Members};
 pub use environment::Environment;
 pub use error::{ConfigError, Problem};
 pub use hard_limits::{HardBounds, HardLimits};
@@ -214,6 +216,10 @@ pub struct Schema {
     // Left out where there is none, so that such a file has the hash that it had before the section existed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<Uncertainty>,
+    /// Plausible tools that run with the twin. Default none.
+    // As above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ensemble: Option<Ensemble>,
     /// Frames and publishing rates of the outputs.
     #[serde(default)]
     pub outputs: Outputs,
@@ -341,12 +347,12 @@ impl Config {
         })
     }
 
-    /// A copy without the section `uncertainty`: the values that stand in the file are what is known.
+    /// A copy without the sections `uncertainty` and `ensemble`: the values that stand in the file are what is known.
     #[must_use]
     pub fn without_uncertainty(&self) -> Self {
         let mut copy = self.clone();
         // No other section depends on it, so that the rest remains checked.
-        copy.schema.uncertainty = None;
+        (copy.schema.uncertainty, copy.schema.ensemble) = (None, None);
         copy
     }
 

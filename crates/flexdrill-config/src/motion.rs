@@ -123,6 +123,7 @@ mod tests {
         "map",
         "outputs",
         "uncertainty",
+        "ensemble",
     ];
 
     fn config() -> Config {

@@ -233,5 +233,8 @@ impl Schema {
             let known = c.numbers.clone();
             c.below("uncertainty", |c| uncertainty.check(c, &known));
         }
+        if let Some(ensemble) = &self.ensemble {
+            c.below("ensemble", |c| ensemble.check(c, self.uncertainty.is_some()));
+        }
     }
 }

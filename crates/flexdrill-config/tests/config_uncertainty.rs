@@ -282,3 +282,36 @@ fn a_changed_value_takes_its_prior_along() {
     let error = rig.with_values("a test", all).unwrap_err().to_string();
     assert!(error.contains("string.attenuation_per_km is 0"), "{error}");
 }
+
+#[test]
+fn an_ensemble_needs_members_that_have_a_band_and_something_to_draw() {
+    let with_ensemble = |section: &str, ensemble: &str| format!("{GOOD}{section}ensemble: {ensemble}\n");
+    let something = "uncertainty: {sensors: {rotary_speed: {factor_error: 0.01}}}\n";
+    for good in ["{}", "{members: auto}", "{members: 8, seed: 5}", "{members: 256}"] {
+        let config = Config::from_text("rig.yaml", &with_ensemble(something, good)).unwrap();
+        let again = Config::from_text("written", &config.to_yaml().unwrap()).unwrap();
+        assert_eq!(again, config, "{good}");
+        // It changes nothing of the motion, and no member has an ensemble.
+        let plain = Config::from_text("rig.yaml", GOOD).unwrap();
+        assert_eq!(
+            (config.motion_hash(), config.without_uncertainty()),
+            (plain.motion_hash(), plain)
+        );
+    }
+    for (bad, bound) in [("{members: 7}", "7"), ("{members: 257}", "256")] {
+        let (key, text) = problem(&with_ensemble(something, bad));
+        assert!(key == "ensemble.members" && text.contains(bound), "{key}: {text}");
+    }
+    let (key, text) = problem(&with_ensemble("", "{members: 8}"));
+    assert!(key == "ensemble.members" && text.contains("uncertainty.keys"), "{text}");
+    for unreadable in [
+        "{members: some}",
+        "{members: -8}",
+        "{members: 8.5}",
+        "{member: 8}",
+        "{seed: -1}",
+    ] {
+        let error = Config::from_text("rig.yaml", &with_ensemble(something, unreadable)).unwrap_err();
+        assert!(error.to_string().contains("ensemble"), "{unreadable}: {error}");
+    }
+}

@@ -108,8 +108,14 @@ impl Evidence {
     /// window, and counts from here on.
     #[must_use]
     pub fn renewed(&self) -> Self {
+        self.chosen(self.log_weight())
+    }
+
+    /// The same of a member that was chosen when its [`Evidence::log_weight`] was this: what was measured since then counts.
+    #[must_use]
+    pub fn chosen(&self, log_weight: f64) -> Self {
         Self {
-            used: self.log_likelihood(),
+            used: self.used + log_weight,
             ..self.clone()
         }
     }

@@ -679,6 +679,7 @@ pub mod flexdrill {
     }
 
     /// How many members of a look-ahead saw an alarm: raised after the first 5 s of the horizon, or standing in its second half.
+    /// On twin/bands: in how many plausible tools it stands.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct AlarmChance {
         /// Id of the alarm, such as backward_whirl.
@@ -691,12 +692,13 @@ pub mod flexdrill {
         pub seen: u32,
         /// Members that ended.
         pub members: u32,
-        /// Share of the members; NaN where none ended.
+        /// Share of the members, on twin/bands by their weights; NaN where none ended.
         pub probability: f64,
         /// The 95 % interval of the probability (Wilson).
         pub lower: f64,
         pub upper: f64,
-        /// Median of the time from the beginning of the horizon until the alarm counts (s), over the members that saw it.
+        /// Median of the time from the beginning of the horizon until the alarm counts (s), over the members that saw it. On
+        /// twin/bands: since it stands.
         pub time_to_first: f64,
     }
 
@@ -935,6 +937,72 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/AppliedInputs", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "skipped_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "reset", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "input_quality", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inner_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "outer_friction", "type": {"type_id": 59, "capacity": 2, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bit_friction_factor", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_name", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_value", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "parameter_asked_by", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "refinement", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rate_of_penetration_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "standpipe_pressure_slew", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// What plausible tools do under the inputs of the twin, once per second of model time: bands of its figures, and the share of
+    /// the tools in which each alarm stands.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Bands {
+        /// Stamp: the instant of the figures, on the rig's clock. The message comes once every member has been computed up to it, a
+        /// second or more later. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Instant at which these members began.
+        pub begun: super::builtin_interfaces::Time,
+        /// Members: tools that were drawn from what is known of the tool and its rig.
+        pub members: u32,
+        /// Members that could not be computed. What they do is unknown, not safe: they are in no band and no chance, and are replaced
+        /// within two minutes.
+        pub failed: u32,
+        /// Members that are prepared to replace others, and count for nothing yet.
+        pub prepared: u32,
+        /// Number of members alike that those amount to by their weights, which what the rig measures gives them; without
+        /// measurements all that were computed. Bands need 8.
+        pub effective: f64,
+        /// How often members of little weight gave way to others near those of much weight.
+        pub renewals: u32,
+        /// Why there are no bands; empty where there are.
+        pub no_bands: std::string::String,
+        /// The figures: those of twin/bit_state, twin/joint_deflections, twin/contact_forces and twin/transfer that a table or a
+        /// bridge shows, over the last second. With fewer than 19 members the ends lie beyond the outermost, as of a normal distribution.
+        pub bands: Vec<FigureBand>,
+        /// Measured depth of the stations of the two profiles below (m).
+        pub measured_depth: Vec<f64>,
+        /// Largest normal force of pipe and guide within the last second at each station (N): quantiles over plausible tools at 5, 50
+        /// and 95 %. Empty without bands.
+        pub pipe_guide_force_p5: Vec<f64>,
+        pub pipe_guide_force_p50: Vec<f64>,
+        pub pipe_guide_force_p95: Vec<f64>,
+        /// The same of guide and wall (N).
+        pub guide_wall_force_p5: Vec<f64>,
+        pub guide_wall_force_p50: Vec<f64>,
+        pub guide_wall_force_p95: Vec<f64>,
+        /// Alarms that stand in a plausible tool, with each priority: the share of the tools by their weights.
+        pub alarms: Vec<AlarmChance>,
+        /// Share of the plausible tools in which any alarm of the tool stands, with its 95 % interval (Wilson); NaN where no member
+        /// was computed.
+        pub any_alarm: f64,
+        pub any_alarm_lower: f64,
+        pub any_alarm_upper: f64,
+    }
+
+    impl Message for Bands {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "Bands";
+        const ROS_TYPE: &'static str = "flexdrill/msg/Bands";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Bands_";
+        const RIHS01: &'static str = "RIHS01_afe090cbd223c352bd3fb2eaf4cebfd55dd7297d9c1a9f2de1f7c8ab66f5f136";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/Bands.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+            "================================================================================\nMSG: flexdrill/FigureBand\n",
+            include_str!("../../../msg/FigureBand.msg"),
+            "================================================================================\nMSG: flexdrill/AlarmChance\n",
+            include_str!("../../../msg/AlarmChance.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Bands", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "begun", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "prepared", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "effective", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "renewals", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "no_bands", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/FigureBand"}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_force_p5", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_force_p50", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_force_p95", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_force_p5", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_force_p50", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_force_p95", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// The bit. Torque, speed, weight and accelerations cover the time since the previous message, in which every step counts:
     /// an instant would alias with the rotation. Only the first message of a run has torque, speed and weight of its instant.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -1086,11 +1154,11 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ContactForces", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "max_pipe_guide_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_pipe_guide_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_force", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "max_guide_wall_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "state", "type": {"type_id": 147, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_gap", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_tangential", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_axial", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_peak", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_normal_rms", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_shock", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_severity", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_impulse", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_station", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "shock_layer", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
-    /// A figure of a look-ahead over its members.
+    /// A figure over the members of a look-ahead, or over plausible tools.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct FigureBand {
-        /// bit_speed_ripple, pipe_guide_force, guide_wall_force, stop_moment, bending_cycles, damage, torque_transfer or
-        /// weight_transfer.
+        /// Of a look-ahead: bit_speed_ripple, pipe_guide_force, guide_wall_force, stop_moment, bending_cycles, damage,
+        /// torque_transfer or weight_transfer. Of twin/bands: topic and field, such as transfer/bit_torque.
         pub name: std::string::String,
         /// Unit; empty for a ratio.
         pub unit: std::string::String,
@@ -4100,6 +4168,7 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::AlarmEvent as super::Message>::INFO,
     <flexdrill::AlarmList as super::Message>::INFO,
     <flexdrill::AppliedInputs as super::Message>::INFO,
+    <flexdrill::Bands as super::Message>::INFO,
     <flexdrill::BitState as super::Message>::INFO,
     <flexdrill::ContactForces as super::Message>::INFO,
     <flexdrill::FigureBand as super::Message>::INFO,

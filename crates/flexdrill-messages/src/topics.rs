@@ -1,7 +1,7 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    Ageing, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, Forecast, JointDeflections, Message,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, Forecast, JointDeflections, Message,
     Reactions, Residuals, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo, WhirlState,
     WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
 };
@@ -154,6 +154,8 @@ pub const TRANSFER: TopicInfo =
     TopicInfo::new("twin/transfer", Transfer::INFO, Cadence::Rate("transfer"), reliable(10));
 /// Output: the next minute at the present speed and weight.
 pub const FORECAST: TopicInfo = TopicInfo::new("twin/forecast", Forecast::INFO, Cadence::OnChange, LATCHED);
+/// Output: what plausible tools do under the same inputs.
+pub const BANDS: TopicInfo = TopicInfo::new("twin/bands", Bands::INFO, Cadence::OnChange, reliable(10));
 /// Output: the map of speed and weight that is loaded.
 pub const SAFE_WINDOW: TopicInfo = TopicInfo::new("twin/safe_window", SafeWindow::INFO, Cadence::OnChange, LATCHED);
 /// Output: what the rig measures less what the twin computes.
@@ -195,7 +197,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 27] = [
+pub const ALL: [TopicInfo; 28] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
@@ -214,6 +216,7 @@ pub const ALL: [TopicInfo; 27] = [
     REACTIONS,
     TRANSFER,
     FORECAST,
+    BANDS,
     SAFE_WINDOW,
     RESIDUALS,
     STATUS,

@@ -20,6 +20,9 @@ const MOST_ATTEMPTS: u32 = 100;
 pub struct Member {
     /// The configuration with the drawn values, without the section `uncertainty`.
     pub config: Config,
+    /// Independent standard normal scores that all draws follow from: one per entry of [`Priors::entries`], then two per
+    /// sensor of [`Priors::sensors`], for its factor and its tare.
+    pub scores: Vec<f64>,
     /// The draws, by [`Priors::entries`].
     pub draws: Vec<f64>,
     /// The errors of the sensors, by [`Priors::sensors`].
@@ -36,18 +39,13 @@ impl Priors {
     /// When the configuration refuses every draw.
     pub fn member(&self, seed: u64, member: u64) -> Result<Member, UncertaintyError> {
         let mut random = Random::new(seed, member, Part::Keys);
+        let of_sensors = self.sensor_scores(seed, member);
         let mut refused = 0;
         loop {
-            let draws = self.next_draws(&mut random);
-            match self.config(&draws) {
-                Ok(config) => {
-                    return Ok(Member {
-                        config,
-                        draws,
-                        sensors: self.sensor_errors(seed, member),
-                        refused,
-                    });
-                }
+            let mut scores = scores(&mut random, self.entries().len());
+            scores.extend(&of_sensors);
+            match self.at(scores) {
+                Ok(member) => return Ok(Member { refused, ..member }),
                 Err(reason) => {
                     refused += 1;
                     if refused >= MOST_ATTEMPTS {
@@ -62,17 +60,33 @@ impl Priors {
         }
     }
 
-    /// The first draws of a member, which the configuration may refuse as a whole.
-    pub fn draws(&self, seed: u64, member: u64) -> Vec<f64> {
-        self.next_draws(&mut Random::new(seed, member, Part::Keys))
+    /// The member at these scores, as in [`Member::scores`]; those that are missing are 0, the medians.
+    ///
+    /// # Errors
+    /// When the configuration refuses its values as a whole.
+    pub fn at(&self, mut scores: Vec<f64>) -> Result<Member, ConfigError> {
+        let (keys, sensors) = (self.entries().len(), self.sensors().len());
+        scores.resize(keys + 2 * sensors, 0.0);
+        let (of_keys, of_sensors) = scores.split_at(keys);
+        let draws = self.draws_at(of_keys);
+        Ok(Member {
+            config: self.config(&draws)?,
+            draws,
+            sensors: self.errors_at(of_sensors),
+            refused: 0,
+            scores,
+        })
     }
 
-    fn next_draws(&self, random: &mut Random) -> Vec<f64> {
-        let entries = self.entries();
-        let scores = entries.iter().map(|_| standard_quantile(random.uniform())).collect();
-        let scores = self.correlated(scores);
+    /// The first draws of a member, which the configuration may refuse as a whole.
+    pub fn draws(&self, seed: u64, member: u64) -> Vec<f64> {
+        let mut random = Random::new(seed, member, Part::Keys);
+        self.draws_at(&scores(&mut random, self.entries().len()))
+    }
+
+    fn draws_at(&self, scores: &[f64]) -> Vec<f64> {
         let draw = |(entry, score): (&Entry, f64)| entry.draw(standard_normal(score));
-        entries.iter().zip(scores).map(draw).collect()
+        self.entries().iter().zip(self.correlated(scores)).map(draw).collect()
     }
 
     /// The configuration for draws, by [`Priors::entries`].
@@ -87,10 +101,22 @@ impl Priors {
 
     /// The errors of the sensors of a member, by [`Priors::sensors`].
     pub fn sensor_errors(&self, seed: u64, member: u64) -> Vec<SensorError> {
-        let mut random = Random::new(seed, member, Part::Sensors);
-        let sensors = self.sensors().iter();
+        self.errors_at(&self.sensor_scores(seed, member))
+    }
+
+    fn sensor_scores(&self, seed: u64, member: u64) -> Vec<f64> {
+        scores(&mut Random::new(seed, member, Part::Sensors), 2 * self.sensors().len())
+    }
+
+    fn errors_at(&self, scores: &[f64]) -> Vec<SensorError> {
+        let sensors = self.sensors().iter().zip(scores.chunks_exact(2));
         sensors
-            .map(|sensor| sensor.error([random.uniform(), random.uniform()]))
+            .map(|(sensor, pair)| sensor.error([pair[0], pair[1]].map(standard_normal)))
             .collect()
     }
+}
+
+/// The next independent standard normal scores.
+fn scores(random: &mut Random, count: usize) -> Vec<f64> {
+    (0..count).map(|_| standard_quantile(random.uniform())).collect()
 }

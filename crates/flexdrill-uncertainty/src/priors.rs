@@ -188,8 +188,8 @@ impl Priors {
     }
 
     /// Correlated normal scores from independent ones.
-    pub(crate) fn correlated(&self, independent: Vec<f64>) -> Vec<f64> {
-        let scores = &self.factor * DVector::from_vec(independent);
+    pub(crate) fn correlated(&self, independent: &[f64]) -> Vec<f64> {
+        let scores = &self.factor * DVector::from_column_slice(independent);
         scores.iter().copied().collect()
     }
 }

@@ -57,6 +57,7 @@ pub(super) fn replay(
             }
         },
     )?;
+    player.run_ensemble(Vec::new())?;
     // An optional input that is missing everywhere is said once; each sample that lacks it would repeat it.
     for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
         if conditioner.is_of_interest(kind) && !samples.iter().any(|sample| sample.kind == kind) {

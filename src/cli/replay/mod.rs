@@ -53,6 +53,10 @@ pub(super) struct ReplayArgs {
     /// Configuration, if the input has none of its own; default: the paper's case, built in.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    /// Plausible tools that run with the twin, for the bands of a log; a recording has its own. Each takes the time of another
+    /// run.
+    #[arg(long, value_name = "NUMBER")]
+    members: Option<u32>,
     /// Longest model time (s).
     #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
@@ -86,8 +90,8 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     // passes the conditioner first, as live samples do.
     if !args.wits && source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
         // An option that would change the run is refused, not ignored: the result would be taken for the recorded run.
-        if args.config.is_some() || args.source.is_given() {
-            return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --from, --to and --mapping, or use \
+        if args.config.is_some() || args.members.is_some() || args.source.is_given() {
+            return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --members, --from, --to and --mapping, or use \
                  another bag").into());
         }
         let script = recording::Script::read(&args.input)?;
@@ -120,7 +124,10 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
         }
         return Ok(());
     }
-    let (config, name) = load_config(args.config.as_deref())?;
+    let (mut config, name) = load_config(args.config.as_deref())?;
+    if let Some(members) = args.members {
+        config = config.with_values("--members", [("ensemble.members", members)])?;
+    }
     say!("configuration {name}, hash {}", &config.hash()[..12]);
     let samples = if args.wits {
         args.source.read_wits(&args.input)?

@@ -11,6 +11,7 @@ use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{Recorder, Recording, Topic};
 use crate::cli::source::FromRig;
+use crate::ensemble::{Beside, Ensemble, Generation, Pace};
 use crate::field_log::LogRows;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::residuals::{self, Samples};
@@ -104,6 +105,22 @@ impl Player {
             initial_rates,
             listed: None,
         })
+    }
+
+    /// Runs plausible tools with the twin: those of a recorded run, or where none is given as many as the configuration asks
+    /// for by a number. Call it before the first inputs.
+    ///
+    /// # Errors
+    /// When nothing can be drawn, or there is no thread for them.
+    pub(super) fn run_ensemble(&mut self, recorded: Vec<Generation>) -> anyhow::Result<()> {
+        let Some(ensemble) = Ensemble::of(self.session.config())? else {
+            return Ok(());
+        };
+        // `auto` is for a run by a clock: as many as it leaves time for.
+        if !recorded.is_empty() || ensemble.asked().is_some() {
+            self.session.run_with(Beside::start(ensemble, Pace::Waits(recorded))?);
+        }
+        Ok(())
     }
 
     /// Compares the run at these stamps (ns since 1970), the oldest first, with what a recorded run was compared with,
@@ -220,6 +237,7 @@ impl Player {
         self.session.frame(&self.frame, &mut self.sink)?;
         if judges {
             self.publish_alarms(stamp)?;
+            self.session.publish_bands(false, &mut self.sink)?;
         }
         self.sink.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())
@@ -249,7 +267,8 @@ impl Player {
     }
 
     /// Ends the bag.
-    pub(super) fn finish(self) -> anyhow::Result<(Recording, Tally)> {
+    pub(super) fn finish(mut self) -> anyhow::Result<(Recording, Tally)> {
+        self.session.publish_bands(true, &mut self.sink)?;
         let (recorder, mut tally) = self.sink.end();
         tally.alarms.finish(self.session.alarms().figures());
         tally.phases(self.run.simulation().phase_times());

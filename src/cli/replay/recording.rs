@@ -14,9 +14,10 @@ use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::cli::source::{FromRig, MeasuredSample};
+use crate::ensemble::Generation;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{
-    AppliedInputs, JointDeflections, Message, Residuals, RigInputs, RigMeasured, SessionInfo, TwinStatus,
+    AppliedInputs, Bands, JointDeflections, Message, Residuals, RigInputs, RigMeasured, SessionInfo, TwinStatus,
 };
 use crate::residuals::Samples;
 use flexdrill_config::Config;
@@ -41,6 +42,8 @@ pub(super) struct Script {
     from_rig: FromRig,
     /// What the rig had measured when it was compared with the twin, by stamp.
     samples: Vec<(i64, Samples)>,
+    /// Plausible tools that ran with it, by the instant at which they began (ns since 1970), in the order of time.
+    ensembles: Vec<(i64, Generation)>,
     /// Names of the recorded topics by relative name.
     names: Vec<(&'static str, String)>,
     /// Steps taken at the end, since the last reset.
@@ -67,6 +70,7 @@ impl Script {
             RigInputs::ROS_TYPE,
             RigMeasured::ROS_TYPE,
             Residuals::ROS_TYPE,
+            Bands::ROS_TYPE,
         ];
         // Only these types are decoded: they drive the model or say where
         // it was; the rest of a recording is far larger.
@@ -89,6 +93,7 @@ impl Script {
         let (mut session, mut applied, mut gaps) = (None, Vec::new(), Gaps::default());
         let (mut damaged, mut from_rig, mut samples) = (Vec::new(), FromRig::default(), Vec::new());
         let (mut status_step, mut newest_stamp) = (0, None);
+        let mut ensembles: Vec<(i64, Generation)> = Vec::new();
         for message in bag.by_ref() {
             let message = match message {
                 // The sequence numbers of the messages around a damaged part show the loss.
@@ -124,6 +129,23 @@ impl Script {
                     let residuals = message.decode::<Residuals>()?;
                     samples.push((residuals.header.stamp.to_nanoseconds(), Samples::of(&residuals)));
                 }
+                Bands::ROS_TYPE => {
+                    let bands = message.decode::<Bands>()?;
+                    let begun = bands.begun.to_nanoseconds();
+                    if ensembles.last().is_none_or(|(last, _)| *last < begun) {
+                        let why = if bands.members == 0 {
+                            bands.no_bands
+                        } else {
+                            String::new()
+                        };
+                        let of = Generation {
+                            members: bands.members,
+                            why,
+                            ..Generation::default()
+                        };
+                        ensembles.push((begun, of));
+                    }
+                }
                 // The last output bounds the run where the status, once a second, came too early.
                 _ => newest_stamp = Some(message.decode::<JointDeflections>()?.header.stamp.to_nanoseconds()),
             }
@@ -144,6 +166,7 @@ impl Script {
             applied,
             from_rig,
             samples,
+            ensembles,
             names,
             last_step,
             gaps: gaps.found(),
@@ -240,6 +263,11 @@ impl Script {
         let mut base = Base::of(&self.session, self.applied.first());
         let mut player = Player::new(config, base.start, self.from_rig.clone(), out, |topic| self.name(topic))?;
         player.compare_with(self.samples.iter().copied());
+        let ensembles = self.ensembles.iter().map(|(begun, generation)| Generation {
+            begun: ((begun - base.start) as f64 * 1e-9 / time_step).round().max(0.0) as u64,
+            ..generation.clone()
+        });
+        player.run_ensemble(ensembles.collect())?;
         let mut pace = Pace {
             taken: 0,
             most: duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64),

@@ -234,7 +234,10 @@ export function decodeAlarm(reader: CdrReader): Alarm {
   };
 }
 
-/** How many members of a look-ahead saw an alarm: raised after the first 5 s of the horizon, or standing in its second half. */
+/**
+ * How many members of a look-ahead saw an alarm: raised after the first 5 s of the horizon, or standing in its second half.
+ * On twin/bands: in how many plausible tools it stands.
+ */
 export interface AlarmChance {
   /** Id of the alarm, such as backward_whirl. */
   id: string;
@@ -246,12 +249,15 @@ export interface AlarmChance {
   seen: number;
   /** Members that ended. */
   members: number;
-  /** Share of the members; NaN where none ended. */
+  /** Share of the members, on twin/bands by their weights; NaN where none ended. */
   probability: number;
   /** The 95 % interval of the probability (Wilson). */
   lower: number;
   upper: number;
-  /** Median of the time from the beginning of the horizon until the alarm counts (s), over the members that saw it. */
+  /**
+   * Median of the time from the beginning of the horizon until the alarm counts (s), over the members that saw it. On
+   * twin/bands: since it stands.
+   */
   time_to_first: number;
 }
 /** Reads a `flexdrill/msg/AlarmChance`. */
@@ -525,6 +531,115 @@ export function decodeAppliedInputs(reader: CdrReader): AppliedInputs {
   };
 }
 
+/** A figure over the members of a look-ahead, or over plausible tools. */
+export interface FigureBand {
+  /**
+   * Of a look-ahead: bit_speed_ripple, pipe_guide_force, guide_wall_force, stop_moment, bending_cycles, damage,
+   * torque_transfer or weight_transfer. Of twin/bands: topic and field, such as transfer/bit_torque.
+   */
+  name: string;
+  /** Unit; empty for a ratio. */
+  unit: string;
+  /** Quantiles over the members at 5, 50 and 95 %; NaN where no member has the figure. */
+  p5: number;
+  p50: number;
+  p95: number;
+}
+/** Reads a `flexdrill/msg/FigureBand`. */
+export function decodeFigureBand(reader: CdrReader): FigureBand {
+  return {
+    name: reader.string(),
+    unit: reader.string(),
+    p5: reader.float64(),
+    p50: reader.float64(),
+    p95: reader.float64(),
+  };
+}
+
+/**
+ * What plausible tools do under the inputs of the twin, once per second of model time: bands of its figures, and the share of
+ * the tools in which each alarm stands.
+ */
+export interface Bands {
+  /**
+   * Stamp: the instant of the figures, on the rig's clock. The message comes once every member has been computed up to it, a
+   * second or more later. Frame: the tool.
+   */
+  header: Header;
+  /** Instant at which these members began. */
+  begun: Time;
+  /** Members: tools that were drawn from what is known of the tool and its rig. */
+  members: number;
+  /**
+   * Members that could not be computed. What they do is unknown, not safe: they are in no band and no chance, and are replaced
+   * within two minutes.
+   */
+  failed: number;
+  /** Members that are prepared to replace others, and count for nothing yet. */
+  prepared: number;
+  /**
+   * Number of members alike that those amount to by their weights, which what the rig measures gives them; without
+   * measurements all that were computed. Bands need 8.
+   */
+  effective: number;
+  /** How often members of little weight gave way to others near those of much weight. */
+  renewals: number;
+  /** Why there are no bands; empty where there are. */
+  no_bands: string;
+  /**
+   * The figures: those of twin/bit_state, twin/joint_deflections, twin/contact_forces and twin/transfer that a table or a
+   * bridge shows, over the last second. With fewer than 19 members the ends lie beyond the outermost, as of a normal distribution.
+   */
+  bands: FigureBand[];
+  /** Measured depth of the stations of the two profiles below (m). */
+  measured_depth: Float64Array;
+  /**
+   * Largest normal force of pipe and guide within the last second at each station (N): quantiles over plausible tools at 5, 50
+   * and 95 %. Empty without bands.
+   */
+  pipe_guide_force_p5: Float64Array;
+  pipe_guide_force_p50: Float64Array;
+  pipe_guide_force_p95: Float64Array;
+  /** The same of guide and wall (N). */
+  guide_wall_force_p5: Float64Array;
+  guide_wall_force_p50: Float64Array;
+  guide_wall_force_p95: Float64Array;
+  /** Alarms that stand in a plausible tool, with each priority: the share of the tools by their weights. */
+  alarms: AlarmChance[];
+  /**
+   * Share of the plausible tools in which any alarm of the tool stands, with its 95 % interval (Wilson); NaN where no member
+   * was computed.
+   */
+  any_alarm: number;
+  any_alarm_lower: number;
+  any_alarm_upper: number;
+}
+/** Reads a `flexdrill/msg/Bands`. */
+export function decodeBands(reader: CdrReader): Bands {
+  return {
+    header: decodeHeader(reader),
+    begun: decodeTime(reader),
+    members: reader.uint32(),
+    failed: reader.uint32(),
+    prepared: reader.uint32(),
+    effective: reader.float64(),
+    renewals: reader.uint32(),
+    no_bands: reader.string(),
+    bands: reader.many(reader.length(), () => decodeFigureBand(reader)),
+    measured_depth: reader.float64Array(reader.length()),
+    pipe_guide_force_p5: reader.float64Array(reader.length()),
+    pipe_guide_force_p50: reader.float64Array(reader.length()),
+    pipe_guide_force_p95: reader.float64Array(reader.length()),
+    guide_wall_force_p5: reader.float64Array(reader.length()),
+    guide_wall_force_p50: reader.float64Array(reader.length()),
+    guide_wall_force_p95: reader.float64Array(reader.length()),
+    alarms: reader.many(reader.length(), () => decodeAlarmChance(reader)),
+    any_alarm: reader.float64(),
+    any_alarm_lower: reader.float64(),
+    any_alarm_upper: reader.float64(),
+  };
+}
+
 /**
  * The bit. Torque, speed, weight and accelerations cover the time since the previous message, in which every step counts:
  * an instant would alias with the rotation. Only the first message of a run has torque, speed and weight of its instant.
@@ -694,31 +809,6 @@ export function decodeContactForces(reader: CdrReader): ContactForces {
     shock_impulse: reader.float64(),
     shock_station: reader.uint32(),
     shock_layer: reader.uint8(),
-  };
-}
-
-/** A figure of a look-ahead over its members. */
-export interface FigureBand {
-  /**
-   * bit_speed_ripple, pipe_guide_force, guide_wall_force, stop_moment, bending_cycles, damage, torque_transfer or
-   * weight_transfer.
-   */
-  name: string;
-  /** Unit; empty for a ratio. */
-  unit: string;
-  /** Quantiles over the members at 5, 50 and 95 %; NaN where no member has the figure. */
-  p5: number;
-  p50: number;
-  p95: number;
-}
-/** Reads a `flexdrill/msg/FigureBand`. */
-export function decodeFigureBand(reader: CdrReader): FigureBand {
-  return {
-    name: reader.string(),
-    unit: reader.string(),
-    p5: reader.float64(),
-    p50: reader.float64(),
-    p95: reader.float64(),
   };
 }
 
@@ -2231,6 +2321,7 @@ export const DECODERS = {
   "flexdrill/msg/AlarmEvent": decodeAlarmEvent,
   "flexdrill/msg/AlarmList": decodeAlarmList,
   "flexdrill/msg/AppliedInputs": decodeAppliedInputs,
+  "flexdrill/msg/Bands": decodeBands,
   "flexdrill/msg/BitState": decodeBitState,
   "flexdrill/msg/ContactForces": decodeContactForces,
   "flexdrill/msg/FigureBand": decodeFigureBand,

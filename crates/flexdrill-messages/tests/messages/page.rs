@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use flexdrill_messages::{
-    Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, FigureBand, Forecast,
-    ForecastBand, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs, RigMeasured, SafeWindow,
-    SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr,
+    Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, FigureBand,
+    Forecast, ForecastBand, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs, RigMeasured,
+    SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr,
     visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
@@ -152,6 +152,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<AlarmEvent>(&mut maker),
         reference::<AlarmList>(&mut maker),
         reference::<AppliedInputs>(&mut maker),
+        reference::<Bands>(&mut maker),
         reference::<BitState>(&mut maker),
         reference::<ContactForces>(&mut maker),
         reference::<JointDeflections>(&mut maker),

@@ -93,7 +93,7 @@ impl Window {
 }
 
 macro_rules! kinds {
-    ($($(#[doc = $doc:literal])* $kind:ident in $dimension:expr, shown in $unit:literal times $factor:expr;)*) => {
+    ($($(#[doc = $doc:literal])* $kind:ident in $dimension:expr, sent in $si:literal, shown in $unit:literal times $factor:expr;)*) => {
         /// What a figure measures: its unit in messages (SI), and the one in which reports and the rig page show it.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Kind {
@@ -107,6 +107,11 @@ macro_rules! kinds {
                 match self { $(Self::$kind => $dimension,)* }
             }
 
+            /// The SI unit, in which messages have it; empty for a number alone.
+            pub const fn si(self) -> &'static str {
+                match self { $(Self::$kind => $si,)* }
+            }
+
             /// The unit in reports, and the factor from SI.
             pub fn unit(self) -> (&'static str, f64) {
                 match self { $(Self::$kind => ($unit, $factor),)* }
@@ -117,31 +122,31 @@ macro_rules! kinds {
 
 kinds! {
     /// Torque (N m).
-    Torque in Some(Torque), shown in "N m" times 1.0;
+    Torque in Some(Torque), sent in "N m", shown in "N m" times 1.0;
     /// Force (N).
-    Force in Some(Force), shown in "kN" times n_to_kn(1.0);
+    Force in Some(Force), sent in "N", shown in "kN" times n_to_kn(1.0);
     /// Weight, and axial drag, which takes of it (N).
-    Weight in Some(Force), shown in "kN" times n_to_kn(1.0);
+    Weight in Some(Force), sent in "N", shown in "kN" times n_to_kn(1.0);
     /// Rotary speed (rad/s).
-    RotarySpeed in Some(RotarySpeed), shown in "r/min" times rad_per_s_to_rpm(1.0);
+    RotarySpeed in Some(RotarySpeed), sent in "rad/s", shown in "r/min" times rad_per_s_to_rpm(1.0);
     /// Rate of penetration (m/s).
-    Advance in Some(Speed), shown in "m/h" times m_per_s_to_m_per_h(1.0);
+    Advance in Some(Speed), sent in "m/s", shown in "m/h" times m_per_s_to_m_per_h(1.0);
     /// Depth of cut (m per turn).
-    Cut in Some(Length), shown in "mm per turn" times 1e3;
+    Cut in Some(Length), sent in "m", shown in "mm per turn" times 1e3;
     /// Speed (m/s).
-    Speed in Some(Speed), shown in "m/s" times 1.0;
+    Speed in Some(Speed), sent in "m/s", shown in "m/s" times 1.0;
     /// Acceleration (m/s2).
-    Acceleration in Some(Acceleration), shown in "m/s²" times 1.0;
+    Acceleration in Some(Acceleration), sent in "m/s2", shown in "m/s²" times 1.0;
     /// Angle (rad).
-    Angle in Some(Angle), shown in "deg" times rad_to_deg(1.0);
+    Angle in Some(Angle), sent in "rad", shown in "deg" times rad_to_deg(1.0);
     /// Time (s).
-    Time in Some(Time), shown in "s" times 1.0;
+    Time in Some(Time), sent in "s", shown in "s" times 1.0;
     /// Power (W).
-    Power in None, shown in "W" times 1.0;
+    Power in None, sent in "W", shown in "W" times 1.0;
     /// Share of a whole, 0 to 1.
-    Share in Some(Number), shown in "%" times 100.0;
+    Share in Some(Number), sent in "", shown in "%" times 100.0;
     /// Share of the time, 0 to 1.
-    TimeShare in Some(Number), shown in "% of the time" times 100.0;
+    TimeShare in Some(Number), sent in "", shown in "% of the time" times 100.0;
     /// A number alone.
-    Number in Some(Number), shown in "" times 1.0;
+    Number in Some(Number), sent in "", shown in "" times 1.0;
 }

@@ -1,0 +1,520 @@
+//! The ensemble slice by slice: members run, are weighed once per window, and give way to others once per minute.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::evidence::{Compared, Errors, WINDOW};
+use super::member::{Member, Second};
+use super::message::message;
+use crate::residuals::predicted;
+use flexdrill_config::{Config, Members};
+use flexdrill_core::twin::RunInputs;
+use flexdrill_ensemble::{LEAST_MEMBERS, effective_number, renewal, weights};
+use flexdrill_messages::Bands;
+use flexdrill_realtime::monotonic;
+use flexdrill_uncertainty::{Member as Drawn, Priors, UncertaintyError};
+
+/// Model time of a slice (s).
+const SLICE: f64 = 0.5;
+/// Slices between two messages: one second.
+const PER_SECOND: u64 = 2;
+/// Model time after which members may give way to others, and for which those are prepared: the motion and the means of a
+/// tool that begins in the middle of a run have settled after it (s).
+const PREPARED: f64 = 60.0;
+/// Scatter of a new member about the one that it is near, the `h` of Liu and West.
+const SCATTER: f64 = 0.2;
+
+/// What the ensemble hears of the twin, in the order of its ticks.
+#[derive(Debug, Clone)]
+pub enum Told {
+    /// What acts from these ticks on, under a configuration.
+    Applied(u64, Box<RunInputs>, Arc<Config>),
+    /// The rig was compared with the twin at these ticks.
+    Compared(u64, Compared),
+    /// The twin has come to these ticks.
+    Reached(u64),
+}
+
+/// A set of members from its beginning, and how many there are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Generation {
+    /// Ticks at which they begin.
+    pub begun: u64,
+    /// How many; none where there are no bands.
+    pub members: u32,
+    /// Why there are none; empty where there are.
+    pub why: String,
+}
+
+/// The bands of a second.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// Ticks at its end.
+    pub ticks: u64,
+    /// Ticks at which the members began.
+    pub begun: u64,
+    /// All but the header and the instant at which the members began.
+    pub bands: Bands,
+}
+
+/// What members run on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Threads {
+    /// How many.
+    pub count: usize,
+    /// Whether their work is idle work, which takes what other work leaves of the processors.
+    pub idle: bool,
+}
+
+/// A piece of model time.
+pub(super) struct Slice<'a> {
+    /// First tick.
+    pub(super) from: u64,
+    /// The tick after the last.
+    pub(super) to: u64,
+    /// What acts from these ticks on.
+    pub(super) applied: &'a [(u64, RunInputs)],
+}
+
+/// What a message says of the members themselves.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Counts {
+    pub(super) members: u32,
+    pub(super) failed: u32,
+    pub(super) prepared: u32,
+    pub(super) effective: f64,
+    pub(super) renewals: u32,
+    pub(super) why: String,
+}
+
+/// A member, or why there is none.
+struct Place {
+    drawn: Result<Drawn, String>,
+    state: State,
+}
+
+enum State {
+    /// Built with the next slice.
+    Unborn,
+    Runs(Box<Member>),
+    Failed,
+}
+
+/// A member that is prepared to take a place.
+struct Prepared {
+    takes: usize,
+    /// The member that it is near.
+    near: usize,
+    place: Place,
+}
+
+/// A choice of members that stay, and of those that are prepared.
+struct Choice {
+    /// Logarithms of the members' weights when it was made, where it was made by weights; otherwise it only replaces those
+    /// that failed.
+    by_weights: Option<Vec<f64>>,
+    prepared: Vec<Prepared>,
+}
+
+/// The ensemble of a run.
+pub struct Ensemble {
+    config: Arc<Config>,
+    priors: Priors,
+    errors: Errors,
+    seed: u64,
+    /// What acts at `at`, once that is known.
+    acts: Option<RunInputs>,
+    generation: Generation,
+    places: Vec<Place>,
+    choice: Option<Choice>,
+    renewals: u32,
+    /// Ticks that all members have come to.
+    at: u64,
+    /// Ticks that the twin has come to.
+    reached: u64,
+    applied: VecDeque<(u64, RunInputs, Arc<Config>)>,
+    compared: VecDeque<(u64, Compared)>,
+}
+
+impl Ensemble {
+    /// The ensemble of a configuration; `None` where it has none.
+    ///
+    /// # Errors
+    /// When nothing can be drawn, which the check of a configuration finds too.
+    pub fn of(config: &Arc<Config>) -> Result<Option<Self>, UncertaintyError> {
+        let Some(stated) = &config.ensemble else {
+            return Ok(None);
+        };
+        let priors = Priors::of(config)?;
+        Ok(Some(Self {
+            errors: Errors::of(config, &priors),
+            priors,
+            config: Arc::clone(config),
+            seed: stated.seed,
+            acts: None,
+            generation: Generation {
+                begun: 0,
+                members: 0,
+                why: "the plausible tools have not begun yet".to_owned(),
+            },
+            places: Vec::new(),
+            choice: None,
+            renewals: 0,
+            at: 0,
+            reached: 0,
+            applied: VecDeque::new(),
+            compared: VecDeque::new(),
+        }))
+    }
+
+    /// The number of members that the configuration asks for; `None` where the computer decides.
+    pub fn asked(&self) -> Option<u32> {
+        match self.config.ensemble.as_ref()?.members {
+            Members::Count(count) => Some(count),
+            Members::Auto(_) => None,
+        }
+    }
+
+    /// Hears of the twin.
+    pub fn hear(&mut self, told: Told) {
+        match told {
+            Told::Applied(ticks, inputs, config) => self.applied.push_back((ticks, *inputs, config)),
+            Told::Compared(ticks, compared) => self.compared.push_back((ticks, compared)),
+            Told::Reached(ticks) => self.reached = self.reached.max(ticks),
+        }
+    }
+
+    /// Ticks that all members have come to, and those that the twin has come to.
+    pub fn ticks(&self) -> [u64; 2] {
+        [self.at, self.reached]
+    }
+
+    /// Ticks of a time (s).
+    pub fn ticks_of(&self, time: f64) -> u64 {
+        ((time / self.config.solver.time_step).round() as u64).max(1)
+    }
+
+    /// Ticks at which the first members can begin: those from which on it is known what acts.
+    pub fn first(&self) -> Option<u64> {
+        let (ticks, ..) = self.applied.front()?;
+        Some(ticks.next_multiple_of(self.ticks_of(SLICE)))
+    }
+
+    /// Ticks at which other members can begin now: the last end of a slice that the twin has passed.
+    pub fn latest(&self) -> u64 {
+        let slice = self.ticks_of(SLICE);
+        self.reached.saturating_sub(1) / slice * slice
+    }
+
+    /// Begins anew with other members, at the end of a slice that the twin has passed ([`Ensemble::first`],
+    /// [`Ensemble::latest`]), so that all that acts there is known.
+    pub fn begin(&mut self, generation: Generation) {
+        let slice = self.ticks_of(SLICE);
+        let begun = generation.begun;
+        // What came before acts from the beginning on.
+        while self.at < begun {
+            self.at += slice;
+            self.take_applied(self.at);
+        }
+        self.take_applied(begun + 1);
+        self.places = (0..u64::from(generation.members))
+            .map(|number| Place {
+                drawn: self.priors.member(self.seed, number).map_err(|error| error.to_string()),
+                state: State::Unborn,
+            })
+            .collect();
+        self.generation = Generation { begun, ..generation };
+        (self.choice, self.renewals, self.at) = (None, 0, begun);
+    }
+
+    /// The members of now.
+    pub fn generation(&self) -> &Generation {
+        &self.generation
+    }
+
+    /// Processor time (s) that a second of a member's model time takes here, measured with its first member.
+    ///
+    /// # Errors
+    /// Why it cannot be measured, in words.
+    pub fn cost(&mut self) -> Result<f64, String> {
+        /// Model time that is measured, after as much that is not (s).
+        const MEASURED: f64 = 1.0;
+        let begun = self.at;
+        let length = self.ticks_of(MEASURED);
+        let acts = self.acts.or_else(|| self.applied.front().map(|(_, inputs, _)| *inputs));
+        let acts = acts.ok_or("nothing acts on the twin yet")?;
+        let drawn = self.priors.member(self.seed, 0).map_err(|error| error.to_string())?;
+        let mut member = Member::new(&drawn, &acts)?;
+        let mut run = |from: u64| {
+            member.advance(&Slice {
+                from,
+                to: from + length,
+                applied: &[],
+            })
+        };
+        run(begun)?;
+        let before = monotonic::processor_time();
+        run(begun + length)?;
+        Ok((monotonic::processor_time() - before) as f64 * 1e-9 / MEASURED)
+    }
+
+    /// Whether the twin has come to the end of the next slice.
+    pub fn is_due(&self) -> bool {
+        self.acts.is_some() && self.at + self.ticks_of(SLICE) <= self.reached
+    }
+
+    /// Runs the next slice on these threads. Returns the bands where a second ends. Once `stop` is set it
+    /// returns soon, and the ensemble is of no further use.
+    pub fn slice(&mut self, threads: Threads, stop: &AtomicBool) -> Option<Found> {
+        let length = self.ticks_of(SLICE);
+        let (from, to) = (self.at, self.at + length);
+        let begins = self.acts?;
+        let applied = self.take_applied(to);
+        let slice = Slice {
+            from,
+            to,
+            applied: &applied,
+        };
+        let prepared = self.choice.iter_mut().flat_map(|choice| &mut choice.prepared);
+        let prepared = prepared.map(|prepared| &mut prepared.place);
+        in_parallel(self.places.iter_mut().chain(prepared).collect(), threads, |place| {
+            if !stop.load(Ordering::Relaxed) {
+                place.advance(&slice, &begins);
+            }
+        });
+        self.at = to;
+        self.weigh(to);
+        let since = to - self.generation.begun;
+        if since.is_multiple_of(self.ticks_of(WINDOW)) {
+            self.members(|member| member.windows.end());
+        }
+        if since.is_multiple_of(self.ticks_of(PREPARED)) {
+            self.replace();
+            self.choose(to);
+        }
+        to.is_multiple_of(PER_SECOND * length).then(|| Found {
+            ticks: to,
+            begun: self.generation.begun,
+            bands: self.message(),
+        })
+    }
+
+    /// What acts from ticks before `to` on, and makes the last of it what acts.
+    fn take_applied(&mut self, to: u64) -> Vec<(u64, RunInputs)> {
+        let mut applied = Vec::new();
+        while let Some((ticks, inputs, config)) = self.applied.pop_front_if(|(ticks, ..)| *ticks < to) {
+            if !Arc::ptr_eq(&config, &self.config) {
+                self.reconfigure(config);
+            }
+            self.acts = Some(RunInputs { reset: false, ..inputs });
+            applied.push((ticks, inputs));
+        }
+        applied
+    }
+
+    /// Adopts a configuration that was changed while the twin runs. Members keep what they have drawn.
+    fn reconfigure(&mut self, config: Arc<Config>) {
+        // A change that leaves nothing to draw from is refused by the check of the configuration.
+        if let Ok(priors) = Priors::of(&config) {
+            self.errors = Errors::of(&config, &priors);
+            self.priors = priors;
+        }
+        self.config = config;
+        let priors = &self.priors;
+        let prepared = self.choice.iter_mut().flat_map(|choice| &mut choice.prepared);
+        for place in self
+            .places
+            .iter_mut()
+            .chain(prepared.map(|prepared| &mut prepared.place))
+        {
+            if let (Ok(drawn), State::Runs(member)) = (&place.drawn, &mut place.state)
+                && let Ok(config) = priors.config(&drawn.draws)
+            {
+                member.reconfigure(config);
+            }
+        }
+    }
+
+    fn members(&mut self, mut each: impl FnMut(&mut Member)) {
+        for place in &mut self.places {
+            if let State::Runs(member) = &mut place.state {
+                each(member);
+            }
+        }
+    }
+
+    /// Takes the comparisons up to the end of a slice. A member that is prepared has no steady motion yet.
+    fn weigh(&mut self, to: u64) {
+        while let Some((_, compared)) = self.compared.pop_front_if(|(ticks, _)| *ticks <= to) {
+            let errors = self.errors;
+            self.members(|member| {
+                let computed = predicted(member.snapshot());
+                member.windows.add(&errors, &compared, &computed);
+            });
+        }
+    }
+
+    /// Logarithms of the members' weights; NaN for those that failed.
+    fn logs(&self) -> Vec<f64> {
+        let log = |place: &Place| match &place.state {
+            State::Runs(member) => member.windows.evidence.log_weight(),
+            _ => f64::NAN,
+        };
+        self.places.iter().map(log).collect()
+    }
+
+    /// Weights of the members; 0 for those that failed.
+    fn weights(&self) -> Vec<f64> {
+        let logs = self.logs();
+        match logs.iter().all(|log| log.is_nan()) {
+            true => vec![0.0; logs.len()],
+            false => weights(&logs),
+        }
+    }
+
+    /// Puts those that were prepared into their places.
+    fn replace(&mut self) {
+        let Some(choice) = self.choice.take() else { return };
+        let evidence: Vec<_> = (self.places.iter().enumerate())
+            .map(|(index, place)| match &place.state {
+                State::Runs(member) => {
+                    let evidence = &member.windows.evidence;
+                    Some(match choice.by_weights.as_ref().and_then(|logs| logs.get(index)) {
+                        // What was measured before the choice has made it.
+                        Some(log) if log.is_finite() => evidence.chosen(*log),
+                        _ => evidence.clone(),
+                    })
+                }
+                _ => None,
+            })
+            .collect();
+        if choice.by_weights.is_some() {
+            self.renewals += 1;
+            for (place, evidence) in self.places.iter_mut().zip(&evidence) {
+                if let (State::Runs(member), Some(evidence)) = (&mut place.state, evidence) {
+                    member.windows.evidence = evidence.clone();
+                }
+            }
+        }
+        for Prepared { takes, near, mut place } in choice.prepared {
+            // A child of a member that has failed since has nothing that weighs it.
+            match (&mut place.state, evidence.get(near).cloned().flatten()) {
+                (State::Runs(member), Some(evidence)) => member.windows.evidence = evidence,
+                _ => place.state = State::Failed,
+            }
+            self.places[takes] = place;
+        }
+    }
+
+    /// Chooses which members stay where few carry most of the weight or some failed, and prepares others near those.
+    fn choose(&mut self, now: u64) {
+        let shares = self.weights();
+        let (count, effective) = (shares.len() as f64, effective_number(&shares));
+        let few = effective < (0.5 * count).max(LEAST_MEMBERS + 1.0).min(count - 0.5);
+        let failed = self.places.iter().any(Place::has_failed);
+        if !(few || failed) || effective == 0.0 {
+            return;
+        }
+        // A member that could not be drawn has no weight, wherever it is.
+        let size = self.priors.entries().len() + 2 * self.priors.sensors().len();
+        let scores = |place: &Place| {
+            place
+                .drawn
+                .as_ref()
+                .map_or_else(|_| vec![0.0; size], |drawn| drawn.scores.clone())
+        };
+        let scores: Vec<Vec<f64>> = self.places.iter().map(scores).collect();
+        let children = renewal(&scores, &shares, SCATTER, self.seed ^ now);
+        // The first child of a member is the member itself, which need not be prepared.
+        let mut stays = vec![false; shares.len()];
+        let mut others = Vec::new();
+        for child in children {
+            if std::mem::replace(&mut stays[child.parent], true) {
+                others.push(child);
+            }
+        }
+        let gone = (0..stays.len()).filter(|index| {
+            if few {
+                !stays[*index]
+            } else {
+                self.places[*index].has_failed()
+            }
+        });
+        let prepared = gone.zip(others).map(|(takes, child)| Prepared {
+            takes,
+            near: child.parent,
+            place: Place {
+                drawn: self.priors.at(child.at).map_err(|error| error.to_string()),
+                state: State::Unborn,
+            },
+        });
+        self.choice = Some(Choice {
+            prepared: prepared.collect(),
+            by_weights: few.then(|| self.logs()),
+        });
+    }
+
+    fn message(&mut self) -> Bands {
+        let shares = self.weights();
+        let counts = Counts {
+            members: self.generation.members,
+            failed: self.places.iter().filter(|place| place.has_failed()).count() as u32,
+            prepared: self.choice.as_ref().map_or(0, |choice| choice.prepared.len() as u32),
+            effective: effective_number(&shares),
+            renewals: self.renewals,
+            why: self.generation.why.clone(),
+        };
+        let second = |place: &mut Place| match &mut place.state {
+            State::Runs(member) => Some(member.second()),
+            _ => None,
+        };
+        let seconds: Vec<(f64, Option<Second>)> = shares.into_iter().zip(self.places.iter_mut().map(second)).collect();
+        message(&counts, &seconds)
+    }
+}
+
+impl Place {
+    fn has_failed(&self) -> bool {
+        matches!(self.state, State::Failed)
+    }
+
+    /// Runs a slice, at whose beginning `acts` acts; builds the tool first where it is new.
+    fn advance(&mut self, slice: &Slice<'_>, acts: &RunInputs) {
+        if let State::Unborn = self.state {
+            let built = self
+                .drawn
+                .as_ref()
+                .map_err(String::clone)
+                .and_then(|drawn| Member::new(drawn, acts));
+            self.state = match built {
+                Ok(member) => State::Runs(Box::new(member)),
+                Err(_) => State::Failed,
+            };
+        }
+        if let State::Runs(member) = &mut self.state
+            && member.advance(slice).is_err()
+        {
+            // Its memory is large, and what it knows of the rig is not needed any more.
+            self.state = State::Failed;
+        }
+    }
+}
+
+/// `work` on each of `items`.
+fn in_parallel<T: Send>(items: Vec<&mut T>, threads: Threads, work: impl Fn(&mut T) + Sync) {
+    let items: Vec<Mutex<&mut T>> = items.into_iter().map(Mutex::new).collect();
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..threads.count.clamp(1, items.len().max(1)) {
+            scope.spawn(|| {
+                if threads.idle {
+                    flexdrill_realtime::priority::idle();
+                }
+                while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    work(&mut item.lock().unwrap_or_else(PoisonError::into_inner));
+                }
+            });
+        }
+    });
+}

@@ -1,0 +1,175 @@
+//! What the rig measures, as evidence for a member.
+//!
+//! Residuals of steady seconds are averaged over windows and divided by the error that is stated for the twin and the offset
+//! of the sensor, which are the same in all windows: a discrepancy of 1, which no log averages away
+//! ([`flexdrill_ensemble::Evidence`]).
+
+use flexdrill_calibration::monitor::MonitorSettings;
+use flexdrill_calibration::residual::RigQuantity;
+use flexdrill_config::Config;
+use flexdrill_ensemble::{Evidence, Measurement};
+use flexdrill_uncertainty::{Channel, Priors};
+
+/// Model time of a window (s).
+pub(super) const WINDOW: f64 = 20.0;
+/// Time within which residuals of a motion are one piece of information (s): a window counts for a third of it.
+const CORRELATED: f64 = 60.0;
+/// Time after which the discrepancy of the model is another one, as depth and rock change (s).
+const LASTING: f64 = 7200.0;
+/// Seconds of a window that must be steady and measured.
+const LEAST_SECONDS: f64 = 5.0;
+/// Least noise of a window's mean, as a share of the discrepancy.
+const LEAST_NOISE: f64 = 0.1;
+/// A range that holds 90 % of a normal distribution, in standard deviations.
+const RANGE: f64 = 1.645;
+
+/// A comparison of the rig with the twin, once per second.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Compared {
+    /// Whether speed and weight are steady and all inputs are good.
+    pub steady: bool,
+    /// What the rig has measured since the comparison before, by [`RigQuantity::ALL`] (SI); NaN where nothing came.
+    pub measured: [f64; RigQuantity::COUNT],
+    /// What the twin computes (SI).
+    pub predicted: [f64; RigQuantity::COUNT],
+}
+
+/// The stated errors of a rig, per quantity (SI).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Errors {
+    of: [OneError; RigQuantity::COUNT],
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct OneError {
+    noise: f64,
+    /// Of the twin, as a share and at least.
+    model: f64,
+    least: f64,
+    /// Standard deviation of the sensor's offset about `tare`.
+    offset: f64,
+    tare: f64,
+    /// Drift of the offset within [`CORRELATED`].
+    drift: f64,
+}
+
+/// The sensor of a quantity.
+const fn channel(quantity: RigQuantity) -> Channel {
+    match quantity {
+        RigQuantity::SurfaceTorque => Channel::SurfaceTorque,
+        RigQuantity::HookLoad => Channel::HookLoad,
+        RigQuantity::DownholeSpeed => Channel::DownholeSpeed,
+        RigQuantity::DownholeTorque => Channel::DownholeTorque,
+        RigQuantity::DownholeWeight => Channel::DownholeWeight,
+    }
+}
+
+impl Errors {
+    pub(super) fn of(config: &Config, priors: &Priors) -> Self {
+        let stated = MonitorSettings::stated(&flexdrill_calibration::stated(config));
+        let mut of = [OneError::default(); RigQuantity::COUNT];
+        for quantity in RigQuantity::ALL {
+            let expected = &stated.expected[quantity as usize];
+            let sensor = priors
+                .sensors()
+                .iter()
+                .find(|sensor| sensor.channel == channel(quantity));
+            of[quantity as usize] = OneError {
+                noise: expected.noise,
+                model: expected.model,
+                least: expected.least,
+                offset: sensor.map_or(0.0, |sensor| sensor.tare_range / RANGE),
+                tare: stated.tare[quantity as usize],
+                drift: expected.drift * (CORRELATED / 3600.0).sqrt(),
+            };
+        }
+        Self { of }
+    }
+}
+
+impl OneError {
+    /// What residuals are divided by where the twin computes `predicted`.
+    fn scale(&self, predicted: f64) -> f64 {
+        (self.model * predicted).hypot(self.least).hypot(self.offset)
+    }
+}
+
+/// The windows of a member.
+#[derive(Debug, Clone)]
+pub(super) struct Windows {
+    pub(super) evidence: Evidence,
+    /// Factors of the member's sensors, by [`RigQuantity::ALL`].
+    factors: [f64; RigQuantity::COUNT],
+    sums: [Sums; RigQuantity::COUNT],
+}
+
+/// Sums of the present window, all over the scale of the second.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    residuals: f64,
+    /// Squares of the noise and of the drift.
+    noise: f64,
+    drift: f64,
+    seconds: f64,
+}
+
+impl Windows {
+    /// Nothing measured, with the sensors of a member.
+    pub(super) fn new(member: &flexdrill_uncertainty::Member) -> Self {
+        let factor = |quantity| {
+            let sensor = member.sensors.iter().find(|sensor| sensor.channel == channel(quantity));
+            sensor.map_or(1.0, |sensor| sensor.factor)
+        };
+        Self {
+            evidence: Evidence::new(&[1.0; RigQuantity::COUNT]),
+            factors: RigQuantity::ALL.map(factor),
+            sums: Default::default(),
+        }
+    }
+
+    /// Forgets the present window, after a reset of the model.
+    pub(super) fn restart(&mut self) {
+        self.sums = Default::default();
+    }
+
+    /// Takes a second in which the member computes `computed`.
+    pub(super) fn add(&mut self, errors: &Errors, compared: &Compared, computed: &[f64; RigQuantity::COUNT]) {
+        if !compared.steady {
+            return;
+        }
+        for (index, error) in errors.of.iter().enumerate() {
+            let scale = error.scale(compared.predicted[index]);
+            // The offset of the sensor about its tare is part of the scale, since all windows share it.
+            let reading = self.factors[index] * computed[index] + error.tare;
+            let residual = (compared.measured[index] - reading) / scale;
+            if residual.is_finite() {
+                let sums = &mut self.sums[index];
+                sums.residuals += residual;
+                sums.noise += (error.noise / scale).powi(2);
+                sums.drift += (error.drift / scale).powi(2);
+                sums.seconds += 1.0;
+            }
+        }
+    }
+
+    /// Ends the window.
+    pub(super) fn end(&mut self) {
+        for (index, sums) in self.sums.into_iter().enumerate() {
+            let n = sums.seconds;
+            if n < LEAST_SECONDS {
+                continue;
+            }
+            // Noise falls with the number of seconds; the drift of the sensor within a window does not.
+            let noise = (sums.noise / n / n + sums.drift / n).sqrt();
+            let measurement = Measurement {
+                residual: sums.residuals / n,
+                // A sensor that is stated to be exact shows the tool's own ripple.
+                noise: noise.max(LEAST_NOISE),
+                independent: WINDOW / CORRELATED,
+            };
+            self.evidence.add(index, &measurement);
+        }
+        self.evidence.fade(WINDOW, LASTING);
+        self.restart();
+    }
+}

@@ -1,0 +1,131 @@
+//! Bands and chances of a second, as a message.
+
+use super::engine::Counts;
+use super::member::Second;
+use crate::alarms::AlarmId;
+use flexdrill_alarms::Priority;
+use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS};
+use flexdrill_messages::{Alarm, AlarmChance, Bands, FigureBand};
+use flexdrill_outputs::figures::OverTools;
+
+/// The message of a second, but for its times. Members are given with their weight; `None` failed.
+pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)]) -> Bands {
+    let known = || {
+        members
+            .iter()
+            .filter_map(|(weight, second)| Some((*weight, second.as_ref()?)))
+    };
+    let band = |value: &dyn Fn(&Second) -> f64| Band::of(known().map(|(weight, second)| (weight, value(second))), 1.0);
+    let mut out = Bands {
+        members: counts.members,
+        failed: counts.failed,
+        prepared: counts.prepared,
+        effective: counts.effective,
+        renewals: counts.renewals,
+        no_bands: no_bands(counts),
+        any_alarm: f64::NAN,
+        any_alarm_upper: 1.0,
+        ..Bands::default()
+    };
+    chances(members, &mut out);
+    let Some((_, first)) = known().next().filter(|_| out.no_bands.is_empty()) else {
+        return out;
+    };
+    let figures = OverTools::known().into_iter().enumerate();
+    out.bands = figures
+        .map(|(index, figure)| {
+            let [p5, p50, p95] = quantiles(band(&|second| second.figures.get(index).copied().unwrap_or(f64::NAN)));
+            FigureBand {
+                name: figure.name,
+                unit: figure.unit.to_owned(),
+                p5,
+                p50,
+                p95,
+            }
+        })
+        .collect();
+    // All members have the stations of the same links.
+    out.measured_depth.clone_from(&first.measured_depth);
+    for station in 0..first.measured_depth.len() {
+        let of = |layer: usize| {
+            quantiles(band(&|second| {
+                second.peaks[layer].get(station).copied().unwrap_or(f64::NAN)
+            }))
+        };
+        let [p5, p50, p95] = of(0);
+        out.pipe_guide_force_p5.push(p5);
+        out.pipe_guide_force_p50.push(p50);
+        out.pipe_guide_force_p95.push(p95);
+        let [p5, p50, p95] = of(1);
+        out.guide_wall_force_p5.push(p5);
+        out.guide_wall_force_p50.push(p50);
+        out.guide_wall_force_p95.push(p95);
+    }
+    out
+}
+
+fn quantiles(band: Option<Band>) -> [f64; 3] {
+    band.map_or([f64::NAN; 3], |band| band.quantiles)
+}
+
+/// Why there are no bands; empty where there are.
+fn no_bands(counts: &Counts) -> String {
+    if !counts.why.is_empty() {
+        return counts.why.clone();
+    }
+    // Rounding must not cost a member that is there.
+    if counts.effective >= LEAST_MEMBERS - 1e-9 {
+        return String::new();
+    }
+    format!(
+        "{} plausible tools amount to {:.1} alike, and bands need {LEAST_MEMBERS:.0}: {}",
+        counts.members,
+        counts.effective,
+        if counts.failed > 0 {
+            "some could not be computed, and are replaced"
+        } else {
+            "the measurements favour few, and others near them are prepared"
+        }
+    )
+}
+
+/// The chances of all alarms that stand in a member.
+fn chances(members: &[(f64, Option<Second>)], out: &mut Bands) {
+    let of = |stands: &dyn Fn(&Second) -> bool| {
+        let outcomes = members
+            .iter()
+            .map(|(weight, second)| (*weight, second.as_ref().map(stands)));
+        let seen = members
+            .iter()
+            .filter(|(_, second)| second.as_ref().is_some_and(stands))
+            .count() as u32;
+        (Chance::of(outcomes), seen)
+    };
+    let ended = members.iter().filter(|(_, second)| second.is_some()).count() as u32;
+    let (any, _) = of(&|second| second.alarms.iter().any(Option::is_some));
+    out.any_alarm = any.probability;
+    [out.any_alarm_lower, out.any_alarm_upper] = any.interval;
+    for (index, id) in AlarmId::ALL.into_iter().enumerate() {
+        for priority in Priority::ALL {
+            let (chance, seen) = of(&|second| second.alarms.get(index).copied().flatten() >= Some(priority));
+            if seen == 0 {
+                continue;
+            }
+            out.alarms.push(AlarmChance {
+                id: id.id().to_owned(),
+                name: id.name().to_owned(),
+                priority: match priority {
+                    Priority::Low => Alarm::LOW,
+                    Priority::Medium => Alarm::MEDIUM,
+                    Priority::High => Alarm::HIGH,
+                },
+                seen,
+                members: ended,
+                probability: chance.probability,
+                lower: chance.interval[0],
+                upper: chance.interval[1],
+                time_to_first: f64::NAN,
+            });
+        }
+    }
+}
