@@ -32,13 +32,14 @@ const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
 const EXAGGERATION: &str = "outputs.exaggeration";
 /// Outputs of which the server keeps the age alone.
-const AGE_ONLY: [&str; 8] = [
+const AGE_ONLY: [&str; 9] = [
     topics::JOINT_STATES.name,
     topics::DIAGNOSTICS.name,
     topics::AGEING.name,
     topics::REACTIONS.name,
     topics::TRANSFER.name,
     topics::FORECAST.name,
+    topics::BANDS.name,
     topics::SAFE_WINDOW.name,
     topics::RESIDUALS.name,
 ];

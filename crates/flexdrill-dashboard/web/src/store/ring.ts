@@ -32,6 +32,14 @@ export class Ring {
     return this.data.subarray(slot * this.stride, (slot + 1) * this.stride);
   }
 
+  /** Removes the rows that are not before `time` (s). */
+  cut(time: number): void {
+    while (this.count > 0 && this.time(this.count - 1) >= time) {
+      this.head = (this.head - 1 + this.capacity) % this.capacity;
+      this.count--;
+    }
+  }
+
   private slot(index: number): number {
     return (this.head - this.count + index + this.capacity) % this.capacity;
   }

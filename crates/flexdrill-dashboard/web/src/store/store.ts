@@ -8,6 +8,7 @@ import {
   type AlarmEvent,
   type AlarmList,
   type AppliedInputs,
+  type Bands,
   type BitState,
   type ContactForces,
   type Forecast,
@@ -21,6 +22,7 @@ import {
   type WhirlState,
 } from "../messages";
 import { AlarmBook } from "./alarms";
+import { BandBook } from "./bands";
 import { Freshness } from "./freshness";
 import type { Geometry } from "./geometry";
 import type { Layout } from "./layout";
@@ -72,12 +74,15 @@ export class Store {
   forecasts: Forecast[] = [];
   /** The newest comparisons of rig and twin, the oldest first. */
   residuals: Residuals[] = [];
+  /** What plausible tools do. */
+  readonly bands = new BandBook();
   /** Messages that were not understood: page and twin are of different versions. */
   unreadable = 0;
 
   private readonly book = new AlarmBook();
   private readonly trace = new Trace(this, () => {
     this.book.forgetPast();
+    this.bands.clear();
     this.cursorTime = null;
   });
   private cursorTime: number | null = null;
@@ -193,6 +198,8 @@ export class Store {
         return;
       case "twin/forecast":
         return this.takeForecast(message as Forecast);
+      case "twin/bands":
+        return this.bands.take(message as Bands);
       case "twin/residuals":
         return this.takeResiduals(message as Residuals);
       case "twin/tool_shape":
@@ -330,6 +337,11 @@ export class Store {
   /** Alarms as they stood at the shown time; null when that is not known. */
   alarmsShown(): AlarmList | null {
     return this.cursorTime === null ? this.alarms : this.book.at(this.cursorTime);
+  }
+
+  /** What plausible tools do at present; null where that is not known, or the views show the past. */
+  get plausible(): Bands | null {
+    return this.cursorTime === null && !this.silent ? this.bands.fresh(this.now) : null;
   }
 
   /** Takes the server's hour, older than what has been heard here; with a bag all of it. */

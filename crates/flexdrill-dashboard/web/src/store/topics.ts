@@ -16,6 +16,7 @@ export const TOPICS = [
   "twin/transfer",
   "twin/applied_inputs",
   "twin/forecast",
+  "twin/bands",
   "twin/safe_window",
   "twin/residuals",
 ] as const;

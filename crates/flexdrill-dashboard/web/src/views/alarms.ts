@@ -9,6 +9,7 @@ import { clock, counted, dateAndClock, lapse, number } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { ALARM_STATE, CHANGE, PRIORITY, PRIORITY_SHAPE, word } from "../words";
 import { nearest } from "../store/geometry";
+import { standsIn } from "./plausible";
 
 /** Entries of the journal that are shown. */
 const SHOWN = 100;
@@ -48,6 +49,8 @@ export class Alarms implements View {
   private readonly open = new Map<string, boolean>();
   /** Texts of how long an alarm has stood, with its begin (s). */
   private readonly ages: { element: HTMLElement; since: number }[] = [];
+  /** Lines on plausible tools, with their alarm: they change each second, and the list does not. */
+  private readonly plausible: { element: HTMLElement; alarm: Alarm }[] = [];
   /** A button is held down: the list does not change meanwhile, so that the click reaches its button. */
   private pressed = false;
   private key = "";
@@ -159,6 +162,11 @@ export class Alarms implements View {
     }
     // The duration is known only for the shown time of the data.
     for (const { element, since } of this.ages) setText(element, lapse(Math.max(0, Math.floor(store.shown - since))));
+    for (const { element, alarm } of this.plausible) {
+      const text = standsIn(alarm, store.plausible);
+      setText(element, text);
+      show(element, text !== "");
+    }
     const journalKey = `${store.journalRevision} ${settings.units} ${Math.floor(store.cursor ?? 0)}`;
     if (journalKey !== this.journalKey) {
       this.journalKey = journalKey;
@@ -172,7 +180,7 @@ export class Alarms implements View {
     const loud = called.filter((alarm) => !isOfSystem(alarm));
     const system = called.filter(isOfSystem);
     const quiet = (alarms ?? []).filter((alarm) => !calls(alarm));
-    this.ages.length = 0;
+    this.ages.length = this.plausible.length = 0;
     // The button that has the focus keeps it.
     const focused = (document.activeElement as HTMLElement | null)?.dataset.key;
     const unknown =
@@ -207,6 +215,8 @@ export class Alarms implements View {
     if (alarm.from_earlier_run) setText(age, "from an earlier run");
     else if (alarm.since.sec > 0) this.ages.push({ element: age, since: alarm.since.sec + alarm.since.nanosec * 1e-9 });
     const unacknowledged = alarm.state === Alarm.ACTIVE_UNACKNOWLEDGED || alarm.state === Alarm.RETURNED_UNACKNOWLEDGED;
+    const plausible = h("p", { class: "hint stands-in", hidden: true });
+    this.plausible.push({ element: plausible, alarm });
     // Closed until it is opened: open ones would fill the panel and hide the alarms below.
     const details = h("details", { open: this.open.get(alarm.id) ?? false });
     const [worst, ended] = [worstAt(alarm), endedAt(alarm)];
@@ -255,6 +265,7 @@ export class Alarms implements View {
         h("span", { class: "alarm-state" }, `${word(ALARM_STATE, alarm.state)}${shelved}${end}`),
       ),
       where,
+      plausible,
       action === "" ? null : h("p", { class: "action" }, action),
       h(
         "div",

@@ -5,6 +5,7 @@ import * as api from "../api";
 import { configured } from "../configuration";
 import { h, setText, show } from "../dom";
 import { fullSpectrum } from "../spectrum";
+import { type BandRows, GAP, type LayerOfForce } from "../store/bands";
 import type { Vector } from "../store/layout";
 import { heard, type Motion, PastMotion } from "../store/motion";
 import type { Ring } from "../store/ring";
@@ -12,12 +13,18 @@ import { clock, convert, digits, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type ToolLocation, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, SEVERITY, WHIRL_KIND, word } from "../words";
 import { drawOrbit, drawSpectrum } from "./orbit";
-import { Strip, withGaps } from "./strip";
+import { Strip, withBand, withGaps } from "./strip";
 
 /** Length of the strips and of the motion in the spectrum (s). */
 const SPAN = 30;
 /** Largest distance of an alarm that belongs to a location (m): half a link. */
 const NEAR = 0.1;
+
+/** Forces that plausible tools have too, by their column. */
+const LAYERS: Partial<Record<Vector, LayerOfForce>> = {
+  pipe_guide_normal_peak: "pipe_guide",
+  guide_wall_normal_peak: "guide_wall",
+};
 
 export class LocationView implements View {
   readonly element: HTMLElement;
@@ -49,9 +56,10 @@ export class LocationView implements View {
   private factsKey = "";
 
   constructor(private readonly context: Context) {
-    const strip = (limits: () => number[], least: () => number) =>
+    const strip = (limits: () => number[], least: () => number, plausible = false) =>
       new Strip(context, {
         lines: 1,
+        plausible,
         wide: true,
         limits,
         range: (_min, max) => [0, Math.max(least(), max * 1.1)],
@@ -60,10 +68,12 @@ export class LocationView implements View {
     this.forces = strip(
       () => [],
       () => convert(100, "force", units()),
+      true,
     );
     this.outer = strip(
       () => [],
       () => convert(100, "force", units()),
+      true,
     );
     const rated = () =>
       convert(
@@ -194,8 +204,9 @@ export class LocationView implements View {
       ["guide_wall_normal_peak", location.station],
       "force",
     );
-    setText(this.innerTitle, `Pipe on guide (${unit}), peak per interval`);
-    setText(this.outerTitle, `Guide on wall (${unit}), peak per interval`);
+    const shaded = store.bands.fresh(store.shown)?.measured_depth.length ? "; shaded: plausible tools" : "";
+    setText(this.innerTitle, `Pipe on guide (${unit}), peak per interval${shaded}`);
+    setText(this.outerTitle, `Guide on wall (${unit}), peak per interval${shaded}`);
     show(this.momentTitle, location.joint !== null);
     show(this.moments.element, location.joint !== null);
     if (location.joint !== null) {
@@ -262,7 +273,19 @@ export class LocationView implements View {
     // A gap is three intervals of the topic long, and half a second at least.
     const interval = times.length > 1 ? (times[times.length - 1] - times[0]) / (times.length - 1) : 0;
     const most = ring === store.hour ? 2.5 * store.period : Math.max(0.5, 3 * interval);
-    strip.set(withGaps(times, [values], most), from, to);
+    const lines = withGaps(times, [values], most);
+    const layer = LAYERS[vector];
+    strip.set(layer ? withBand(lines, this.band(layer, index, from, to)) : lines, from, to);
+  }
+
+  /** The force of a layer at a station in plausible tools, as a strip has it. */
+  private band(layer: LayerOfForce, station: number, from: number, to: number): (number | null)[][] {
+    const { store, settings } = this.context;
+    const depth = store.geometry?.stationDepth[station] ?? NaN;
+    const [times, ...ends]: BandRows = store.bands.stationRows(layer, depth, from, to);
+    const factor = convert(1, "force", settings.units);
+    const scaled = ends.map((column) => column.map((value) => (value === null ? null : value * factor)));
+    return withGaps(times, scaled, GAP);
   }
 
   private list(location: ToolLocation): void {

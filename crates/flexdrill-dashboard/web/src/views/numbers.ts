@@ -5,12 +5,14 @@ import { configured } from "../configuration";
 import { h, setAttribute, setText } from "../dom";
 import { TwinStatus } from "../messages";
 import type { Layout, Scalar } from "../store/layout";
+import { GAP } from "../store/bands";
 import type { Moment, Store } from "../store/store";
 import type { Topic } from "../store/topics";
+import { RANGE_HINT, rangeOf } from "../ranges";
 import { convert, digits, type Kind, lapse, number, quantity, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { doubt, INPUT_STATE, PRIORITY_SHAPE, SEVERITY, word } from "../words";
-import { Strip, withGaps } from "./strip";
+import { Strip, withBand, withGaps } from "./strip";
 
 /** What one tile shows. */
 export interface Reading {
@@ -30,6 +32,8 @@ export interface Tile {
   topic: Topic;
   /** Value, then lower and upper edge of the band around it. */
   columns: [Scalar] | [Scalar, Scalar, Scalar];
+  /** The figure whose band of plausible tools is that of the value, and its digits from SI. */
+  figure?: { name: string; digits: (value: number) => string };
   /** Whether the strip shows what a second has; all of them without. */
   good?: (row: Float32Array, layout: Layout) => boolean;
   /** Of the strip, in the columns' unit. */
@@ -60,12 +64,17 @@ export class Numbers implements View {
     for (const tile of this.tiles) {
       const { range, limits } = tile;
       const last = tile === this.tiles[this.tiles.length - 1];
-      const strip = new Strip(context, { lines: tile.columns.length, range, limits, last });
+      const strip = new Strip(context, {
+        lines: tile.columns.length,
+        plausible: tile.figure !== undefined,
+        ...{ range, limits, last },
+      });
       const field = (name: string) => h("span", { class: name });
       const fields = {
         mark: field("mark"),
         value: h("output", { class: "value", id: `value-${tile.id}` }),
         unit: field("unit"),
+        range: h("span", { class: "range", title: RANGE_HINT }),
         note: field("note"),
         age: field("age"),
       };
@@ -73,7 +82,7 @@ export class Numbers implements View {
         "article",
         { class: "tile", id: `tile-${tile.id}`, "aria-label": tile.label },
         h("h2", {}, tile.label, fields.unit, fields.mark),
-        h("div", { class: "big" }, fields.value),
+        h("div", { class: "big" }, fields.value, fields.range),
         fields.note,
         fields.age,
         strip.element,
@@ -89,6 +98,7 @@ export class Numbers implements View {
     const system = () => context.settings.units;
     const unit = (kind: Kind) => () => quantity(kind, system()).unit;
     const scale = (kind: Kind) => (value: number) => convert(value, kind, system());
+    const figure = (name: string, kind: Kind) => ({ name, digits: (value: number) => digits(value, kind, system()) });
     const at = (moment: Moment, name: Scalar) => moment.layout.scalar(moment.row, name);
     const setting = (path: string) => configured(store.sessionInfo?.configuration ?? "", path);
     const input = (
@@ -147,7 +157,7 @@ export class Numbers implements View {
     const force = (
       id: string,
       label: string,
-      column: Scalar,
+      column: "max_pipe_guide_force" | "max_guide_wall_force",
       vector: "pipe_guide_normal_peak" | "guide_wall_normal_peak",
       layer: "pipe_guide_shock" | "guide_wall_shock",
     ): Tile => ({
@@ -156,6 +166,7 @@ export class Numbers implements View {
       unit: unit("force"),
       topic: "twin/contact_forces" as Topic,
       columns: [column] as [Scalar],
+      figure: figure(`contact_forces/${column}`, "force"),
       scale: scale("force"),
       range: (_min: number, max: number): [number, number] => [0, Math.max(convert(500, "force", system()), max * 1.1)],
       limits: () => [],
@@ -186,6 +197,7 @@ export class Numbers implements View {
         unit: unit("speed"),
         topic: "twin/bit_state",
         columns: ["bit_speed_mean", "bit_speed_min", "bit_speed_max"],
+        figure: figure("bit_state/rotary_speed", "speed"),
         scale: scale("speed"),
         range: fromZero(10),
         limits: () => [],
@@ -207,6 +219,7 @@ export class Numbers implements View {
         unit: unit("torque"),
         topic: "twin/bit_state",
         columns: ["bit_torque_mean"],
+        figure: figure("bit_state/torque", "torque"),
         scale: scale("torque"),
         range: fromZero(20),
         limits: () => [],
@@ -224,6 +237,7 @@ export class Numbers implements View {
         unit: () => (store.layout ? `of ${store.layout.counts.joints}` : ""),
         topic: "twin/joint_deflections",
         columns: ["joints_at_limit"],
+        figure: { name: "joint_deflections/joints_at_limit", digits: (value) => number(value, 0) },
         scale: (value) => value,
         range: fromZero(4),
         limits: () => [],
@@ -276,6 +290,7 @@ export class Numbers implements View {
       const reading = readTile(tile, moment, store);
       setText(fields.value, reading.value);
       setText(fields.unit, tile.unit());
+      setText(fields.range, moment ? rangeOfTile(tile, store) : "");
       setText(fields.note, reading.note);
       setAttribute(fields.note, "title", reading.note);
       setAttribute(root, "data-level", String(reading.level));
@@ -286,13 +301,21 @@ export class Numbers implements View {
       root.classList.toggle("old", old);
       const words = old ? `OLD ${lapse(age)}` : age < 1 ? "" : lapse(age);
       setText(fields.age, old || isLive ? words.replace(" –", "") : "");
+      root.classList.toggle("aged", fields.age.textContent !== "");
     }
     const [from, to] = context.range;
     const shown = store.isBag ? Math.floor(2 * store.now) : store.cursor;
-    const key = `${store.hourRevision} ${Math.floor(from)} ${Math.floor(to)} ${shown} ${context.revision}`;
+    const key = `${store.hourRevision} ${store.bands.revision} ${Math.floor(from)} ${Math.floor(to)} ${shown} ${context.revision}`;
     if (key === this.drawn || !moment) return;
     this.drawn = key;
     this.drawStrips(moment.layout, from, to);
+  }
+
+  /** The band of plausible tools of a tile's figure, as its strip has it. */
+  private band({ figure, scale }: Tile, from: number, to: number): (number | null)[][] {
+    const [times, ...ends] = this.context.store.bands.rows(figure?.name ?? "", from, to);
+    const scaled = ends.map((column) => column.map((value) => (value === null ? null : scale(value))));
+    return withGaps(times, scaled, GAP);
   }
 
   private drawStrips(layout: Layout, from: number, to: number): void {
@@ -310,9 +333,15 @@ export class Numbers implements View {
           return Number.isNaN(value) || tile.good?.(row, layout) === false ? null : tile.scale(value);
         });
       });
-      strip.set(withGaps(times, columns, 2.5 * this.context.store.period), from, to);
+      const lines = withGaps(times, columns, 2.5 * this.context.store.period);
+      strip.set(tile.figure ? withBand(lines, this.band(tile, from, to)) : lines, from, to);
     }
   }
+}
+
+/** The range of a tile's value; empty where it has none. */
+export function rangeOfTile({ figure }: Tile, store: Store): string {
+  return figure ? rangeOf(store, figure.name, figure.digits) : "";
 }
 
 /** The reading of a tile at a moment. Only the present values of the rig, a recording or the past have a level. */

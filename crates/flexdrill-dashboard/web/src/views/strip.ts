@@ -8,6 +8,8 @@ import type { Context } from "../view";
 export interface StripOptions {
   /** Names of the lines; the band between the second and the third is filled. */
   lines: 1 | 3;
+  /** Whether the two columns after the time are the ends of a band of plausible tools, filled behind the lines. */
+  plausible?: boolean;
   /** Range of the values, from what is in the data. */
   range: (min: number, max: number) => [number, number];
   /** Horizontal lines: limits and levels. */
@@ -42,6 +44,17 @@ export function withGaps(times: number[], columns: (number | null)[][], most: nu
   return out;
 }
 
+/** Values that are missing at a time: null where the line ends, undefined where only another line has that time. */
+export type Columns = (number | null | undefined)[][];
+
+/** Columns of a chart with a band of other times before its lines, as a strip with plausible tools takes them. */
+export function withBand(lines: (number | null)[][], band: (number | null)[][]): Columns {
+  if (band[0].length === 0) return [lines[0], ...band.slice(1).map(() => lines[0].map(() => null)), ...lines.slice(1)];
+  const order = (of: (number | null)[][]) => of as uPlot.AlignedData;
+  const [times, ...columns] = uPlot.join([order(band), order(lines)]);
+  return [[...times], ...columns.map((column) => [...column])];
+}
+
 export class Strip {
   readonly element = document.createElement("div");
   private plot: uPlot | null = null;
@@ -63,7 +76,7 @@ export class Strip {
   }
 
   /** Shows columns (time first, s; gaps are null) between two times. */
-  set(data: (number | null)[][], from: number, to: number): void {
+  set(data: Columns, from: number, to: number): void {
     if (this.element.clientWidth === 0 || !(to > from)) return;
     this.data = data as unknown as uPlot.AlignedData;
     if (!this.plot || this.revision !== this.context.revision) this.make();
@@ -97,6 +110,9 @@ export class Strip {
       width: plot.bbox.width / devicePixelRatio,
       height: plot.bbox.height / devicePixelRatio,
     });
+    const lines = options.lines === 3 ? [line, edge, edge] : [line];
+    const first = options.plausible ? 3 : 1;
+    const bands = options.lines === 3 ? [{ series: [first + 2, first + 1], fill: `${palette.trace}40` }] : [];
     this.plot = new uPlot(
       {
         width: this.element.clientWidth,
@@ -134,8 +150,12 @@ export class Strip {
             },
           },
         ],
-        series: options.lines === 3 ? [{}, line, edge, edge] : [{}, line],
-        bands: options.lines === 3 ? [{ series: [3, 2], fill: `${palette.trace}40` }] : [],
+        // What is drawn first is behind the rest.
+        series: [{}, ...(options.plausible ? [edge, edge] : []), ...lines],
+        bands: [
+          ...(options.plausible ? [{ series: [2, 1], fill: `${palette.muted}38` }] : []),
+          ...bands,
+        ] as uPlot.Band[],
         hooks: { draw: [(plot) => this.drawMarks(plot)] },
       },
       this.data,

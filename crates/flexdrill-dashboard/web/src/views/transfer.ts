@@ -3,6 +3,7 @@
 import { h, setText, show } from "../dom";
 import { TRANSFER } from "../figures";
 import type { Transfer, TwinStatus } from "../messages";
+import { RANGE_HINT, rangeOf } from "../ranges";
 import { digits, type Kind, lapse, number, quantity, type System, withUnit } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { doubt, INPUT_STATE, word } from "../words";
@@ -19,7 +20,13 @@ const OPTIONAL: Record<string, [string, Kind]> = {
 export interface Row {
   label: string;
   values: string[];
+  /** Ranges of plausible tools behind the values; left out where no value has one. */
+  ranges?: string[];
 }
+
+/** The range of a figure of the transfer in plausible tools; empty where it has none. */
+export type Ranges = (field: string, digits: (value: number) => string) => string;
+const NO_RANGES: Ranges = () => "";
 
 type Figure = (typeof TRANSFER)[number];
 const of = (...groups: Figure["group"][]): readonly Figure[] => TRANSFER.filter(({ group }) => groups.includes(group));
@@ -49,28 +56,49 @@ export function percent(share: number): string {
   return `${number(value, 1)} %`;
 }
 
+/** A value and its range. */
+type Cell = [value: string, range: string];
+
+/** A row of cells, without ranges where no cell has one. */
+function row(label: string, cells: Cell[]): Row {
+  const values = cells.map(([value]) => value);
+  // A range says nothing where there is no value.
+  const ranges = cells.map(([value, range]) => (value === "" ? "" : range));
+  return ranges.some((range) => range !== "") ? { label, values, ranges } : { label, values };
+}
+
 const held = (rows: Row[]) => rows.filter((row) => row.values.some((value) => value !== ""));
 
 /** Two groups side by side, a row for each label of either. */
-function sideBySide(t: Transfer, system: System, groups: [Figure["group"], Figure["group"]]): Row[] {
+function sideBySide(t: Transfer, system: System, groups: [Figure["group"], Figure["group"]], ranges: Ranges): Row[] {
   const labels = new Set(of(...groups).map(({ label }) => label));
-  const text = (group: Figure["group"], wanted: string) => {
+  const cell = (group: Figure["group"], wanted: string): Cell => {
     const found = of(group).find(({ label }) => label === wanted);
-    return found && Number.isFinite(value(t, found)) ? digits(value(t, found), found.kind as Kind, system) : "";
+    if (!found || !Number.isFinite(value(t, found))) return ["", ""];
+    const text = (of: number) => digits(of, found.kind as Kind, system);
+    return [text(value(t, found)), ranges(found.field, text)];
   };
-  return held([...labels].map((label) => ({ label, values: groups.map((group) => text(group, label)) })));
+  return held(
+    [...labels].map((label) =>
+      row(
+        label,
+        groups.map((group) => cell(group, label)),
+      ),
+    ),
+  );
 }
 
 /** Torque and weight at each place, and what arrives. */
-export function places(t: Transfer, system: System): Row[] {
+export function places(t: Transfer, system: System, ranges = NO_RANGES): Row[] {
   const weight = t.surface_weight >= 100 ? percent(t.bit_weight / t.surface_weight) : "";
-  const arrives = { label: "Arrives at the bit", values: [percent(t.torque_efficiency), weight] };
-  return [...sideBySide(t, system, ["torque", "weight"]), ...held([arrives])];
+  const torque: Cell = [percent(t.torque_efficiency), ranges("torque_efficiency", percent)];
+  const arrives = row("Arrives at the bit", [torque, [weight, ""]]);
+  return [...sideBySide(t, system, ["torque", "weight"], ranges), ...held([arrives])];
 }
 
 /** Torque and axial drag that friction takes. */
-export function losses(t: Transfer, system: System): Row[] {
-  return sideBySide(t, system, ["friction", "drag"]);
+export function losses(t: Transfer, system: System, ranges = NO_RANGES): Row[] {
+  return sideBySide(t, system, ["friction", "drag"], ranges);
 }
 
 /** Powers (W) and their shares of all that is put in. */
@@ -89,16 +117,17 @@ export function powers(t: Transfer): { putIn: Row[]; taken: Row[] } {
 }
 
 /** What the whole tool does: limit of the top drive, hook load, advance. */
-export function facts(t: Transfer, system: System): Row[] {
-  const text = (figure: Figure) => {
+export function facts(t: Transfer, system: System, ranges = NO_RANGES): Row[] {
+  const cell = (figure: Figure): Cell => {
     const found = value(t, figure);
-    if (!Number.isFinite(found)) return "";
+    if (!Number.isFinite(found)) return ["", ""];
     const kind: string = figure.kind;
-    if (kind === "share") return percent(found);
-    if (kind === "timeshare") return `${percent(found)} of the time`;
-    return withUnit(found, kind as Kind, system) + (kind === "cut" ? " per turn" : "");
+    if (kind === "share") return [percent(found), ranges(figure.field, percent)];
+    if (kind === "timeshare") return [`${percent(found)} of the time`, ranges(figure.field, percent)];
+    const range = ranges(figure.field, (of) => digits(of, kind as Kind, system));
+    return [withUnit(found, kind as Kind, system) + (kind === "cut" ? " per turn" : ""), range];
   };
-  return held(of("whole").map((figure) => ({ label: figure.label, values: [text(figure)] })));
+  return held(of("whole").map((figure) => row(figure.label, [cell(figure)])));
 }
 
 /** Inputs beyond speed and weight that the tool uses: value, quality, age. The status leaves out those that it does not. */
@@ -126,7 +155,7 @@ class Table {
   readonly element: HTMLElement;
   private readonly heads: HTMLElement[];
   private readonly body = h("tbody");
-  private rows: { row: HTMLElement; cells: HTMLElement[] }[] = [];
+  private rows: { row: HTMLElement; label: HTMLElement; cells: { value: HTMLElement; range: HTMLElement }[] }[] = [];
 
   constructor(
     title: string,
@@ -140,18 +169,23 @@ class Table {
   set(heads: string[], rows: Row[]): void {
     this.heads.forEach((head, index) => setText(head, heads[index] ?? ""));
     while (this.rows.length < rows.length) {
-      const cells = Array.from({ length: this.columns }, () => h("td"));
+      const cells = Array.from({ length: this.columns }, () => ({
+        value: h("span"),
+        range: h("span", { class: "range", title: RANGE_HINT }),
+      }));
       const label = h("th", { scope: "row" });
-      const row = h("tr", {}, label, ...cells);
+      const row = h("tr", {}, label, ...cells.map(({ value, range }) => h("td", {}, value, range)));
       this.body.append(row);
-      this.rows.push({ row, cells: [label, ...cells] });
+      this.rows.push({ row, label, cells });
     }
-    this.rows.forEach(({ row, cells }, index) => {
+    this.rows.forEach(({ row, label, cells }, index) => {
       const found = rows[index];
       show(row, found !== undefined);
       if (!found) return;
-      [found.label, ...found.values].forEach((value, column) => {
-        if (cells[column]) setText(cells[column], value);
+      setText(label, found.label);
+      cells.forEach(({ value, range }, column) => {
+        setText(value, found.values[column] ?? "");
+        setText(range, found.ranges?.[column] ?? "");
       });
     });
     show(this.element, rows.length > 0);
@@ -198,10 +232,11 @@ export class TransferView implements View {
       const old = age > OLD ? `OLD ${lapse(age / 1e3)} · ` : "";
       setText(this.state, `${old}Means of the last ${number(transfer.duration, 1)} s, computed by the model.`);
       const heads = [quantity("torque", system).unit, quantity("weight", system).unit];
+      const ranges: Ranges = (field, text) => rangeOf(store, `transfer/${field}`, text);
       const { putIn, taken } = powers(transfer);
-      this.places.set(heads, places(transfer, system));
-      this.losses.set(heads, losses(transfer, system));
-      this.facts.set([""], facts(transfer, system));
+      this.places.set(heads, places(transfer, system, ranges));
+      this.losses.set(heads, losses(transfer, system, ranges));
+      this.facts.set([""], facts(transfer, system, ranges));
       this.putIn.set(["", "share"], putIn);
       this.taken.set(["", "share"], taken);
     }

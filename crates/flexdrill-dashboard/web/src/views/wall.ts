@@ -4,7 +4,7 @@ import { alarmLocation, hasAction, headline, isMet, levelNow, standing, title } 
 import { h, setAttribute, setText } from "../dom";
 import { type Context, Pace, type View } from "../view";
 import { PRIORITY, PRIORITY_SHAPE, word } from "../words";
-import { type Numbers, readTile } from "./numbers";
+import { type Numbers, rangeOfTile, readTile } from "./numbers";
 
 /** The numbers that it shows, by their tiles. */
 const SHOWN = ["rpm", "wob", "bit-speed", "torque", "joints"];
@@ -19,6 +19,7 @@ export class Wall implements View {
     root: HTMLElement;
     value: HTMLElement;
     unit: HTMLElement;
+    range: HTMLElement;
     mark: HTMLElement;
   }[];
   private readonly pace = new Pace(250);
@@ -33,8 +34,9 @@ export class Wall implements View {
       .map((tile) => {
         const [mark, unit] = [h("span", { class: "mark" }), h("span", { class: "unit" })];
         const value = h("output", { class: "value", id: `wall-${tile.id}` });
-        const root = h("article", { class: "wall-number" }, h("h2", {}, tile.label, mark), value, unit);
-        return { id: tile.id, root, value, unit, mark };
+        const range = h("span", { class: "range" });
+        const root = h("article", { class: "wall-number" }, h("h2", {}, tile.label, mark), value, unit, range);
+        return { id: tile.id, root, value, unit, range, mark };
       });
     const numbersRow = h("div", { class: "wall-numbers" }, ...this.fields.map(({ root }) => root));
     this.element = h("section", { class: "wall-view", "aria-label": "Large type" }, numbersRow, this.alarms);
@@ -45,12 +47,13 @@ export class Wall implements View {
     if (!context.wall || !this.pace.due(now, context.revision)) return;
     const { store, settings } = context;
     const moment = store.moment();
-    for (const { id, root, value, unit, mark } of this.fields) {
+    for (const { id, root, value, unit, range, mark } of this.fields) {
       const tile = this.numbers.tiles.find((one) => one.id === id);
       if (!tile) continue;
       const reading = readTile(tile, moment, store);
       setText(value, reading.value);
       setText(unit, tile.unit());
+      setText(range, moment ? rangeOfTile(tile, store) : "");
       setText(mark, reading.level > 0 ? ` ${PRIORITY_SHAPE[reading.level] ?? ""}` : "");
       setAttribute(root, "data-level", String(reading.level));
       root.classList.toggle("held", reading.held === true || reading.value === "–");
