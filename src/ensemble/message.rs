@@ -6,6 +6,7 @@ use crate::alarms::AlarmId;
 use flexdrill_alarms::Priority;
 use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS};
 use flexdrill_messages::{Alarm, AlarmChance, Bands, FigureBand};
+use flexdrill_motion::HazardKind;
 use flexdrill_outputs::figures::OverTools;
 
 /// The message of a second, but for its times. Members are given with their weight; `None` failed.
@@ -102,7 +103,13 @@ fn chances(members: &[(f64, Option<Second>)], out: &mut Bands) {
         (Chance::of(outcomes), seen)
     };
     let ended = members.iter().filter(|(_, second)| second.is_some()).count() as u32;
-    let (any, _) = of(&|second| second.alarms.iter().any(Option::is_some));
+    // Those of the motion: poor model quality is of the computation, not of a tool.
+    let of_motion = HazardKind::ALL.map(|kind| AlarmId::of_hazard(kind) as usize);
+    let (any, _) = of(&|second| {
+        of_motion
+            .iter()
+            .any(|id| second.alarms.get(*id).copied().flatten().is_some())
+    });
     out.any_alarm = any.probability;
     [out.any_alarm_lower, out.any_alarm_upper] = any.interval;
     for (index, id) in AlarmId::ALL.into_iter().enumerate() {

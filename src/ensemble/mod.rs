@@ -1,13 +1,12 @@
 //! Plausible tools that run with the twin, under the same inputs (`ensemble` in the configuration): `twin/bands`.
 //!
 //! A member is a tool with parameters drawn from what is not known (`uncertainty`), on a rig whose weight indicator and speed
-//! sensor have errors of their own ([`member`]). What the rig measures weighs the members ([`evidence`]); where few carry most
-//! of the weight, the others give way to tools near those few ([`engine`]). What the members compute becomes bands and
-//! chances ([`message`]).
+//! sensor have errors (`member`). What the rig measures weighs the members (`evidence`); where few carry most of the weight,
+//! tools near those few replace the others (`engine`). What the members compute becomes bands and chances (`message`).
 //!
 //! All of it is a function of the configuration, of what acts on the twin, of what the rig measured and of the number of
-//! members, evaluated in slices of model time behind the twin, by a clock on threads of idle work ([`beside`]). A replay of a recording
-//! takes the number of members from it and gives the same bands to the bit.
+//! members, evaluated in slices of model time behind the twin, by a clock on threads of idle work (`beside`). A replay of a
+//! recording takes the number of members from it and gives the same bands to the bit.
 
 mod beside;
 mod engine;

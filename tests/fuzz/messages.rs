@@ -68,6 +68,7 @@ types! {
     ours::AlarmEvent,
     ours::AlarmList,
     ours::AppliedInputs,
+    ours::Bands,
     ours::BitState,
     ours::ContactForces,
     ours::FigureBand,

@@ -38,7 +38,8 @@ fn a_foreign_viewer_decodes_every_topic() {
     let offered: BTreeSet<String> = serde_json::from_value(seen["offered"].clone()).unwrap();
     let found = topics_of(&seen["found"]);
     // Without use_sim_time there is no clock. This rig does not stamp, and sends no optional input and nothing measured.
-    // Nothing happens that the journal would report. Forecast and map are off by default, and without measured values there are no residuals.
+    // Nothing happens that the journal would report. Forecast, plausible tools and map are off by default, and without
+    // measured values there are no residuals.
     let quiet: BTreeSet<String> = [
         "/clock",
         "/rig/inputs",
@@ -46,6 +47,7 @@ fn a_foreign_viewer_decodes_every_topic() {
         "/rig/rate_of_penetration",
         "/rig/standpipe_pressure",
         "/twin/alarm_events",
+        "/twin/bands",
         "/twin/forecast",
         "/twin/residuals",
         "/twin/safe_window",
@@ -57,7 +59,7 @@ fn a_foreign_viewer_decodes_every_topic() {
         .filter(|name| !quiet.contains(*name))
         .collect();
     assert!(missing.is_empty(), "{missing:?} of {offered:?}");
-    assert_eq!(offered.len(), 27);
+    assert_eq!(offered.len(), 28);
     let joints = &seen["found"]["/twin/joint_deflections"];
     // 50 Hz for 4 s, less the time until the subscription.
     assert!((150..=205).contains(&joints["count"].as_u64().unwrap()), "{joints}");
