@@ -229,7 +229,7 @@ impl Worker {
             };
             if let Some(more) = log_ending("the plausible tools fell behind") {
                 tracing::warn!(
-                    "the plausible tools fell {LATE:.0} s behind the twin; {members} of them begin anew. Close other \
+                    "the plausible tools fell {LATE:.0} s behind the twin; {members} of them begin again. Close other \
                      programs, or set ensemble.members lower for the next run{more}"
                 );
             }

@@ -207,7 +207,7 @@ impl Ensemble {
         self.reached.saturating_sub(1) / slice * slice
     }
 
-    /// Begins anew with other members, at the end of a slice that the twin has passed ([`Ensemble::first`],
+    /// Begins again with other members, at the end of a slice that the twin has passed ([`Ensemble::first`],
     /// [`Ensemble::latest`]), so that all that acts there is known.
     pub fn begin(&mut self, generation: Generation) {
         let slice = self.ticks_of(SLICE);

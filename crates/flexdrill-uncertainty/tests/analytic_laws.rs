@@ -28,7 +28,7 @@ fn near(found: f64, expected: f64) {
 }
 
 #[test]
-fn val_ninety_per_cent_of_a_normal_lie_between_its_ends() {
+fn ninety_per_cent_of_a_normal_lie_between_its_ends() {
     let whole = law(Distribution::Normal { low: 2.0, high: 6.0 }, ALL);
     near(whole.quantile(0.05), 2.0);
     near(whole.quantile(0.5), 4.0);
@@ -38,7 +38,7 @@ fn val_ninety_per_cent_of_a_normal_lie_between_its_ends() {
 
 /// Half of a normal: the share p of what is left is at (1 + p) / 2 of the whole.
 #[test]
-fn val_a_normal_that_is_cut_at_its_middle() {
+fn a_normal_that_is_cut_at_its_middle() {
     let upper = law(Distribution::Normal { low: -Z95, high: Z95 }, [0.0, f64::INFINITY]);
     near(upper.quantile(0.5), Z75);
     near(upper.quantile(0.9), Z95);
@@ -54,7 +54,7 @@ fn val_a_normal_that_is_cut_at_its_middle() {
 }
 
 #[test]
-fn val_a_log_normal_is_the_exponential_of_a_normal() {
+fn a_log_normal_is_the_exponential_of_a_normal() {
     let distribution = Distribution::LogNormal { low: 0.2, high: 0.4 };
     let whole = law(distribution, ALL);
     near(whole.quantile(0.05), 0.2);
@@ -72,7 +72,7 @@ fn val_a_log_normal_is_the_exponential_of_a_normal() {
 }
 
 #[test]
-fn val_a_uniform_that_is_cut_is_uniform() {
+fn a_uniform_that_is_cut_is_uniform() {
     let cut = law(Distribution::Uniform { low: -2.0, high: 8.0 }, [0.0, 5.0]);
     for p in [0.0, 0.25, 0.5, 1.0] {
         near(cut.quantile(p), 5.0 * p);
@@ -81,7 +81,7 @@ fn val_a_uniform_that_is_cut_is_uniform() {
 
 /// With the mode at the low end F = 1 - (1 - x)^2; cut at 1/2 it reaches 3/4.
 #[test]
-fn val_a_triangle_is_a_root() {
+fn a_triangle_is_a_root() {
     let falling = Distribution::Triangular {
         low: 0.0,
         mode: 0.0,

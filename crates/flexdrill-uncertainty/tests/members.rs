@@ -80,7 +80,7 @@ fn kolmogorov(values: &[f64], below: impl Fn(f64) -> f64) -> f64 {
 /// Kolmogorov and Smirnov: the limiting distribution has 1 % above 1.628. The distribution functions are written here
 /// again, with the cut.
 #[test]
-fn val_draws_have_their_distributions() {
+fn draws_have_their_distributions() {
     const CRITICAL: f64 = 1.628;
     const Z95: f64 = 1.644_853_626_951_472_2;
     // The middle of the pins' friction is 0.2, of which 0 and 1, the key's limits, cut something off.
@@ -134,7 +134,7 @@ fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
 
 /// The correlation of the ranks of a Gaussian copula is 6 / pi asin(r / 2) (Kruskal 1958).
 #[test]
-fn val_ranks_are_correlated_as_a_gaussian_copula_has_them() {
+fn ranks_are_correlated_as_a_gaussian_copula_has_them() {
     // Four standard errors of a rank correlation.
     let error = 4.0 / (COUNT as f64).sqrt();
     for first in 0..DRAWS.len() {
@@ -276,7 +276,7 @@ fn sensors_join_both_sections() {
 }
 
 #[test]
-fn val_errors_of_sensors_have_their_distributions() {
+fn errors_of_sensors_have_their_distributions() {
     const Z95: f64 = 1.644_853_626_951_472_2;
     let priors = Priors::of(&shipped("rig")).unwrap();
     let errors: Vec<_> = (0..2000).map(|member| priors.sensor_errors(2, member)).collect();
