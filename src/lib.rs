@@ -14,6 +14,7 @@
 //! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
 //! - [`ensemble`]: plausible tools that run with the twin, and what they do together.
+//! - [`runs`]: runs that need nothing of each other, on threads, and kept.
 //! - [`residuals`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
 //!   an operator.
@@ -39,6 +40,8 @@ pub mod node;
 pub mod reach;
 pub mod residuals;
 pub mod rig_inputs;
+#[cfg(feature = "sweep")]
+pub mod runs;
 pub mod safe_window;
 #[cfg(feature = "sweep")]
 pub mod sensitivity;

@@ -166,7 +166,8 @@ fn place(finding: &Finding) -> (u8, f64, f64) {
     }
 }
 
-fn priority(priority: Option<Priority>) -> u8 {
+/// A priority in messages.
+pub(crate) fn priority(priority: Option<Priority>) -> u8 {
     match priority {
         None => Alarm::NO_PRIORITY,
         Some(Priority::Low) => Alarm::LOW,

@@ -32,6 +32,7 @@ mod worst_moment;
 
 pub use advice::{Change, Knob, Leading, Tested, Trial, Unknown};
 pub use catalogue::AlarmId;
+pub(crate) use fill::priority as priority_code;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};

@@ -8,7 +8,8 @@ use clap::Args;
 use super::progress::Progress;
 use super::{WrongUse, built_in, numbers};
 use crate::cli::output::{say, tell};
-use crate::reach::{Kept, Load, Plan, picture, study, table};
+use crate::reach::{Load, Plan, picture, study, table};
+use crate::runs::Kept;
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::FrictionLaw;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, rpm_to_rad_per_s};
@@ -71,10 +72,7 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
         );
     }
     let mut progress = Progress::share();
-    let kept = args
-        .resume
-        .then(|| Kept::open(&args.out.join("points"), &plan.load))
-        .transpose()?;
+    let kept = args.resume.then(|| Kept::open(&args.out.join("points"))).transpose()?;
     let rows = study(&config, &plan, kept.as_ref(), |share| progress.at(share))?;
     progress.done();
     write(&args.out, "reach.csv", &table::csv(&rows))?;

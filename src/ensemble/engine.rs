@@ -1,22 +1,23 @@
-//! The ensemble slice by slice: members run, are weighed once per window, and give way to others once per minute.
+//! The ensemble slice by slice: members run, are weighed once per window, and are renewed once per minute.
 
 use std::collections::VecDeque;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::evidence::{Compared, Errors, WINDOW};
 use super::member::{Member, Second};
 use super::message::message;
+use super::place::{Place, State, Threads, in_parallel};
 use crate::residuals::predicted;
 use flexdrill_config::{Config, Members};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_ensemble::{LEAST_MEMBERS, effective_number, renewal, weights};
 use flexdrill_messages::Bands;
 use flexdrill_realtime::monotonic;
-use flexdrill_uncertainty::{Member as Drawn, Priors, UncertaintyError};
+use flexdrill_uncertainty::{Priors, UncertaintyError};
 
 /// Model time of a slice (s).
-const SLICE: f64 = 0.5;
+pub(super) const SLICE: f64 = 0.5;
 /// Slices between two messages: one second.
 const PER_SECOND: u64 = 2;
 /// Model time after which members may give way to others, and for which those are prepared: the motion and the means of a
@@ -58,15 +59,6 @@ pub struct Found {
     pub bands: Bands,
 }
 
-/// What members run on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Threads {
-    /// How many.
-    pub count: usize,
-    /// Whether their work is idle work, which takes what other work leaves of the processors.
-    pub idle: bool,
-}
-
 /// A piece of model time.
 pub(super) struct Slice<'a> {
     /// First tick.
@@ -86,19 +78,6 @@ pub(super) struct Counts {
     pub(super) effective: f64,
     pub(super) renewals: u32,
     pub(super) why: String,
-}
-
-/// A member, or why there is none.
-struct Place {
-    drawn: Result<Drawn, String>,
-    state: State,
-}
-
-enum State {
-    /// Built with the next slice.
-    Unborn,
-    Runs(Box<Member>),
-    Failed,
 }
 
 /// A member that is prepared to take a place.
@@ -224,6 +203,8 @@ impl Ensemble {
                 state: State::Unborn,
             })
             .collect();
+        // What was compared before says nothing of members that begin now.
+        self.compared.retain(|(ticks, _)| *ticks > begun);
         self.generation = Generation { begun, ..generation };
         (self.choice, self.renewals, self.at) = (None, 0, begun);
     }
@@ -328,10 +309,14 @@ impl Ensemble {
             .iter_mut()
             .chain(prepared.map(|prepared| &mut prepared.place))
         {
-            if let (Ok(drawn), State::Runs(member)) = (&place.drawn, &mut place.state)
+            if let Ok(drawn) = &mut place.drawn
                 && let Ok(config) = priors.config(&drawn.draws)
             {
-                member.reconfigure(config);
+                // One that is built later begins with the values of now, too.
+                drawn.config = config;
+                if let State::Runs(member) = &mut place.state {
+                    member.reconfigure(&drawn.config);
+                }
             }
         }
     }
@@ -469,52 +454,11 @@ impl Ensemble {
             State::Runs(member) => Some(member.second()),
             _ => None,
         };
+        // Those that are prepared begin each second, too: their first one that counts must not have the minute before.
+        for prepared in self.choice.iter_mut().flat_map(|choice| &mut choice.prepared) {
+            second(&mut prepared.place);
+        }
         let seconds: Vec<(f64, Option<Second>)> = shares.into_iter().zip(self.places.iter_mut().map(second)).collect();
         message(&counts, &seconds)
     }
-}
-
-impl Place {
-    fn has_failed(&self) -> bool {
-        matches!(self.state, State::Failed)
-    }
-
-    /// Runs a slice, at whose beginning `acts` acts; builds the tool first where it is new.
-    fn advance(&mut self, slice: &Slice<'_>, acts: &RunInputs) {
-        if let State::Unborn = self.state {
-            let built = self
-                .drawn
-                .as_ref()
-                .map_err(String::clone)
-                .and_then(|drawn| Member::new(drawn, acts));
-            self.state = match built {
-                Ok(member) => State::Runs(Box::new(member)),
-                Err(_) => State::Failed,
-            };
-        }
-        if let State::Runs(member) = &mut self.state
-            && member.advance(slice).is_err()
-        {
-            // Its memory is large, and what it knows of the rig is not needed any more.
-            self.state = State::Failed;
-        }
-    }
-}
-
-/// `work` on each of `items`.
-fn in_parallel<T: Send>(items: Vec<&mut T>, threads: Threads, work: impl Fn(&mut T) + Sync) {
-    let items: Vec<Mutex<&mut T>> = items.into_iter().map(Mutex::new).collect();
-    let next = AtomicUsize::new(0);
-    std::thread::scope(|scope| {
-        for _ in 0..threads.count.clamp(1, items.len().max(1)) {
-            scope.spawn(|| {
-                if threads.idle {
-                    flexdrill_realtime::priority::idle();
-                }
-                while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    work(&mut item.lock().unwrap_or_else(PoisonError::into_inner));
-                }
-            });
-        }
-    });
 }

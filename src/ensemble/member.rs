@@ -87,8 +87,8 @@ impl Member {
     }
 
     /// Adopts the thresholds and parameters of a drawn configuration in which other keys than the drawn ones changed.
-    pub(super) fn reconfigure(&mut self, config: Config) {
-        self.config = Arc::new(config);
+    pub(super) fn reconfigure(&mut self, config: &Config) {
+        self.config = Arc::new(config.clone());
         self.live = self.config.live();
         self.alarms.reconfigure(&self.config, &[]);
     }

@@ -2,10 +2,10 @@
 
 use super::engine::Counts;
 use super::member::Second;
-use crate::alarms::AlarmId;
+use crate::alarms::{AlarmId, priority_code};
 use flexdrill_alarms::Priority;
 use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS};
-use flexdrill_messages::{Alarm, AlarmChance, Bands, FigureBand};
+use flexdrill_messages::{AlarmChance, Bands, FigureBand};
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::figures::OverTools;
 
@@ -121,11 +121,7 @@ fn chances(members: &[(f64, Option<Second>)], out: &mut Bands) {
             out.alarms.push(AlarmChance {
                 id: id.id().to_owned(),
                 name: id.name().to_owned(),
-                priority: match priority {
-                    Priority::Low => Alarm::LOW,
-                    Priority::Medium => Alarm::MEDIUM,
-                    Priority::High => Alarm::HIGH,
-                },
+                priority: priority_code(Some(priority)),
                 seen,
                 members: ended,
                 probability: chance.probability,

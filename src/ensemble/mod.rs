@@ -5,17 +5,19 @@
 //! tools near those few replace the others (`engine`). What the members compute becomes bands and chances (`message`).
 //!
 //! All of it is a function of the configuration, of what acts on the twin, of what the rig measured and of the number of
-//! members, evaluated in slices of model time behind the twin, by a clock on threads of idle work (`beside`). A replay of a
+//! members, evaluated in slices of model time behind the twin, by a clock on threads of idle work (`running`). A replay of a
 //! recording takes the number of members from it and gives the same bands to the bit.
 
-mod beside;
 mod engine;
 mod evidence;
 mod member;
 mod message;
+mod place;
+mod running;
 #[cfg(test)]
 mod tests;
 
-pub use beside::{Beside, Pace};
-pub use engine::{Ensemble, Found, Generation, Threads, Told};
+pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
+pub use place::Threads;
+pub use running::{Pace, Running};

@@ -274,6 +274,7 @@ fn a_member_that_fails_is_counted_and_replaced() {
     let config = Arc::new(Config::from_text("tool.yaml", &text).unwrap());
     let mut ensemble = ensemble(&config);
     ensemble.hear(told(&config, acts(&config, 0, 120.0, 10.0)));
+    ensemble.hear(told(&config, acts(&config, 110 * SECOND, 60.0, 10.0)));
     ensemble.hear(Told::Reached(SECOND * 121));
     ensemble.begin(generation(10));
     let all = found(&mut ensemble, 2);
@@ -282,6 +283,9 @@ fn a_member_that_fails_is_counted_and_replaced() {
     assert!(most > 0 && most < 8, "{failed:?}");
     assert_eq!(all[70].prepared, all[59].failed, "{failed:?}");
     assert!(all[119].failed < all[118].failed, "{failed:?}");
+    // A prepared member begins to count with one second, at 60 r/min, and not with its minute, most of it at 120 r/min.
+    let [_, _, fastest] = band(&all[119], "bit_state/rotary_speed");
+    assert!(fastest < 1.2 * rpm_to_rad_per_s(60.0), "{fastest} rad/s");
     for bands in &all {
         assert!(
             (bands.effective + f64::from(bands.failed) - 10.0).abs() < 1e-6,
@@ -299,13 +303,13 @@ fn an_ensemble_that_falls_behind_begins_anew_with_fewer() {
         (8, "has fallen 30 s behind with 8 plausible tools, and bands need 8"),
     ] {
         let config = config(FRICTION, members);
-        let mut beside = Beside::start(ensemble(&config), Pace::Clock).unwrap();
-        beside.tell(told(&config, acts(&config, 0, 60.0, 8.0)));
-        beside.reached(SECOND * 45);
-        beside.reached(SECOND * 47);
+        let mut running = Running::start(ensemble(&config), Pace::Clock).unwrap();
+        running.tell(told(&config, acts(&config, 0, 60.0, 8.0)));
+        running.reached(SECOND * 45);
+        running.reached(SECOND * 47);
         let deadline = std::time::Instant::now() + std::time::Duration::from_secs(60);
         let found = loop {
-            if let Some(found) = beside.take().filter(|found| found.begun > 0) {
+            if let Some(found) = running.take().filter(|found| found.begun > 0) {
                 break found;
             }
             assert!(std::time::Instant::now() < deadline);
@@ -330,15 +334,78 @@ fn a_replay_has_the_members_of_the_recorded_run() {
             why: "a reason".to_owned(),
         },
     ];
-    let mut beside = Beside::start(ensemble(config), Pace::Waits(recorded)).unwrap();
-    beside.tell(told(config, acts(config, 0, 60.0, 8.0)));
-    beside.reached(4000);
-    beside.finish();
-    let found: Vec<_> = std::iter::from_fn(|| beside.take()).collect();
+    let mut running = Running::start(ensemble(config), Pace::Waits(recorded)).unwrap();
+    running.tell(told(config, acts(config, 0, 60.0, 8.0)));
+    running.reached(4000);
+    running.finish();
+    let found: Vec<_> = std::iter::from_fn(|| running.take()).collect();
     let members: Vec<_> = found
         .iter()
         .map(|found| (found.ticks, found.begun, found.bands.members))
         .collect();
     assert_eq!(members, [(1000, 0, 9), (2000, 0, 9), (3000, 2000, 0), (4000, 2000, 0)]);
     assert_eq!(found[3].bands.no_bands, "a reason");
+}
+
+/// Members that began long after the run are waited for, and nothing before them.
+#[test]
+fn a_replay_does_not_wait_for_members_that_have_not_begun() {
+    let config = &*WIDE;
+    let late = Generation {
+        begun: 15 * SECOND,
+        ..generation(8)
+    };
+    let mut running = Running::start(ensemble(config), Pace::Waits(vec![late])).unwrap();
+    running.tell(told(config, acts(config, 0, 60.0, 8.0)));
+    for second in 1..=17 {
+        running.reached(second * SECOND);
+    }
+    running.finish();
+    let ticks: Vec<u64> = std::iter::from_fn(|| running.take()).map(|found| found.ticks).collect();
+    assert_eq!(ticks, [16 * SECOND, 17 * SECOND]);
+}
+
+/// What the rig measured before members began weighs none of them.
+#[test]
+fn members_that_begin_later_know_nothing_of_what_was_measured_before() {
+    let config = &*WIDE;
+    let mut ensemble = ensemble(config);
+    ensemble.hear(told(config, acts(config, 0, 60.0, 8.0)));
+    for second in 1..20 {
+        let compared = Compared {
+            steady: true,
+            measured: [1e3; RigQuantity::COUNT],
+            predicted: [1.0; RigQuantity::COUNT],
+        };
+        ensemble.hear(Told::Compared(second * SECOND, compared));
+    }
+    ensemble.hear(Told::Reached(41 * SECOND));
+    ensemble.begin(Generation {
+        begun: 20 * SECOND,
+        ..generation(8)
+    });
+    let all = found(&mut ensemble, 2);
+    assert_eq!(all.len(), 21);
+    assert!((all[20].effective - 8.0).abs() < 1e-9, "{}", all[20].effective);
+}
+
+/// A parameter that a client changes acts on members that are not built yet, too.
+#[test]
+fn a_change_before_a_member_is_built_acts_on_it() {
+    let config = &*WIDE;
+    let doubled = 2.0 * config.tool.bit.friction_factor;
+    let values = [("tool.bit.friction_factor", doubled)];
+    let changed = Arc::new(config.with_live_values("a test", values).unwrap());
+    let torque = |from: u64, changed: &Arc<Config>| {
+        let mut ensemble = ensemble(config);
+        ensemble.hear(told(config, acts(config, 0, 60.0, 8.0)));
+        ensemble.hear(Told::Reached(1));
+        ensemble.begin(generation(8));
+        ensemble.hear(told(changed, acts(changed, from, 60.0, 8.0)));
+        ensemble.hear(Told::Reached(8 * SECOND));
+        band(&found(&mut ensemble, 2)[7], "bit_state/torque")[1]
+    };
+    // The torque of Eq. 1 is proportional to the factor.
+    let ratio = torque(SECOND / 10, &changed) / torque(SECOND / 10, config);
+    assert!((ratio - 2.0).abs() < 0.1, "{ratio}");
 }

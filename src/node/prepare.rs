@@ -23,7 +23,7 @@ use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
 use crate::bag::{RecordingThread, Topic};
-use crate::ensemble::{Beside, Ensemble, Pace};
+use crate::ensemble::{Ensemble, Pace, Running};
 use crate::live::{Hub, LiveServer, Steering};
 use crate::rig_inputs::Driver;
 use crate::safe_window::SafeWindow;
@@ -263,8 +263,9 @@ impl PreparedNode {
             session.judge_by(window);
         }
         if let Some(ensemble) = Ensemble::of(&self.config).map_err(|error| NodeError::Stopped(error.to_string()))? {
-            let beside = Beside::start(ensemble, Pace::Clock).map_err(|error| NodeError::Stopped(error.to_string()))?;
-            session.run_with(beside);
+            let running =
+                Running::start(ensemble, Pace::Clock).map_err(|error| NodeError::Stopped(error.to_string()))?;
+            session.run_with(running);
         }
         if self.config.look_ahead.advice {
             alarms.advised_by(Arc::clone(&self.answering.advisor));

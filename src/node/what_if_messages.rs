@@ -1,10 +1,10 @@
 //! What a look-ahead is asked and answers, as messages of the action `~/what_if`.
 
 use crate::ahead::{AlarmChance as Seen, Answer, Candidate, CandidateAnswer, Figure, Goal, Progress};
-use flexdrill_alarms::Priority;
+use crate::alarms::priority_code;
 use flexdrill_messages::unique_identifier_msgs::UUID;
 use flexdrill_messages::{
-    Alarm, AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
+    AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
 };
 use flexdrill_ros2::action::GoalId;
 use flexdrill_text::{counted, six_digits};
@@ -117,11 +117,7 @@ pub(super) fn of_alarm(of: &Seen) -> AlarmChance {
     AlarmChance {
         id: of.id.id().to_owned(),
         name: of.id.name().to_owned(),
-        priority: match of.priority {
-            Priority::Low => Alarm::LOW,
-            Priority::Medium => Alarm::MEDIUM,
-            Priority::High => Alarm::HIGH,
-        },
+        priority: priority_code(Some(of.priority)),
         seen: of.chance.seen,
         members: of.chance.of,
         probability: of.chance.probability,

@@ -5,19 +5,14 @@
 //! closed form of a soft string ([`soft_string`]) and the depth from which the tool is compressed beyond buckling. A run
 //! that fails or does not become steady is unknown, with its cause.
 
-pub mod kept;
 pub mod picture;
 pub mod point;
 pub mod soft_string;
 pub mod table;
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-
 use flexdrill_config::{Config, ConfigError};
 
-pub use kept::{KeepError, Kept};
+use crate::runs::{KeepError, Kept, KeptAs, Work, run_all};
 pub use point::{Found, Load, Point};
 use soft_string::SoftString;
 
@@ -63,8 +58,7 @@ pub enum StudyError {
 }
 
 /// Runs all points, on as many threads as the plan has. The rows are in the order of lengths, with rotation first, then
-/// of friction; they do not depend on the number of threads. At most one tool per thread is in memory. `progress` gets
-/// the share of the work that is done, 0 to 1. Points that are `kept` are not run, and every run is kept.
+/// of friction ([`run_all`]).
 ///
 /// # Errors
 /// When the configuration cannot be lengthened or loaded as the plan says, or a point cannot be kept.
@@ -72,7 +66,7 @@ pub fn study(
     config: &Config,
     plan: &Plan,
     kept: Option<&Kept>,
-    mut progress: impl FnMut(f64),
+    progress: impl FnMut(f64),
 ) -> Result<Vec<Row>, StudyError> {
     let mut points = Vec::new();
     for &links in &plan.links {
@@ -82,57 +76,9 @@ pub fn study(
             }
         }
     }
-    // The cost of a step grows with the links. The most expensive points come first, so that no thread waits for one.
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by_key(|&index| std::cmp::Reverse(points[index].links));
-    let whole: usize = points.iter().map(|point| point.links).sum();
-    let next = AtomicUsize::new(0);
-    let found = Mutex::new(vec![None; points.len()]);
-    let unkept = Mutex::new(None);
-    std::thread::scope(|scope| {
-        let (sender, receiver) = mpsc::channel::<f64>();
-        for _ in 0..plan.jobs.clamp(1, points.len().max(1)) {
-            let (sender, points, order, next) = (sender.clone(), &points, &order, &next);
-            let (found, unkept) = (&found, &unkept);
-            scope.spawn(move || {
-                while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let point = &points[index];
-                    let mut reported = 0.0;
-                    // Progress is counted in links: the cost of a point grows with them. Only the increase is sent, as
-                    // all threads share one sum.
-                    let mut report = |share: f64| {
-                        // The receiver outlives all threads of this scope.
-                        let _ = sender.send((share - reported) * point.links as f64);
-                        reported = share;
-                    };
-                    let result = kept.and_then(|kept| kept.read(point)).unwrap_or_else(|| {
-                        let result = point.run(&plan.load, &mut report);
-                        if let Some(Err(error)) = kept.map(|kept| kept.write(point, &result)) {
-                            *unkept.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(error);
-                            // What cannot be kept is not worth hours.
-                            next.store(order.len(), Ordering::Relaxed);
-                        }
-                        result
-                    });
-                    // A point that was kept reports its whole share here; one that became steady early, the rest.
-                    report(1.0);
-                    let mut found = found.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                    found[index] = Some(result);
-                }
-            });
-        }
-        // The loop below ends with the last sender of the threads.
-        drop(sender);
-        let mut done = 0.0;
-        for part in receiver {
-            done += part;
-            progress((done / whole as f64).min(1.0));
-        }
-    });
-    if let Some(error) = unkept.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
-        return Err(error.into());
-    }
-    let found = found.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let load = plan.load;
+    let runs: Vec<Loaded<'_>> = points.iter().map(|point| Loaded { point, load: &load }).collect();
+    let found = run_all(&runs, plan.jobs, kept, progress)?;
     Ok(points
         .iter()
         .zip(found)
@@ -143,7 +89,88 @@ pub fn study(
             friction: point.friction,
             rotates: point.rotates,
             soft: SoftString::of(&point.config.tool(), &plan.load, point.rotates),
-            found: found.unwrap_or_else(|| Err("the run did not take place".to_owned())),
+            found,
         })
         .collect())
+}
+
+/// A point under its load.
+struct Loaded<'a> {
+    point: &'a Point,
+    load: &'a Load,
+}
+
+impl Work for Loaded<'_> {
+    type Found = Found;
+
+    /// The cost of a step grows with the links.
+    fn cost(&self) -> f64 {
+        self.point.links as f64
+    }
+
+    fn kept_as(&self) -> Option<KeptAs> {
+        let Point {
+            config,
+            links,
+            friction,
+            rotates,
+        } = self.point;
+        let rotation = if *rotates { "with" } else { "without" };
+        Some(KeptAs {
+            name: format!("{links}_{friction}_{rotation}"),
+            config: config.hash(),
+            load: format!("{:?}", self.load),
+        })
+    }
+
+    fn run(&self, report: &mut impl FnMut(f64)) -> Result<Found, String> {
+        self.point.run(self.load, report)
+    }
+
+    fn figures(found: &Found) -> Vec<f64> {
+        let [buckles, folds] = [found.guide_buckles_at, found.chain_folds_at].map(|at| at.unwrap_or(f64::NAN));
+        let figures = [
+            found.weight,
+            found.torque,
+            found.range,
+            [buckles, folds],
+            [found.advance, found.time],
+        ];
+        figures.concat()
+    }
+
+    fn found(figures: Vec<f64>) -> Option<Found> {
+        let [a, b, c, d, e, f, buckles, folds, advance, time] = figures.try_into().ok()?;
+        let known = |at: f64| (!at.is_nan()).then_some(at);
+        Some(Found {
+            weight: [a, b],
+            torque: [c, d],
+            range: [e, f],
+            guide_buckles_at: known(buckles),
+            chain_folds_at: known(folds),
+            advance,
+            time,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_result_follows_from_its_numbers() {
+        let found = Found {
+            weight: [0.1 + 0.2, 1e-300],
+            torque: [f64::MIN_POSITIVE, -1.0 / 3.0],
+            range: [0.0, 1e300],
+            guide_buckles_at: None,
+            chain_folds_at: Some(0.15),
+            advance: 1e-3,
+            time: 33.0,
+        };
+        let figures = Loaded::figures(&found);
+        assert_eq!(Loaded::found(figures[1..].to_vec()), None);
+        assert_eq!(Loaded::found(figures), Some(found));
+    }
 }

@@ -4,19 +4,16 @@
 //! others as configured. Every such point is a run of the twin ([`point`]). Two more runs, which differ from the nominal
 //! one by 1 N of weight, show how far equal runs scatter.
 
-mod kept;
 pub mod picture;
 pub mod point;
 pub mod table;
-
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError, mpsc};
 
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_uncertainty::effects::{Effects, FORMAT, Output, Row};
 use flexdrill_uncertainty::{Channel, Priors};
 
-pub use kept::{KeepError, Kept};
+use crate::runs::{KeepError, Kept, KeptAs, Work, run_all};
+
 pub use point::{Figure, Found, Load, Point};
 
 /// Quantiles at which a prior is tried: the ends of 90 %.
@@ -89,9 +86,7 @@ fn of_sensors(priors: &Priors, load: &Load) -> Vec<Trial> {
     trials
 }
 
-/// Runs all points on `jobs` threads. The results do not depend on the number of threads. `progress` gets the share of
-/// the work that is done, 0 to 1. Points that are `kept` are not run, and every run is kept. `configuration` is the hash of
-/// the configuration with its priors.
+/// Runs all points ([`run_all`]). `configuration` is the hash of the configuration with its priors.
 ///
 /// # Errors
 /// When a point cannot be kept. A run that fails is part of the results.
@@ -148,60 +143,35 @@ pub fn study(
     })
 }
 
-/// The results of all points, in their order.
-fn run_all(
-    points: &[&Result<Point, String>],
-    jobs: usize,
-    kept: Option<&Kept>,
-    mut progress: impl FnMut(f64),
-) -> Result<Vec<Result<Found, String>>, KeepError> {
-    let next = AtomicUsize::new(0);
-    let found = Mutex::new(vec![None; points.len()]);
-    let unkept = Mutex::new(None);
-    std::thread::scope(|scope| {
-        let (sender, receiver) = mpsc::channel::<f64>();
-        for _ in 0..jobs.clamp(1, points.len().max(1)) {
-            let (sender, next, found, unkept) = (sender.clone(), &next, &found, &unkept);
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(point) = points.get(index) else { break };
-                    let mut reported = 0.0;
-                    // Only the increase is sent, as all threads share one sum.
-                    let mut report = |share: f64| {
-                        // The receiver outlives all threads of this scope.
-                        let _ = sender.send(share - reported);
-                        reported = share;
-                    };
-                    let result = match point {
-                        Err(cause) => Err(cause.clone()),
-                        Ok(point) => kept.and_then(|kept| kept.read(point)).unwrap_or_else(|| {
-                            let result = point.run(&mut report);
-                            if let Some(Err(error)) = kept.map(|kept| kept.write(point, &result)) {
-                                *unkept.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
-                                // What cannot be kept is not worth the time.
-                                next.store(points.len(), Ordering::Relaxed);
-                            }
-                            result
-                        }),
-                    };
-                    report(1.0);
-                    found.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
-                }
-            });
-        }
-        // The loop below ends with the last sender of the threads.
-        drop(sender);
-        let mut done = 0.0;
-        for part in receiver {
-            done += part;
-            progress((done / points.len() as f64).min(1.0));
-        }
-    });
-    if let Some(error) = unkept.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        return Err(error);
+/// A point, or why the configuration refuses it.
+impl Work for &Result<Point, String> {
+    type Found = Found;
+
+    fn cost(&self) -> f64 {
+        1.0
     }
-    let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let none = || Err("the run did not take place".to_owned());
-    Ok(found.into_iter().map(|found| found.unwrap_or_else(none)).collect())
+
+    /// The weight is part of the configuration; speed and time are not.
+    fn kept_as(&self) -> Option<KeptAs> {
+        let Point { config, load } = self.as_ref().ok()?;
+        let config = config.hash();
+        let [speed, seconds] = [load.speed, load.seconds].map(f64::to_bits);
+        Some(KeptAs {
+            name: format!("{config:.16}_{speed:016x}_{seconds:016x}"),
+            config,
+            load: format!("{load:?}"),
+        })
+    }
+
+    fn run(&self, report: &mut impl FnMut(f64)) -> Result<Found, String> {
+        self.as_ref().map_err(Clone::clone)?.run(report)
+    }
+
+    fn figures(found: &Found) -> Vec<f64> {
+        found.to_vec()
+    }
+
+    fn found(figures: Vec<f64>) -> Option<Found> {
+        figures.try_into().ok()
+    }
 }

@@ -11,7 +11,7 @@ mod tests;
 use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
-use crate::ensemble::{self, Beside, Found, Told};
+use crate::ensemble::{self, Found, Running, Told};
 use crate::residuals::{Comparison, RigComparison, Samples, predicted};
 use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
@@ -52,7 +52,9 @@ pub struct Session {
     residuals: Option<Residuals>,
     window: Option<Arc<SafeWindow>>,
     /// Plausible tools under the same inputs.
-    ensemble: Option<Beside>,
+    ensemble: Option<Running>,
+    /// Ticks and instant at which those of the newest bands began: a clock that is set must not give them another one.
+    begun: Option<(u64, i64)>,
     /// None before the instant of the first step is known, and in a run that publishes nothing.
     outputs: Option<Outputs>,
 }
@@ -68,6 +70,7 @@ impl Session {
             residuals: None,
             window: None,
             ensemble: None,
+            begun: None,
             outputs: None,
         }
     }
@@ -79,7 +82,7 @@ impl Session {
     }
 
     /// Takes plausible tools that run with it; [`Session::publish_bands`] publishes what they do.
-    pub fn run_with(&mut self, ensemble: Beside) {
+    pub fn run_with(&mut self, ensemble: Running) {
         self.ensemble = Some(ensemble);
     }
 
@@ -265,15 +268,17 @@ impl Session {
         }
         while let Some(Found {
             ticks,
-            begun,
+            begun: from,
             mut bands,
-        }) = self.ensemble.as_mut().and_then(Beside::take)
+        }) = self.ensemble.as_mut().and_then(Running::take)
         {
             // Members run only once the instant of the first step is known.
-            let Some((stamp, begun)) = self.instant(ticks).zip(self.instant(begun)) else {
+            let Some((stamp, begun)) = self.instant(ticks).zip(self.instant(from)) else {
                 continue;
             };
             bands.header = self.header(stamp);
+            let known = self.begun.filter(|(of, _)| *of == from);
+            let (_, begun) = *self.begun.insert(known.unwrap_or((from, begun)));
             bands.begun = Time::from_nanoseconds(begun);
             host.send(Encoded {
                 topic: &topics::BANDS,

@@ -76,7 +76,7 @@ fn hosted(config: &Arc<Config>) -> (Session, Kept) {
     message.set(MeasuredKind::SurfaceTorque, 300.0);
     host.measured.accept(&message, START, 0.0, 1.0).unwrap();
     let ensemble = Ensemble::of(config).unwrap().unwrap();
-    session.run_with(Beside::start(ensemble, Pace::Waits(Vec::new())).unwrap());
+    session.run_with(Running::start(ensemble, Pace::Waits(Vec::new())).unwrap());
     session.begin(START, &mut host).unwrap();
     session.applied(&run.applied(), &[], 0, &mut host).unwrap();
     for _ in 0..(2.0 / config.solver.time_step) as usize {

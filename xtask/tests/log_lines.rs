@@ -31,9 +31,9 @@ const ALLOWED: &[(&str, &str, &str)] = &[
         "configuration, once, at the start",
     ),
     ("src/node/prepare.rs", "model time runs", "once, at the start"),
-    ("src/ensemble/beside.rs", "{why}", "once, at the start"),
+    ("src/ensemble/running.rs", "{why}", "once, at the start"),
     (
-        "src/ensemble/beside.rs",
+        "src/ensemble/running.rs",
         "plausible tools run with the twin",
         "once, at the start",
     ),

@@ -1,4 +1,4 @@
-//! `ensemble`: plausible tools that run beside the twin.
+//! `ensemble`: plausible tools that run with the twin.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -11,7 +11,7 @@ use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{Recorder, Recording, Topic};
 use crate::cli::source::FromRig;
-use crate::ensemble::{Beside, Ensemble, Generation, Pace};
+use crate::ensemble::{Ensemble, Generation, Pace, Running};
 use crate::field_log::LogRows;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::residuals::{self, Samples};
@@ -118,7 +118,7 @@ impl Player {
         };
         // `auto` is for a run by a clock: as many as it leaves time for.
         if !recorded.is_empty() || ensemble.asked().is_some() {
-            self.session.run_with(Beside::start(ensemble, Pace::Waits(recorded))?);
+            self.session.run_with(Running::start(ensemble, Pace::Waits(recorded))?);
         }
         Ok(())
     }

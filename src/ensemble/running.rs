@@ -1,4 +1,4 @@
-//! The ensemble on a thread of its own, so that whoever feeds it never waits, unless it wants to.
+//! The ensemble on another thread: a node that feeds it never waits, and a replay waits where it is far ahead.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -6,7 +6,8 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use super::engine::{Ensemble, Found, Generation, Threads, Told};
+use super::engine::{Ensemble, Found, Generation, SLICE, Told};
+use super::place::Threads;
 use flexdrill_ensemble::LEAST_MEMBERS;
 use flexdrill_text::{counted, log_ending};
 
@@ -20,7 +21,7 @@ const MOST_BY_ITSELF: f64 = 64.0;
 const TAKEN: f64 = 0.75;
 /// Processors that the twin's messages take, as the busiest demonstration does.
 const MESSAGES: f64 = 0.25;
-/// Time between two looks for news (ms).
+/// Time between two looks for news.
 const POLL: Duration = Duration::from_millis(50);
 
 /// How the ensemble keeps up.
@@ -34,7 +35,7 @@ pub enum Pace {
 }
 
 /// An ensemble that runs.
-pub struct Beside {
+pub struct Running {
     told: Option<Sender<Told>>,
     found: Receiver<Found>,
     thread: Option<JoinHandle<()>>,
@@ -49,12 +50,12 @@ pub struct Beside {
 #[derive(Default)]
 struct Shared {
     stop: AtomicBool,
-    /// Ticks that the members have come to.
+    /// Ticks up to which all that can be computed is computed.
     at: Mutex<u64>,
     moved: Condvar,
 }
 
-impl Beside {
+impl Running {
     /// Starts an ensemble.
     ///
     /// # Errors
@@ -63,7 +64,7 @@ impl Beside {
         let (told, hears) = channel();
         let (finds, found) = channel();
         let shared = Arc::<Shared>::default();
-        let (slice, ahead) = (ensemble.ticks_of(0.5), ensemble.ticks_of(AHEAD));
+        let (slice, ahead) = (ensemble.ticks_of(SLICE), ensemble.ticks_of(AHEAD));
         let waits = matches!(pace, Pace::Waits(_));
         let mut worker = Worker {
             ensemble,
@@ -113,7 +114,7 @@ impl Beside {
         }
     }
 
-    /// Waits until the members have come to these ticks, or the thread has ended.
+    /// Waits until there is nothing left to compute up to these ticks, or the thread has ended.
     fn wait_for(&self, ticks: u64) {
         let mut at = self.shared.at.lock().unwrap_or_else(PoisonError::into_inner);
         while *at < ticks && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
@@ -127,7 +128,7 @@ impl Beside {
         self.found.try_recv().ok()
     }
 
-    /// Ends the run: computes all that is left, where the twin waits. [`Beside::take`] has the rest.
+    /// Ends the run: computes all that is left, where the twin waits. [`Running::take`] has the rest.
     pub fn finish(&mut self) {
         self.told = None;
         if self.waits
@@ -139,7 +140,7 @@ impl Beside {
     }
 }
 
-impl Drop for Beside {
+impl Drop for Running {
     fn drop(&mut self) {
         self.shared.stop.store(true, Ordering::Relaxed);
         self.told = None;
@@ -168,10 +169,13 @@ impl Worker {
                 self.ensemble.hear(told);
             }
             self.begin();
-            if self.begun && self.ensemble.is_due() {
+            let [at, reached] = self.ensemble.ticks();
+            let is_due = self.begun && self.ensemble.is_due();
+            // Before the first members there is nothing to wait for, nor where all that was heard is computed.
+            *self.shared.at.lock().unwrap_or_else(PoisonError::into_inner) = if is_due { at } else { reached };
+            self.shared.moved.notify_all();
+            if is_due {
                 let found = self.ensemble.slice(self.threads, &self.shared.stop);
-                *self.shared.at.lock().unwrap_or_else(PoisonError::into_inner) = self.ensemble.ticks()[0];
-                self.shared.moved.notify_all();
                 if let Some(found) = found
                     && !self.shared.stop.load(Ordering::Relaxed)
                     && finds.send(found).is_err()
