@@ -232,10 +232,11 @@ impl Worker {
                 (0, why)
             };
             if let Some(more) = log_ending("the plausible tools fell behind") {
-                tracing::warn!(
-                    "the plausible tools fell {LATE:.0} s behind the twin; {members} of them begin again. Close other \
-                     programs, or set ensemble.members lower for the next run{more}"
-                );
+                let what = match members {
+                    0 => why.clone(),
+                    _ => format!("the plausible tools fell {LATE:.0} s behind the twin; {members} of them begin again"),
+                };
+                tracing::warn!("{what}. Close other programs, or set ensemble.members lower for the next run{more}");
             }
             let begun = self.ensemble.latest();
             self.ensemble.begin(Generation { begun, members, why });
