@@ -8,6 +8,7 @@ use std::sync::mpsc::{Sender, channel};
 use super::chance::{Band, Chance};
 use super::goal::{Candidate, Goal, MOST_RUN_UP};
 use super::member::{DISTURBANCE, Ended, Figure, Member, Watched};
+use super::set_point::{SetPoint, Wavering};
 use crate::alarms::AlarmId;
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
@@ -27,6 +28,8 @@ pub enum StartError {
 pub struct Start {
     config: Arc<Config>,
     run: Run,
+    /// How the rig's inputs waver about what is set.
+    wavering: Arc<[[f64; 4]]>,
 }
 
 impl Start {
@@ -35,7 +38,22 @@ impl Start {
         Self {
             run: Run::resumed(simulation, applied),
             config,
+            wavering: Arc::default(),
         }
+    }
+
+    /// The same state on a rig whose driller has set `set_point`: a sample that wavers about it is no target, and members
+    /// waver as the rig did within the last minute.
+    #[must_use]
+    pub fn about(mut self, set_point: &SetPoint) -> Self {
+        if let Some(inputs) = set_point.inputs() {
+            self.run.apply(&RunInputs {
+                inputs,
+                ..self.run.applied()
+            });
+            self.wavering = set_point.wavering();
+        }
+        self
     }
 
     /// From the bytes of a checkpoint. `tool` is a simulation of the configuration's tool in any state.
@@ -66,6 +84,11 @@ impl Start {
     /// A run in this state.
     pub(super) fn run(&self) -> Run {
         self.run.fork()
+    }
+
+    /// The wavering of a member, which begins at its own look.
+    pub(super) fn wavering(&self, of_goal: u64, candidate: usize, member: u32) -> Wavering {
+        Wavering::from(&self.wavering, seed(of_goal, candidate, member))
     }
 
     /// What acts from here on under a candidate.
@@ -277,7 +300,11 @@ fn work(
         } else {
             Ok(disturbed(there, goal.seed, candidate, member))
         };
-        let result = member_run.and_then(|run| Watched::new(run, &start.config, stop).judge(goal.horizon, |_| false));
+        let wavering = start.wavering(goal.seed, candidate, member);
+        let result = member_run.and_then(|run| {
+            let watched = Watched::new(run, &start.config, stop).wavering(wavering);
+            watched.judge(goal.horizon, |_| false)
+        });
         let report = Report {
             candidate,
             member,

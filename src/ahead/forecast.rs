@@ -57,6 +57,7 @@ pub fn forecast(start: &Start, members: u32, seed: u64, threads: usize, stop: &A
     let numbers: Vec<u32> = (0..members).collect();
     let results: Vec<Result<Member, Ended>> = on_threads(&numbers, threads, |member| {
         let watched = Watched::new(disturbed(&run, seed, 0, *member), start.config(), stop);
+        let watched = watched.wavering(start.wavering(seed, 0, *member));
         watched.traced().judge(horizon, |_| false)
     });
     if stop.load(Ordering::Relaxed) {

@@ -3,15 +3,12 @@
 use std::collections::VecDeque;
 
 use super::forecast::{Calibration, Forecast, HORIZON};
+use super::set_point::{LAG, SetPoint};
 use super::trace::{SIGNALS, Trace};
+use crate::rig_inputs::Fluctuation;
 use flexdrill_config::InputsConfig;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
-/// Parts of the range of an input and of its value by which the input may change while a forecast at it is held against
-/// what comes. A rig's weight is steady to a kilonewton at best, and its speed to a turn per minute.
-const SAME_OF_RANGE: f64 = 0.025;
-const SAME: f64 = 0.05;
 /// Seconds that are kept until the forecasts that begin in them arrive: a forecast that takes longer than its horizon is of
 /// no use.
 const KEPT: usize = 2 * HORIZON as usize;
@@ -28,7 +25,7 @@ struct Open {
     next: u64,
 }
 
-/// Least and most of speed (rad/s) and weight (N) in a second.
+/// Least and most of what was set of speed (rad/s) and weight (N) in a second.
 #[derive(Debug, Clone, Copy)]
 struct Acted {
     number: u64,
@@ -38,8 +35,9 @@ struct Acted {
 /// What came, and the forecasts that it is compared with.
 #[derive(Debug)]
 pub struct Held {
-    /// By how much speed (rad/s) and weight (N) may change.
-    same: [f64; 2],
+    /// By how much speed and weight may change.
+    same: Fluctuation,
+    set_point: SetPoint,
     trace: Trace,
     acted: VecDeque<Acted>,
     step: u64,
@@ -51,10 +49,8 @@ impl Held {
     /// Nothing yet, for a rig with these inputs.
     pub fn new(inputs: &InputsConfig) -> Self {
         Self {
-            same: [
-                rpm_to_rad_per_s(SAME_OF_RANGE * inputs.rotary_speed.max_rpm),
-                kn_to_n(SAME_OF_RANGE * inputs.weight_on_bit.max_kn),
-            ],
+            same: Fluctuation::of(inputs),
+            set_point: SetPoint::new(inputs),
             trace: Trace::default(),
             acted: VecDeque::new(),
             step: 0,
@@ -73,10 +69,11 @@ impl Held {
     pub fn look(&mut self, time: f64, snapshot: &Snapshot) {
         self.follow_reset(snapshot);
         self.trace.look(time, snapshot);
-        self.act(
-            time.max(0.0) as u64,
-            [snapshot.applied.rotary_speed, snapshot.applied.weight_set],
-        );
+        // Members waver as the rig does, so that single samples end no forecast; what is set is known a little later.
+        self.set_point.take(time, &snapshot.applied);
+        if let Some(set) = self.set_point.inputs().filter(|_| time >= LAG) {
+            self.act((time - LAG) as u64, [set.rotary_speed, set.weight_on_bit]);
+        }
         self.trace.keep(KEPT);
         self.compare();
     }
@@ -99,8 +96,7 @@ impl Held {
 
     /// Whether speed (rad/s) and weight (N) are close enough to those of a forecast for it to speak of them.
     pub fn is_for(&self, targets: &[f64; 2], asked: [f64; 2]) -> bool {
-        let mut all = asked.iter().zip(targets).zip(&self.same);
-        all.all(|((now, then), same)| (now - then).abs() <= same.max(SAME * then.abs()))
+        self.same.covers(*targets, asked)
     }
 
     /// Nothing that follows a reset of the model was forecast.
@@ -131,7 +127,9 @@ impl Held {
 
     /// Compares the seconds that are complete.
     fn compare(&mut self) {
-        let Some(newest) = self.trace.seconds().back().map(|second| second.number) else {
+        let complete = self.trace.seconds().back().map(|second| second.number);
+        let known = self.acted.back().map(|acted| acted.number);
+        let Some(newest) = complete.zip(known).map(|(complete, known)| complete.min(known)) else {
             return;
         };
         for open in &mut self.open {
@@ -156,10 +154,10 @@ impl Held {
     }
 }
 
-fn stayed(acted: &Acted, targets: &[f64; 2], same: &[f64; 2]) -> bool {
-    let mut all = acted.range.iter().zip(targets).zip(same);
-    all.all(|(([least, most], target), same)| {
-        let within = same.max(SAME * target.abs());
-        (least - target).abs() <= within && (most - target).abs() <= within
-    })
+fn stayed(acted: &Acted, targets: &[f64; 2], same: &Fluctuation) -> bool {
+    let [speed, weight] = acted.range;
+    [0, 1]
+        .map(|end| [speed[end], weight[end]])
+        .iter()
+        .all(|now| same.covers(*targets, *now))
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::measured::Measured;
+use super::set_point::Wavering;
 use super::trace::Trace;
 use crate::alarms::{AlarmBook, AlarmId};
 use crate::session::Session;
@@ -120,6 +121,7 @@ pub(super) struct Watched<'a> {
     periods: u64,
     trace: Option<Trace>,
     measured: Option<Measured>,
+    wavering: Wavering,
 }
 
 impl<'a> Watched<'a> {
@@ -138,6 +140,7 @@ impl<'a> Watched<'a> {
             periods,
             trace: None,
             measured: None,
+            wavering: Wavering::default(),
         }
     }
 
@@ -150,6 +153,12 @@ impl<'a> Watched<'a> {
     /// Measures the motion in the second half of the horizon.
     pub(super) fn measured(mut self, measured: Measured) -> Self {
         self.measured = Some(measured);
+        self
+    }
+
+    /// Lets the inputs waver about what is set while the run is judged.
+    pub(super) fn wavering(mut self, wavering: Wavering) -> Self {
+        self.wavering = wavering;
         self
     }
 
@@ -211,7 +220,12 @@ impl<'a> Watched<'a> {
         let mut tally = Tally::default();
         let mut quality = QualityLevel::Good;
         let looks = (horizon / (self.periods as f64 * self.period as f64 * self.config.solver.time_step)).ceil() as u64;
+        let set = self.run.applied().inputs;
         for look in 0..looks {
+            if let Some(inputs) = self.wavering.next(&set) {
+                let applied = self.run.applied();
+                self.run.apply(&RunInputs { inputs, ..applied });
+            }
             self.advance()?;
             let snapshot = &self.snapshot;
             session.observe(snapshot, stamp(snapshot));

@@ -3,6 +3,7 @@
 //! # Layout
 //! - [`Goal`]: candidates, horizon, members; checked against the configuration before anything runs.
 //! - [`Start`]: the state from which all members begin.
+//! - [`SetPoint`]: what the driller has set, and how the rig wavers about it; members waver alike.
 //! - `member`: one run of one candidate, judged by the alarms that the node itself uses.
 //! - `measured`: the motion of a member without the gates of the alarms.
 //! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
@@ -27,6 +28,7 @@ mod goal;
 mod held;
 mod measured;
 mod member;
+mod set_point;
 mod trace;
 
 pub use advice::search;
@@ -36,4 +38,5 @@ pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, forecast, wi
 pub use goal::{Candidate, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use held::Held;
 pub use member::{DISTURBANCE, Figure};
+pub use set_point::SetPoint;
 pub use trace::{SIGNALS, Second, Signal, Trace};

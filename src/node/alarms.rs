@@ -15,8 +15,7 @@ use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
-use flexdrill_core::inputs::InputKind;
-use flexdrill_core::twin::Snapshot;
+use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_messages::{
     AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, Alarm, AlarmEvent, ShelveAlarmRequest, ShelveAlarmResponse,
     UnshelveAlarmRequest, UnshelveAlarmResponse,
@@ -97,10 +96,10 @@ impl AlarmDesk {
         self.parameters = InForce::of(config);
     }
 
-    /// Gives the alarms that a snapshot has left what look-aheads have found for them.
-    pub fn advise(&self, book: &mut AlarmBook, snapshot: &Snapshot) {
+    /// Gives the alarms that stand what look-aheads have found for them under what the driller has set.
+    pub fn advise(&self, book: &mut AlarmBook, set: Inputs) {
         if let Some(advisor) = &self.advisor {
-            let acting = Acting::new(&snapshot.applied, &self.parameters);
+            let acting = Acting::new(set, &self.parameters);
             let tested = advisor.follow(book.leading(), &acting);
             book.set_tested(tested, advisor.trial());
         }
@@ -310,6 +309,7 @@ impl Accepted {
 mod tests {
     use super::*;
     use crate::alarms::{AlarmSet, Change, Knob, Tested};
+    use flexdrill_core::twin::Snapshot;
     use flexdrill_messages::std_msgs::Header;
     use flexdrill_motion::{DriveState, HazardKind, Severity};
 
@@ -378,12 +378,12 @@ mod tests {
         let mut snapshot = Snapshot::default();
         snapshot.hazards.drive = DriveState::Turning;
         snapshot.hazards.list[HazardKind::BackwardWhirl as usize].severity = Severity::Critical;
-        (snapshot.applied.rotary_speed, snapshot.applied.weight_set) = (4.0 * std::f64::consts::PI, 10e3);
+        (snapshot.applied.rotary_speed, snapshot.applied.weight_on_bit) = (4.0 * std::f64::consts::PI, 10e3);
         let mut second = 0;
         let mut advice = |desk: &AlarmDesk| {
             second += 1;
             book.observe_tool(&snapshot, 1_000_000_000 * second);
-            desk.advise(&mut book, &snapshot);
+            desk.advise(&mut book, snapshot.applied.inputs());
             // The texts are written after what was found was taken.
             book.observe_tool(&snapshot, 1_000_000_000 * second + 1);
             let list = book.list(Header::default());
@@ -395,7 +395,6 @@ mod tests {
         let (asked, _) = advisor.due().unwrap();
         assert!(advice(&desk).contains("the twin is trying settings out now, which takes a few minutes."));
         let tested = Tested {
-            alarm: asked.leading.alarm,
             ends: asked.leading.standing,
             stays: AlarmSet::EMPTY,
             from: [120.0, 10.0],

@@ -40,6 +40,8 @@ pub enum Busy {
     Starting,
     /// Model time stands still.
     StandsStill,
+    /// Speed or weight is being changed.
+    Changing,
     /// It answers goals of `~/what_if`.
     Goals,
     /// It searches for advice on an alarm.
@@ -53,6 +55,7 @@ impl Busy {
         match self {
             Self::Starting => "the node has just started",
             Self::StandsStill => "model time stands still",
+            Self::Changing => "speed or weight is being changed",
             Self::Goals => "the look-ahead answers goals of ~/what_if; cancel those that are not needed",
             Self::Advice => "the look-ahead searches for advice on an alarm",
             Self::Forecast => "the computer is busy with other work, or searches for advice interrupt the forecast",

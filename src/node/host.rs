@@ -61,8 +61,10 @@ impl Host for NodeHost<'_> {
             .then(|| inputs.with_measured(|measured| rig.samples(measured, stamp)))
     }
 
-    fn judged(&mut self, alarms: &mut AlarmBook, snapshot: &Snapshot) {
-        self.parts.alarms.advise(alarms, snapshot);
+    fn judged(&mut self, alarms: &mut AlarmBook, _: &Snapshot) {
+        if let Some(set) = self.parts.set_point.inputs() {
+            self.parts.alarms.advise(alarms, set);
+        }
     }
 
     fn compared(&mut self, comparison: &Comparison) {

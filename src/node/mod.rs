@@ -25,6 +25,7 @@ pub mod publishers;
 pub mod receive;
 pub mod received;
 mod running;
+mod set_point;
 mod setup;
 mod states;
 mod thinned;

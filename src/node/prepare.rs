@@ -19,6 +19,7 @@ use super::publishers::Publishers;
 use super::receive::{self, SampleReceiver};
 use super::received::{self, ReceivedQueue, ReceivedSender};
 use super::running::RunningNode;
+use super::set_point::SharedSetPoint;
 use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
@@ -141,6 +142,7 @@ impl PreparedNode {
             gauges: Arc::clone(&gauges),
             advisor,
             forecasts: config.look_ahead.forecast.then(Arc::default),
+            set_point: Arc::new(SharedSetPoint::new(&config)),
         };
         let shut_down = Arc::new(Notify::new());
         // Without `--lifecycle` the services do not exist, and a supervisor sees at once that the node is not managed.
@@ -287,6 +289,7 @@ impl PreparedNode {
             node_name: setup.identity.full_name(),
             finish: Arc::clone(&finish),
             forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
+            set_point: Arc::clone(&self.answering.set_point),
             moves: self.moves,
         };
         let publisher = Publisher::new(parts, session).map_err(|error| NodeError::Stopped(error.to_string()))?;

@@ -15,6 +15,7 @@ use super::host::NodeHost;
 use super::inputs::RigInputs;
 use super::publishers::Publishers;
 use super::received::{Received, ReceivedQueue};
+use super::set_point::SharedSetPoint;
 use super::thinned::Thinned;
 use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
@@ -76,6 +77,8 @@ pub struct PublisherParts {
     pub finish: Arc<AtomicBool>,
     /// Forecasts and what came; none where they are off.
     pub forecasts: Option<ForecastDesk>,
+    /// What the driller has set.
+    pub set_point: Arc<SharedSetPoint>,
     /// Takes the moves of what follows the rig.
     pub moves: Moves,
 }
@@ -234,6 +237,7 @@ impl Publisher {
                 // The status sees every frame, also those that are not due on any topic.
                 self.status.observe(&frame.snapshot);
                 self.motion = MotionEvidence::of(&frame.snapshot);
+                self.parts.set_point.observe(&frame);
                 let began = monotonic::now();
                 let mut host = NodeHost::of_frame(&self.parts, &mut self.thinned, &frame);
                 let sent = self.session.frame(&frame, &mut host);

@@ -7,6 +7,7 @@
 
 mod driver;
 mod drivers;
+mod fluctuation;
 mod intake;
 mod measured;
 mod safe_value_watch;
@@ -14,6 +15,7 @@ pub mod stamped;
 
 pub use driver::{Driver, DriverId};
 pub use drivers::{DriverSummary, Drivers, NotDriving, Rule};
+pub use fluctuation::Fluctuation;
 pub use intake::{Carried, Intake, RigSample, SampleRefused, SampleSource};
 pub use measured::{Measured, MeasuredRefused, MeasuredValue};
 pub use safe_value_watch::{SafeValueEvent, SafeValueWatch};

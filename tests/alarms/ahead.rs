@@ -364,7 +364,7 @@ fn followed(
         );
     };
     assert!(
-        tested.of == 10 && tested.ended >= 9 && tested.holds_at([rpm, kn]),
+        tested.of == 10 && tested.ended >= 9 && tested.lies_ahead([rpm, kn]),
         "{tested}"
     );
     assert!(tested.ends.contains(alarm) && tested.ends.union(tested.stays) == leading.standing);

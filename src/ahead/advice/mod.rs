@@ -245,6 +245,7 @@ impl Runs<'_> {
                     outcome.came || outcome.open.contains(alarm)
                 };
                 Watched::new(there, config, self.stop)
+                    .wavering(self.start.wavering(seed, number, member))
                     .measured(Measured::new(self.settings.clone(), at, LOOK))
                     .judge(HORIZON, is_out)
             });
@@ -343,7 +344,6 @@ impl<M: Fn(&Trial, u64, usize, u32) -> Option<Outcome> + Sync> Search<M> {
             }
         }
         Ok((against(ends) <= MOST_AGAINST).then(|| Tested {
-            alarm: self.leading.alarm,
             ends,
             stays: standing.without(ends),
             from: self.from,

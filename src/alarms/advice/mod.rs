@@ -145,9 +145,7 @@ pub struct Leading {
 /// A change that look-aheads have tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tested {
-    /// The alarm that led.
-    pub alarm: AlarmId,
-    /// The standing alarms that it ends, `alarm` among them.
+    /// The standing alarms that it ends, the one that led among them.
     pub ends: AlarmSet,
     /// The standing alarms that it does not end.
     pub stays: AlarmSet,
@@ -163,10 +161,14 @@ pub struct Tested {
 }
 
 impl Tested {
-    /// Whether it was tried from what is asked for now (r/min and kN), within the fluctuation of a drive.
-    pub fn holds_at(&self, [rpm, kn]: [f64; 2]) -> bool {
-        let near = |now: f64, from: f64| (now - from).abs() <= FLUCTUATION * from.abs();
-        near(rpm, self.from[0]) && near(kn, self.from[1])
+    /// Whether the change lies ahead of what is set now (r/min and kN): in the same direction, and at least half of it.
+    pub fn lies_ahead(&self, now: [f64; 2]) -> bool {
+        let Change { quantity, to } = self.change;
+        let of = match quantity {
+            Knob::Speed => 0,
+            Knob::Weight => 1,
+        };
+        (to - now[of]) / (to - self.from[of]) >= 0.5
     }
 }
 
@@ -315,7 +317,7 @@ pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsCon
     // A change that was tried from the twin's own speed and weight says nothing of the rig's.
     let tested = ahead.tested.filter(|_| !now.unknown.any()).and_then(|tested| {
         let mut leading = order.iter().filter(|demand| may_lead(demand));
-        let demand = *leading.find(|demand| demand.id == tested.alarm)?;
+        let demand = *leading.find(|demand| tested.ends.contains(demand.id))?;
         Some((demand, Lead::Tested(tested)))
     });
     let lead = tested.or_else(|| {

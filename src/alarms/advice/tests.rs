@@ -131,7 +131,6 @@ fn without_the_rigs_speed_and_weight_no_number_of_the_twin_is_given() {
     assert!(!text(true, false).contains("now)"));
     // What was tried from the twin's own speed is not told either.
     let tested = Tested {
-        alarm: AlarmId::ChaoticWhirl,
         ends: [AlarmId::ChaoticWhirl].into_iter().collect(),
         stays: AlarmSet::EMPTY,
         from: [95.0, 20.0],
@@ -265,7 +264,6 @@ fn a_step_respects_the_limits_of_the_other_alarms() {
 fn a_tested_change_says_which_alarms_it_ends_and_which_stay() {
     let set = |ids: &[AlarmId]| ids.iter().copied().collect::<AlarmSet>();
     let tested = Tested {
-        alarm: AlarmId::BackwardWhirl,
         ends: set(&[AlarmId::BackwardWhirl, AlarmId::StickSlip]),
         stays: set(&[AlarmId::ChaoticWhirl]),
         from: [120.0, 10.0],

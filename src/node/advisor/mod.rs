@@ -5,16 +5,15 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::alarms::{Leading, Tested, Trial};
+use crate::rig_inputs::Fluctuation;
 use flexdrill_config::Config;
+use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::LiveParameters;
-use flexdrill_core::twin::Applied;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_motion::WhirlSettings;
 
 /// Time for which the same alarm leads at the same speed and weight before a search begins.
 const SETTLED: Duration = Duration::from_secs(2);
-/// Part of a speed or weight by which it may change while it counts as the same.
-const SAME: f64 = 0.02;
 /// Part of a coefficient of friction by which it may change: a torque follows it by as much, and a torque gauge shows
 /// no less.
 const SAME_FRICTION: f64 = 0.05;
@@ -35,6 +34,8 @@ pub struct InForce {
     slew: [f64; 4],
     /// Limits of speed (r/min) and weight (kN).
     limits: [[f64; 2]; 2],
+    /// Speeds and weights that count as the same.
+    fluctuation: Fluctuation,
 }
 
 impl InForce {
@@ -46,6 +47,7 @@ impl InForce {
             whirl: config.whirl_settings(),
             slew: config.simulation().slew(),
             limits: [[speed.min_rpm, speed.max_rpm], [weight.min_kn, weight.max_kn]],
+            fluctuation: Fluctuation::of(&config.inputs),
         }
     }
 
@@ -61,7 +63,7 @@ impl InForce {
 
     fn has_stayed(&self, now: &Self) -> bool {
         let mut coefficients = self.coefficients().into_iter().zip(now.coefficients());
-        coefficients.all(|(then, now)| near(then, now, SAME_FRICTION, 0.0))
+        coefficients.all(|(then, now)| near([then, now], SAME_FRICTION, 0.0))
             && *self
                 == Self {
                     live: self.live,
@@ -74,42 +76,39 @@ impl InForce {
 /// stays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Acting {
-    /// Speed (r/min) and weight (kN) that are asked for, after their slew limits.
-    at: [f64; 2],
-    /// Rate of penetration (m/s).
-    rate_of_penetration: f64,
-    /// Standpipe pressure, inside minus outside (Pa).
-    pressure: f64,
+    /// What the driller has set.
+    set: Inputs,
     parameters: InForce,
 }
 
 impl Acting {
-    /// What a snapshot says, with the parameters in force.
-    pub fn new(applied: &Applied, parameters: &InForce) -> Self {
+    /// Under what is set, with the parameters in force.
+    pub fn new(set: Inputs, parameters: &InForce) -> Self {
         Self {
-            at: [rad_per_s_to_rpm(applied.rotary_speed), n_to_kn(applied.weight_set)],
-            rate_of_penetration: applied.rate_of_penetration,
-            pressure: applied.standpipe_pressure,
+            set,
             parameters: *parameters,
         }
     }
 
     /// Whether all but speed and weight has stayed.
     fn has_stayed(&self, now: &Self) -> bool {
-        near(self.rate_of_penetration, now.rate_of_penetration, SAME_FEED, LEAST_FEED)
-            && near(self.pressure, now.pressure, SAME_FEED, LEAST_PRESSURE)
+        let (then, new) = (&self.set, &now.set);
+        let feeds = [then.rate_of_penetration, new.rate_of_penetration];
+        let pressures = [then.standpipe_pressure, new.standpipe_pressure];
+        near(feeds, SAME_FEED, LEAST_FEED)
+            && near(pressures, SAME_FEED, LEAST_PRESSURE)
             && self.parameters.has_stayed(&now.parameters)
     }
 
     /// Whether all of it is the same.
     fn is(&self, now: &Self) -> bool {
-        let mut inputs = self.at.into_iter().zip(now.at);
-        inputs.all(|(then, now)| near(then, now, SAME, 0.0)) && self.has_stayed(now)
+        let at = |set: &Inputs| [set.rotary_speed, set.weight_on_bit];
+        self.parameters.fluctuation.covers(at(&self.set), at(&now.set)) && self.has_stayed(now)
     }
 }
 
 /// Whether two values differ by a part of the larger, or by `least`, at most.
-fn near(a: f64, b: f64, part: f64, least: f64) -> bool {
+fn near([a, b]: [f64; 2], part: f64, least: f64) -> bool {
     (a - b).abs() <= (part * a.abs().max(b.abs())).max(least)
 }
 
@@ -124,13 +123,11 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Whether it is for these alarms or for more: one that ends meanwhile does not end the search, and one that
-    /// returns was searched for.
+    /// Whether it is for these alarms or for more: one that ends meanwhile does not end the search, one that returns
+    /// was searched for, and which of them leads changes nothing, because all that stand are to end.
     fn covers(&self, leading: &Leading) -> bool {
         let Leading { standing, shelved, .. } = self.leading;
-        self.leading.alarm == leading.alarm
-            && leading.standing.is_within(standing)
-            && leading.shelved.is_within(standing.union(shelved))
+        leading.standing.is_within(standing) && leading.shelved.is_within(standing.union(shelved))
     }
 
     fn is_for(&self, leading: &Leading, acting: &Acting) -> bool {
@@ -183,7 +180,7 @@ impl Advisor {
             let before = exchange
                 .asked
                 .take()
-                .filter(|asked| asked.leading.alarm == leading.alarm);
+                .filter(|asked| !asked.leading.standing.common(leading.standing).is_empty());
             let before = before.filter(|asked| asked.acting.is(acting));
             let standing = before.map_or(leading.standing, |asked| asked.leading.standing.union(leading.standing));
             exchange.asked = Some(Asked {
@@ -196,8 +193,11 @@ impl Advisor {
             stop(&mut exchange.forecast);
         }
         let (asked, tested) = exchange.answered.as_ref()?;
-        let holds = asked.covers(&leading) && asked.acting.has_stayed(acting);
-        tested.filter(|tested| holds && tested.holds_at(acting.at))
+        let now = [
+            rad_per_s_to_rpm(acting.set.rotary_speed),
+            n_to_kn(acting.set.weight_on_bit),
+        ];
+        tested.filter(|tested| asked.is_for(&leading, acting) && tested.lies_ahead(now))
     }
 
     /// What is to be searched now, with the flag that stops the search.

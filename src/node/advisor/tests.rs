@@ -2,14 +2,22 @@
 
 use super::*;
 use crate::alarms::{AlarmId, AlarmSet, Change, Knob};
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
 const AT: [f64; 2] = [120.0, 10.0];
 
+fn config() -> Config {
+    Config::from_text("default.yaml", include_str!("../../../config/default.yaml")).unwrap()
+}
+
 fn acting(at: [f64; 2]) -> Acting {
     Acting {
-        at,
-        rate_of_penetration: 10.0 / 3600.0,
-        pressure: 8e6,
+        set: Inputs {
+            rotary_speed: rpm_to_rad_per_s(at[0]),
+            weight_on_bit: kn_to_n(at[1]),
+            rate_of_penetration: 10.0 / 3600.0,
+            standpipe_pressure: 8e6,
+        },
         parameters: InForce {
             live: LiveParameters {
                 inner_friction: [0.7, 0.7],
@@ -19,6 +27,7 @@ fn acting(at: [f64; 2]) -> Acting {
             whirl: WhirlSettings::default(),
             slew: [1.0; 4],
             limits: [[0.0, 150.0], [0.0, 60.0]],
+            fluctuation: Fluctuation::of(&config().inputs),
         },
     }
 }
@@ -45,7 +54,6 @@ fn shock() -> Option<Leading> {
 
 fn tested() -> Tested {
     Tested {
-        alarm: AlarmId::BackwardWhirl,
         ends: set(&[AlarmId::BackwardWhirl]),
         stays: AlarmSet::EMPTY,
         from: AT,
@@ -87,6 +95,8 @@ fn a_search_waits_for_a_settled_alarm_and_holds_where_it_was_made() {
     assert!(advisor.due().is_none(), "one search is enough");
     assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
     assert_eq!(advisor.follow(leads(), &acting([119.0, 10.1])), Some(tested()));
+    // Beyond half of the change, which is to 72 r/min, the sentence would be wrong.
+    assert_eq!(advisor.follow(leads(), &acting([117.0, 9.0])), Some(tested()));
     // Somewhere else, or for another alarm, it says nothing.
     assert_eq!(advisor.follow(leads(), &acting([100.0, 10.0])), None);
     assert_eq!(advisor.follow(shock(), &acting(AT)), None);
@@ -132,12 +142,12 @@ fn advice_ends_with_the_tool_that_it_was_tested_on_and_is_asked_for_anew() {
         ),
         (
             "rate of penetration",
-            |now, by| now.rate_of_penetration *= by,
+            |now, by| now.set.rate_of_penetration *= by,
             1.09,
             1.3,
         ),
-        ("pulling back", |now, by| now.rate_of_penetration *= by, 1.0, -1.0),
-        ("pressure", |now, by| now.pressure *= by, 0.92, 0.0),
+        ("pulling back", |now, by| now.set.rate_of_penetration *= by, 1.0, -1.0),
+        ("pressure", |now, by| now.set.standpipe_pressure *= by, 0.92, 0.0),
         ("slew limit", |now, by| now.parameters.slew[0] *= by, 1.0, 2.0),
         (
             "limit of the speed",
@@ -180,11 +190,14 @@ fn advice_ends_with_the_tool_that_it_was_tested_on_and_is_asked_for_anew() {
     // A rig that does not advance and does not pump.
     let (zero, mut jitter) = (acting(AT), acting(AT));
     let zero = Acting {
-        rate_of_penetration: 0.0,
-        pressure: 0.0,
+        set: Inputs {
+            rate_of_penetration: 0.0,
+            standpipe_pressure: 0.0,
+            ..zero.set
+        },
         ..zero
     };
-    (jitter.rate_of_penetration, jitter.pressure) = (0.5 / 3600.0, -0.1e6);
+    (jitter.set.rate_of_penetration, jitter.set.standpipe_pressure) = (0.5 / 3600.0, -0.1e6);
     assert!(zero.is(&jitter));
 }
 
@@ -210,6 +223,24 @@ fn an_alarm_that_comes_is_asked_for_too_and_one_that_goes_is_not_asked_for_anew(
         assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
     }
     assert!(advisor.due().is_none());
+}
+
+/// All alarms that stand are to end, so that nothing depends on which of them leads.
+#[test]
+fn another_alarm_that_leads_ends_neither_search_nor_advice() {
+    let standing = [AlarmId::BackwardWhirl, AlarmId::Shock];
+    let advisor = Advisor::default();
+    let _ = advisor.follow(leads_with(AlarmId::BackwardWhirl, &standing), &acting(AT));
+    wait(&advisor, SETTLED);
+    let (what, stop) = advisor.due().unwrap();
+    let by_shock = leads_with(AlarmId::Shock, &standing);
+    assert_eq!(advisor.follow(by_shock, &acting(AT)), None);
+    assert_eq!(advisor.follow(shock(), &acting(AT)), None);
+    assert!(!stop.load(Ordering::Relaxed));
+    advisor.answer(what, Some(tested()), Duration::from_secs(70));
+    for leading in [by_shock, shock(), leads()] {
+        assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
+    }
 }
 
 /// A client that sends goals without end would otherwise end every search that begins.

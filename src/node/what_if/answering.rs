@@ -9,6 +9,7 @@ use crate::ahead::{Start, forecast, look_ahead, search};
 use crate::node::advisor::Advisor;
 use crate::node::control::Control;
 use crate::node::forecast::{Busy, Forecasts, Issued};
+use crate::node::set_point::SharedSetPoint;
 use crate::node::states::SavedRun;
 use crate::node::turns::{self, Turn, Turns};
 use crate::node::what_if_messages::{feedback, goal, of_candidate, sentence};
@@ -42,6 +43,8 @@ pub struct Answering {
     pub advisor: Arc<Advisor>,
     /// Where forecasts go; none where they are off.
     pub forecasts: Option<Arc<Forecasts>>,
+    /// What the driller has set.
+    pub set_point: Arc<SharedSetPoint>,
 }
 
 impl Answering {
@@ -156,7 +159,7 @@ impl Answering {
         })
     }
 
-    /// The present state of the live run, what acts on it, and its ticks.
+    /// The present state of the live run under what the driller has set, with that, and its ticks.
     fn start(&self, config: &Arc<Config>, tool: &mut Option<Simulation>) -> Result<(Start, RunInputs, u64), String> {
         let SavedRun {
             checkpoint,
@@ -174,7 +177,12 @@ impl Answering {
         };
         let start =
             Start::restored(Arc::clone(config), tool, &checkpoint, &applied).map_err(|error| error.to_string())?;
-        Ok((start, applied, ticks))
+        let start = start.about(&self.set_point.now());
+        let set = RunInputs {
+            step: applied.step,
+            ..start.applied()
+        };
+        Ok((start, set, ticks))
     }
 
     /// Looks for the smallest change that ends the alarms that stand, if that is asked for.
@@ -223,6 +231,10 @@ impl Answering {
         }
         if Instant::now() < *at {
             return;
+        }
+        // Within seconds of a change what counts as set is what was set before: a forecast of it would be given up.
+        if !self.set_point.is_settled() {
+            return forecasts.note(Busy::Changing);
         }
         // The flag comes before the check below: between them a goal can
         // only come that sees the flag and stops this forecast.
