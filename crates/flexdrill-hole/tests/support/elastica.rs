@@ -1,0 +1,82 @@
+//! The steady hole by other equations: an inextensible elastica with large rotations in a circular hole.
+//!
+//! The hole's axis is a circle of radius R = 1/kb about the origin, and its outer wall, the low side, has the radius R + c
+//! for the guide's axis. From the bit at (R, 0) up, with the tangent d = (-sin a, cos a) down the hole, n the force of the
+//! lower part on the upper, and q outwards:
+//!
+//! ```text
+//! a' = -kappa,   x' = -d,   n' = q e_r,   M' = d x n,   kappa = kf + M/EI;   n = (-F, -W), M = 0, a = -t at the bit
+//! ```
+//!
+//! Unknown are t, F, the free length l, and kb; at l the guide is on the wall, along it, and as curved as it; and the bit
+//! drills along its tangent. Nothing is linear here, and nothing is taken from the crate but the description of the guide.
+
+use flexdrill_hole::{BitLaw, Guide, Steady};
+use nalgebra::{Matrix4, Vector2, Vector4};
+
+const STEPS: usize = 400;
+
+/// a, x, y, n_x, n_y, M.
+type State = [f64; 6];
+
+fn rates(guide: &Guide, [a, x, y, nx, ny, moment]: State) -> State {
+    let (sine, cosine) = a.sin_cos();
+    let radius = x.hypot(y);
+    let kappa = guide.free_curvature + moment / guide.bending_stiffness;
+    let q = guide.weight_per_metre;
+    [
+        -kappa,
+        sine,
+        -cosine,
+        q * x / radius,
+        q * y / radius,
+        -sine * ny - cosine * nx,
+    ]
+}
+
+fn misfit(guide: &Guide, law: &BitLaw, unknown: Vector4<f64>) -> Vector4<f64> {
+    let [tilt, force, length, curvature] = [unknown.x, unknown.y, unknown.z, unknown.w];
+    let radius = 1.0 / curvature;
+    let mut state = [-tilt, radius, 0.0, -force, -law.weight, 0.0];
+    let h = length / STEPS as f64;
+    for _ in 0..STEPS {
+        let shifted = |rate: State, share: f64| -> State { std::array::from_fn(|i| state[i] + share * h * rate[i]) };
+        let first = rates(guide, state);
+        let second = rates(guide, shifted(first, 0.5));
+        let third = rates(guide, shifted(second, 0.5));
+        let fourth = rates(guide, shifted(third, 1.0));
+        state = std::array::from_fn(|i| state[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]));
+    }
+    let [a, x, y, .., moment] = state;
+    let (sine, cosine) = a.sin_cos();
+    Vector4::new(
+        x.hypot(y) - radius - guide.gap,
+        (-sine * x + cosine * y) / x.hypot(y),
+        guide.free_curvature + moment / guide.bending_stiffness - 1.0 / (radius + guide.gap),
+        law.turn(Vector2::new(0.0, tilt), Vector2::new(0.0, force)).y,
+    )
+}
+
+/// kb (1/m), F (N), t (rad) and l (m) of the steady hole, found from the closed form on by Newton's method.
+pub fn steady(guide: &Guide, law: &BitLaw, start: Steady) -> (f64, f64, f64, f64) {
+    let scale = [1e-2, 1e3, 1.0, 0.1];
+    let tilt = -0.01;
+    let force = -(law.steering_resistance() - law.weight) * tilt;
+    let mut unknown = Vector4::new(tilt, force, start.free_length, start.curvature);
+    for _ in 0..50 {
+        let now = misfit(guide, law, unknown);
+        let jacobian = Matrix4::from_fn(|row, column| {
+            let mut moved = unknown;
+            moved[column] += 1e-6 * scale[column];
+            (misfit(guide, law, moved)[row] - now[row]) / (1e-6 * scale[column])
+        });
+        let step = jacobian.lu().solve(&now).unwrap();
+        // Half of the first steps, since the start has no more than the closed form's accuracy.
+        unknown -= step * 0.7;
+        if step.component_div(&Vector4::from(scale)).amax() < 1e-10 {
+            break;
+        }
+    }
+    assert!(misfit(guide, law, unknown).amax() < 1e-9, "no steady elastica");
+    (unknown.w, unknown.y, unknown.x, unknown.z)
+}
