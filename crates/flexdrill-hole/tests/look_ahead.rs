@@ -40,7 +40,7 @@ fn inclination(drilled: &[Advance], metres: f64) -> f64 {
 #[test]
 fn the_papers_tool_four_metres_ahead() {
     let (_, drilled) = drill(guide(SOFT), base(), CHORD, 4.05);
-    // The design's program with chords of 10 mm.
+    // Figures of a second program, of finite differences, with chords of 10 mm.
     for (metres, wanted) in [
         (0.0, 19.64),
         (0.5, 28.04),
@@ -168,6 +168,8 @@ fn walk_and_roll_turn_the_hole_to_the_side() {
     };
     agree("roll of 2 deg", walk(rolled, 0.0), 0.01108, 0.03);
     assert!(walk(level, 0.0) == 0.0);
+    let twisted = Guide { torque: 92.4, ..level };
+    agree("torque of 92.4 N m", walk(twisted, 0.0).to_degrees(), 0.014, 0.1);
 }
 
 #[test]
@@ -189,6 +191,43 @@ fn a_turned_world_turns_the_hole_alone() {
     let turned = Rotation3::from_axis_angle(&nalgebra::Vector3::z_axis(), std::f64::consts::FRAC_PI_2) * north.position;
     assert!((turned - east.position).norm() < 1e-9, "{turned} {}", east.position);
     assert!((north.inclination - east.inclination).abs() < 1e-9);
+}
+
+/// What each unknown moves after five metres (deg): the table of `docs/hole_ahead.md`.
+#[test]
+fn what_each_unknown_moves() {
+    let at = |guide: Guide, law: BitLaw| inclination(&drill(guide, law, CHORD, 5.05).1, 5.0);
+    let base_case = at(guide(SOFT), base());
+    let of = |factor: f64| Guide {
+        free_curvature: factor / 3.2,
+        ..guide(SOFT)
+    };
+    let wide = Guide {
+        gap: 0.010,
+        ..guide(SOFT)
+    };
+    let worn = |kn: f64| BitLaw {
+        active_weight: 1e3 * kn - 8670.0,
+        ..BitLaw::sharp(1e3 * kn, 20.0)
+    };
+    let worn_case = at(guide(SOFT), worn(10.0));
+    for (name, moved, wanted) in [
+        ("eta 5", at(guide(SOFT), BitLaw::sharp(10e3, 5.0)) - base_case, -7.78),
+        ("eta 100", at(guide(SOFT), BitLaw::sharp(10e3, 100.0)) - base_case, 6.11),
+        ("kf + 2 %", at(of(1.02), base()) - base_case, 1.83),
+        ("kf - 2 %", at(of(0.98), base()) - base_case, -1.83),
+        ("f 0.03", at(guide(0.03), base()) - base_case, 2.50),
+        ("gap + 2 mm", at(wide, base()) - base_case, 0.54),
+        (
+            "W + 10 %",
+            at(guide(SOFT), BitLaw::sharp(11e3, 20.0)) - base_case,
+            0.404,
+        ),
+        ("W + 10 %, worn", at(guide(SOFT), worn(11.0)) - worn_case, 1.36),
+    ] {
+        println!("{name}: {moved:+.2} ({wanted}) deg");
+        assert!((moved - wanted).abs() < 0.1, "{name}: {moved}");
+    }
 }
 
 /// The work of five metres, as linear systems per chord: time depends on the machine, this does not.

@@ -62,7 +62,7 @@ fn all_forces_in_an_arc_balance() {
     assert!(sum.x.abs() < 45.0 && sum.y == 0.0 && sum.z.abs() < 45.0, "{sum}");
 }
 
-/// Force (N) and tilt (mrad) of an own second program (finite differences of the same equations) for the paper's tool at
+/// Force (N) and tilt (mrad) of a second program (finite differences of the same equations) for the paper's tool at
 /// rest, with the weight at which they are.
 #[test]
 fn side_force_and_tilt_of_the_papers_tool() {

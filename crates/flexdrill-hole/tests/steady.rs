@@ -55,7 +55,7 @@ fn steady_curvature_of_program_elastica_and_closed_form() {
         let kb = mean(&drilled, 3.0, |at| at.build);
         println!("f {factor}, eta {eta}, W {weight}:");
         agree("  kb, elastica", kb, exact, 0.002);
-        agree("  kb, design", kb, curvature, 0.005);
+        agree("  kb, second program", kb, curvature, 0.005);
         agree("  kb, closed form", kb, formula.curvature, 0.02);
         agree(
             "  F, elastica",
@@ -69,7 +69,7 @@ fn steady_curvature_of_program_elastica_and_closed_form() {
     }
 }
 
-/// Holes that ripple: their mean curvature is that of the design's program.
+/// Holes that ripple: their mean curvature is that of the second program.
 #[test]
 fn a_blunt_bit_or_a_stiff_guide_ripples_about_the_closed_form() {
     let worn = BitLaw {
@@ -81,14 +81,14 @@ fn a_blunt_bit_or_a_stiff_guide_ripples_about_the_closed_form() {
         assert!(formula.steering_number < flexdrill_hole::RIPPLE_THRESHOLD);
         let drilled = drill(level(factor), law, formula.curvature, 14.0);
         let kb = mean(&drilled, 8.0, |at| at.build);
-        agree("kb, design", kb, curvature, 0.015);
+        agree("kb, second program", kb, curvature, 0.015);
         let spread = mean(&drilled, 8.0, |at| (at.build - kb).powi(2)).sqrt();
         println!("spread {spread}, P {}", formula.steering_number);
         assert!(spread > 5e-4, "no ripples: {spread}");
     }
 }
 
-/// The formula's numbers in the design's table.
+/// The formulas' numbers as a second program has them.
 #[test]
 fn closed_form() {
     for (factor, eta, weight, curvature, length) in [
@@ -108,6 +108,34 @@ fn closed_form() {
     agree("indifferent", resistance, 159e3, 5e-3);
     let found = steady(&guide, &BitLaw::sharp(10e3, resistance / 10e3), 1.0).unwrap();
     agree("kb", found.curvature, ARC, 1e-9);
+}
+
+/// The table for the driller in `docs/hole_ahead.md`: radii (m) by weight (kN).
+#[test]
+fn radii_over_the_weight() {
+    for (worn, radii) in [
+        (
+            0.0,
+            &[
+                (6.0, 3.209),
+                (8.0, 3.175),
+                (10.0, 3.145),
+                (12.0, 3.117),
+                (15.0, 3.078),
+                (20.0, 3.020),
+            ][..],
+        ),
+        (8670.0, &[(10.0, 3.565), (12.0, 3.451), (15.0, 3.331), (20.0, 3.198)]),
+    ] {
+        for &(kn, radius) in radii {
+            let law = BitLaw {
+                active_weight: 1e3 * kn - worn,
+                ..BitLaw::sharp(1e3 * kn, 20.0)
+            };
+            let found = steady(&level(SOFT), &law, 1.0).unwrap();
+            agree("radius", 1.0 / found.curvature, radius, 1e-3);
+        }
+    }
 }
 
 #[test]
