@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
+use super::{Config, ConfigError};
 
 const MEMBERS: Bound = Bound::within(8.0, 256.0);
 
@@ -66,5 +67,39 @@ impl Ensemble {
             "given with uncertainty.keys or uncertainty.sensors",
             "all members would be the tool of the file",
         );
+    }
+}
+
+impl Config {
+    /// The same with so many plausible tools, also where the file has no section `ensemble`; `origin` stands for the file
+    /// in errors.
+    ///
+    /// # Errors
+    /// When the number is out of bounds, or the file does not state what is not known.
+    pub fn with_members(&self, origin: &str, members: u32) -> Result<Self, ConfigError> {
+        let mut with = self.clone();
+        with.schema.ensemble.get_or_insert_default();
+        with.with_values(origin, [("ensemble.members", members)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn members_are_given_to_a_file_with_and_without_the_section() {
+        for text in [
+            include_str!("../../../config/default.yaml"),
+            include_str!("../../../config/rig.yaml"),
+        ] {
+            let config = Config::from_text("a file", text).unwrap();
+            let with = config.with_members("--members", 12).unwrap();
+            assert_eq!(with.ensemble.map(|ensemble| ensemble.members), Some(Members::Count(12)));
+            assert!(config.with_members("--members", 7).is_err());
+        }
+        let known = Config::from_text("paper.yaml", include_str!("../../../config/paper.yaml")).unwrap();
+        let error = known.with_members("--members", 8).unwrap_err().to_string();
+        assert!(error.contains("uncertainty"), "{error}");
     }
 }

@@ -49,6 +49,19 @@ impl Axis {
         points.into_iter().map(|(time, y)| (time / self.unit, y)).collect()
     }
 
+    /// Adds the area between the first and the last of three histories of the same instants, and the one between.
+    fn between(&self, mut panel: Panel, color: usize, histories: &[History; 3], factor: f64) -> Panel {
+        let [low, middle, high] = histories.each_ref().map(|history| history.segments(factor));
+        for (index, ((low, middle), high)) in low.into_iter().zip(middle).zip(high).enumerate() {
+            let name = if index == 0 { "median of the tools" } else { "" };
+            let outline = high.mean.into_iter().chain(low.mean.into_iter().rev()).collect();
+            panel = panel
+                .line(Line::new("", self.scaled(outline)).area().color(color))
+                .line(Line::new(name, self.scaled(middle.mean)).color(color));
+        }
+        panel
+    }
+
     /// Adds a history as a band between its extremes, and its mean.
     pub(crate) fn draw(&self, mut panel: Panel, name: &str, color: usize, history: &History, factor: f64) -> Panel {
         for (index, Segment { mean, outline }) in history.segments(factor).into_iter().enumerate() {
@@ -59,6 +72,37 @@ impl Axis {
         }
         panel
     }
+}
+
+/// Figures of plausible tools whose bands are drawn: fields of `twin/transfer`.
+const OF_TOOLS: [(&str, &str); 4] = [
+    ("bit_torque", "Torque at the bit"),
+    ("surface_torque", "Torque at the surface"),
+    ("bit_weight", "Weight at the bit"),
+    ("rate_of_penetration", "Rate of penetration"),
+];
+
+/// Bands of plausible tools with the twin's own values, and the share of them in which an alarm stands.
+pub(crate) fn tools(summary: &Summary) -> Option<Figure> {
+    let axis = Axis::of(summary);
+    let tools = &summary.tools;
+    let mut panels = Vec::new();
+    for (field, title) in OF_TOOLS {
+        let own = summary.transfer.quantities.iter().find(|own| own.figure.field == field);
+        let (Some(band), Some(own)) = (tools.of_transfer(field), own) else {
+            continue;
+        };
+        // Without bands the twin's value alone would be the figure of the section before.
+        if band.quantiles[1].range().is_none() {
+            continue;
+        }
+        let (unit, factor) = band.kind.unit();
+        let panel = axis.between(axis.panel(title, unit), 0, &band.quantiles, factor);
+        panels.push(axis.draw(panel, "the twin", 6, &own.history, factor));
+    }
+    let any = axis.panel("Plausible tools in which an alarm stands", "%").from_zero();
+    panels.push(axis.draw(any, "", 1, &tools.any_alarm, 100.0));
+    figure("tools", 2, ROW, panels)
 }
 
 fn has_lines(panel: &Panel) -> bool {

@@ -9,6 +9,7 @@ use crate::health::Health;
 use crate::incidents::Incidents;
 use crate::locations::Locations;
 use crate::roles::{OUTPUTS, Roles};
+use crate::tools::PlausibleTools;
 use crate::transfer::TransferHistory;
 use crate::weight::SteadyDrilling;
 use flexdrill_bag::{BagError, BagMessage, Gap, Gaps};
@@ -18,8 +19,8 @@ use flexdrill_field_log::LogRows;
 use flexdrill_messages::std_msgs::{Float64, Header};
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{
-    AlarmEvent, AlarmList, AppliedInputs, BitState, ContactForces, JointDeflections, Message, Reactions, RigInputs,
-    SessionInfo, Transfer, TwinStatus, WhirlState,
+    AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, JointDeflections, Message, Reactions,
+    RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState,
 };
 use flexdrill_text::counted;
 
@@ -46,6 +47,7 @@ pub struct Summary {
     pub(crate) drive: Drive,
     pub(crate) transfer: TransferHistory,
     pub(crate) steady: SteadyDrilling,
+    pub(crate) tools: PlausibleTools,
     pub(crate) balances: Balances,
     pub(crate) incidents: Incidents,
     /// The rows of the field log that drove the run; none of another run.
@@ -137,6 +139,7 @@ impl Reader {
                 drive: Drive::default(),
                 transfer: TransferHistory::default(),
                 steady: SteadyDrilling::default(),
+                tools: PlausibleTools::default(),
                 balances: Balances::default(),
                 incidents: Incidents::default(),
                 log_rows: LogRows::default(),
@@ -240,6 +243,11 @@ impl Reader {
                 self.summary.transfer.push(time, &transfer);
                 self.summary.steady.push(time, &transfer);
                 self.summary.balances.transfer(time, &transfer);
+            }
+            Bands::ROS_TYPE => {
+                let bands: Bands = message.decode()?;
+                let time = self.stamp(&bands.header);
+                self.summary.tools.push(time, &bands);
             }
             Reactions::ROS_TYPE => {
                 let reactions: Reactions = message.decode()?;

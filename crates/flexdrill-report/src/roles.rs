@@ -21,6 +21,8 @@ pub(crate) const OUTPUTS: [&TopicInfo; 11] = [
     &topics::ALARM_EVENTS,
     &topics::STATUS,
 ];
+/// Outputs that the report uses where there are any: most runs have none, and nothing is missing without them.
+const OPTIONAL: [&TopicInfo; 1] = [&topics::BANDS];
 /// Inputs that the report uses, as received.
 const INPUTS: [&TopicInfo; 5] = [
     &topics::ROTARY_SPEED_RPM,
@@ -76,13 +78,13 @@ impl Roles {
             bag.topics()
                 .iter()
                 .map(|topic| {
-                    OUTPUTS.into_iter().chain(INPUTS).find(|known| {
+                    OUTPUTS.into_iter().chain(OPTIONAL).chain(INPUTS).find(|known| {
                         topic.ros_type == known.kind.ros_type && topic.name == absolute(&namespace, known)
                     })
                 })
                 .collect();
         // A remapped topic is recognised by its type, if no other topic has that type.
-        for known in OUTPUTS {
+        for known in OUTPUTS.into_iter().chain(OPTIONAL) {
             let mut same = (0..of.len()).filter(|index| bag.topics()[*index].ros_type == known.kind.ros_type);
             if let (Some(only), None) = (same.next(), same.next()) {
                 of[only] = Some(known);

@@ -126,7 +126,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     }
     let (mut config, name) = load_config(args.config.as_deref())?;
     if let Some(members) = args.members {
-        config = config.with_values("--members", [("ensemble.members", members)])?;
+        config = config.with_members("--members", members)?;
     }
     say!("configuration {name}, hash {}", &config.hash()[..12]);
     let samples = if args.wits {

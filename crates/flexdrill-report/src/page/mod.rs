@@ -7,6 +7,7 @@ mod drive;
 mod health;
 mod locations;
 pub(crate) mod text;
+mod tools;
 mod transfer;
 mod weight;
 
@@ -49,6 +50,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
         (locations::envelopes(summary)?)
         (drive::torque(summary)?)
         (transfer::section(summary)?)
+        (tools::section(summary)?)
         (balances::section(summary))
         (health::section(summary)?)
         (limits())
