@@ -11,6 +11,7 @@ mod route;
 mod rule;
 mod state;
 mod unit;
+mod unit_spelling;
 mod wanted;
 
 pub use conditioner::{Conditioner, Counts};
