@@ -38,6 +38,70 @@ pub enum FieldLogError {
         /// Name of the encoding, as `iconv` knows it.
         encoding: &'static str,
     },
+    /// The log is compressed, and its content is damaged.
+    #[error("{file}: the log is compressed with {how} and damaged: {reason}; copy it again, or unpack it")]
+    Compressed {
+        /// Name of the log.
+        file: String,
+        /// The compression.
+        how: &'static str,
+        /// What the decoder says.
+        reason: String,
+    },
+    /// The file is no text.
+    #[error("{file}: the file is {kind}, not a text; unpack it, or save the sheet as \"CSV UTF-8\"")]
+    OtherFile {
+        /// Name of the log.
+        file: String,
+        /// What it is.
+        kind: &'static str,
+    },
+    /// A LAS file cannot be read.
+    #[error("{file}: the LAS file cannot be read: {reason}")]
+    Las {
+        /// Name of the log.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// The file has no text in the row that the mapping gives for the header.
+    #[error(
+        "{file}: row {row}, which `header_row` of the mapping names, has no header; an editor numbers the first row 1"
+    )]
+    NoHeader {
+        /// Name of the log.
+        file: String,
+        /// The row.
+        row: u64,
+    },
+    /// The times of the log cannot be right.
+    #[error("{file}: the times in column `{column}` cannot be right: {found}; {cure}")]
+    Times {
+        /// Name of the log.
+        file: String,
+        /// The time column.
+        column: String,
+        /// What is wrong.
+        found: String,
+        /// The line of the mapping, or the export, that cures it.
+        cure: String,
+    },
+    /// An input has no usable value in the whole log.
+    #[error("{file}: column `{column}` has no usable value for {input} in {rows} rows{found}; {cure}")]
+    NoValue {
+        /// Name of the log.
+        file: String,
+        /// The column.
+        column: String,
+        /// Name of the input.
+        input: &'static str,
+        /// Rows with a readable time.
+        rows: usize,
+        /// The first row and its problem, after `: `; empty when none is known.
+        found: String,
+        /// The line of the mapping that cures it.
+        cure: String,
+    },
     /// The first line is too long for a header.
     #[error(
         "{file}: the first line has {bytes} bytes, at most {most} are read; a log has a header of column names and one \
@@ -90,7 +154,7 @@ pub enum FieldLogError {
         /// The time column.
         column: String,
         /// The format of the mapping.
-        format: &'static str,
+        format: String,
         /// The first text that was not a time; empty when there was no row.
         hint: String,
     },

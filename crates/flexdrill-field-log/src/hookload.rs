@@ -2,14 +2,20 @@
 
 use crate::mapping::Hookload;
 use crate::report::{IssueKind, Issues, Tare};
-use crate::table::Row;
+use crate::table::{Numbering, Row};
 use flexdrill_core::inputs::InputKind;
 
 const SPEED: usize = InputKind::RotarySpeed.index();
 const WEIGHT: usize = InputKind::WeightOnBit.index();
 
 /// Converts hookloads to weights on bit, in place and before scaling. Returns the tares that it used.
-pub(crate) fn weigh(rows: &mut [Row], mapping: &Hookload, max_gap: f64, issues: &mut Issues) -> Vec<Tare> {
+pub(crate) fn weigh(
+    rows: &mut [Row],
+    mapping: &Hookload,
+    max_gap: f64,
+    numbering: Numbering,
+    issues: &mut Issues,
+) -> Vec<Tare> {
     let mut tares: Vec<Tare> = Vec::new();
     // First row of the current interval off bottom and rotating.
     let mut interval_start: Option<usize> = None;
@@ -37,12 +43,18 @@ pub(crate) fn weigh(rows: &mut [Row], mapping: &Hookload, max_gap: f64, issues: 
             next_tare += 1;
         }
         let last_tare = next_tare.checked_sub(1).and_then(|index| tares.get(index));
-        row.values[WEIGHT] = weight(row, last_tare, mapping, issues);
+        row.values[WEIGHT] = weight(row, last_tare, mapping, numbering, issues);
     }
     tares
 }
 
-fn weight(row: &Row, tare: Option<&Tare>, mapping: &Hookload, issues: &mut Issues) -> Option<f64> {
+fn weight(
+    row: &Row,
+    tare: Option<&Tare>,
+    mapping: &Hookload,
+    numbering: Numbering,
+    issues: &mut Issues,
+) -> Option<f64> {
     let (hookload, drilling) = (row.values[WEIGHT]?, row.drilling?);
     if !drilling {
         return Some(0.0);
@@ -59,7 +71,7 @@ fn weight(row: &Row, tare: Option<&Tare>, mapping: &Hookload, issues: &mut Issue
     }
     if weight < -mapping.negative_band_kn {
         issues.add(IssueKind::NegativeWeight, &mapping.column, row.number, || {
-            format!("{weight:.1} kN with the tare of row {}", tare.last_row)
+            format!("{weight:.1} kN with the tare of row {}", numbering.swap(tare.last_row))
         });
         return None;
     }

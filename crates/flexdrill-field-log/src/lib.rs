@@ -1,4 +1,4 @@
-//! Field logs: reads a CSV log and its mapping file into the timed inputs that the topics would carry, and reports
+//! Field logs: reads a log (CSV, or LAS by time) and its mapping file into the timed inputs that the topics would carry, and reports
 //! everything in the log that is wrong.
 //!
 //! The crate never fills in a value: it leaves out what is missing, so that the conditioner sees the input age as it
@@ -18,9 +18,14 @@
 //! # }
 //! ```
 
+mod compressed;
 mod condition;
 mod error;
 mod hookload;
+mod judge;
+mod las;
+mod layout;
+mod lines;
 mod log_rows;
 mod mapping;
 mod measured;
@@ -32,6 +37,7 @@ mod sequence;
 mod spikes;
 mod table;
 mod time_format;
+mod time_suggestion;
 
 pub use condition::Condition;
 pub use error::FieldLogError;

@@ -21,7 +21,7 @@ pub(crate) struct Timed {
 
 /// How the log gives time.
 pub(crate) struct TimeAxis<'a> {
-    pub(crate) format: TimeFormat,
+    pub(crate) format: &'a TimeFormat,
     /// Name of the time column.
     pub(crate) column: &'a str,
     pub(crate) max_gap: f64,
@@ -44,7 +44,7 @@ pub(crate) fn order(rows: &mut Vec<Timed>, axis: &TimeAxis<'_>, issues: &mut Iss
         };
         let mut time = row.time + shift;
         // A time of day falls back by almost a day at midnight only.
-        if axis.format == TimeFormat::TimeOfDay && last.time - time > DAY / 2.0 {
+        if axis.format.restarts_daily() && last.time - time > DAY / 2.0 {
             shift += DAY;
             time += DAY;
         }

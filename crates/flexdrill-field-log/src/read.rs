@@ -3,11 +3,12 @@
 use std::io::Read as _;
 use std::path::Path;
 
+use crate::compressed::unpacked;
 use crate::hookload::weigh;
 use crate::mapping::{Mapping, WeightOnBitColumn};
 use crate::report::{Issues, Report, Summary, TorqueSummary};
 use crate::spikes::{remove_spikes, report_frozen};
-use crate::table::{Row, read_table};
+use crate::table::{Numbering, Row, read_table};
 use crate::{FieldLogError, InputSequence, MeasuredSequence, Range, RowTime, Tare, TimedInput};
 use flexdrill_core::inputs::InputKind;
 
@@ -47,14 +48,17 @@ pub fn read_bytes(
     range: &Range,
 ) -> Result<(InputSequence, Report), FieldLogError> {
     let mut issues = Issues::default();
-    let mut table = read_table(&name, content, mapping, &mut issues)?;
+    let content = unpacked(&name, content, LARGEST)?;
+    let mut table = read_table(&name, &content, mapping, &mut issues)?;
+    let numbering = table.numbering;
     // Tares are found before the range is cut, from all rows: the log may be weighed off bottom far from the range.
-    let tares = clean_and_weigh(&mut table.rows, mapping, &mut issues);
+    let tares = clean_and_weigh(&mut table.rows, mapping, numbering, &mut issues);
+    every_input_has_a_value(&name, &table.rows, mapping, &issues)?;
 
     let rows = &table.rows;
     // `read_table` has refused a table without rows.
     let (first, last) = (rows[0], rows[rows.len() - 1]);
-    let within = |row: &Row| range.contains(row.number, row.time);
+    let within = |row: &Row| range.contains(numbering.swap(row.number), row.time);
     // Row numbers and times rise together, so the rows of a range are contiguous.
     let from = rows.iter().position(within);
     // An empty range is an error with the extent of the log, since it is mostly a mistake in its ends.
@@ -67,8 +71,8 @@ pub fn read_bytes(
             to: range
                 .to
                 .map_or_else(|| "the log's end".to_string(), |to| to.to_string()),
-            first_row: first.number,
-            last_row: last.number,
+            first_row: numbering.swap(first.number).min(numbering.swap(last.number)),
+            last_row: numbering.swap(last.number).max(numbering.swap(first.number)),
             length: last.time,
         });
     };
@@ -76,7 +80,7 @@ pub fn read_bytes(
     // Rows without a usable time belong to the part around or before them, so that one report names each of them.
     let before = from.checked_sub(1).map_or(0, |index| rows[index].number);
     let after = rows.get(to + 1).map_or(u64::MAX, |row| row.number);
-    let span = [before + 1, after - 1].map(|row| range.nearest_row(row));
+    let span = [before + 1, after - 1].map(|row| numbering.swap(range.nearest_row(numbering.swap(row))));
     let source = ReportSource {
         file: &name,
         mapping,
@@ -104,11 +108,17 @@ pub fn read_bytes(
         }
     }
     // Times begin at 0 with the range, as every run does.
-    let mut sequence = sequence(part, mapping);
+    let report = Report {
+        notes: table.notes.clone(),
+        ..report.numbered(numbering)
+    };
+    let mut sequence = sequence(part, mapping, numbering);
     sequence.measured = MeasuredSequence::new(table.measured_kinds.clone());
     for row in part {
         let time = row.time - part[0].time;
-        sequence.measured.push(time, row.number, table.measured_of(row));
+        sequence
+            .measured
+            .push(time, numbering.swap(row.number), table.measured_of(row));
     }
     Ok((sequence, report))
 }
@@ -156,7 +166,7 @@ impl ReportSource<'_> {
             .saturating_sub(1);
         let tares = self.tares[acting..].iter().filter(|tare| tare.last_row <= end.number);
         let written = self.written.partition_point(|row| *row <= to) - self.written.partition_point(|row| *row < from);
-        let sequence = sequence(part, self.mapping);
+        let sequence = sequence(part, self.mapping, Numbering::default());
         Report {
             file: self.file.to_owned(),
             first_row: begin.number,
@@ -172,13 +182,15 @@ impl ReportSource<'_> {
             weight_scale: self.mapping.weight_scale(),
             tares: tares.copied().collect(),
             issues: self.issues.between(from, to),
+            newest_first: false,
+            notes: Vec::new(),
             parts: Vec::new(),
         }
     }
 }
 
 /// Removes implausible samples and converts hookloads to weights on bit.
-fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> Vec<Tare> {
+fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, numbering: Numbering, issues: &mut Issues) -> Vec<Tare> {
     let (columns, quality) = (&mapping.columns, &mapping.quality);
     let weight_column = match &columns.weight_on_bit {
         WeightOnBitColumn::Direct(direct) => &direct.column,
@@ -193,11 +205,54 @@ fn clean_and_weigh(rows: &mut [Row], mapping: &Mapping, issues: &mut Issues) -> 
     }
     match &columns.weight_on_bit {
         WeightOnBitColumn::Direct(_) => Vec::new(),
-        WeightOnBitColumn::Hookload(hookload) => weigh(rows, hookload, quality.max_gap, issues),
+        WeightOnBitColumn::Hookload(hookload) => weigh(rows, hookload, quality.max_gap, numbering, issues),
     }
 }
 
-fn sequence(rows: &[Row], mapping: &Mapping) -> InputSequence {
+/// Refuses a log in which a mapped input has no value in any row: the twin would run without it.
+fn every_input_has_a_value(file: &str, rows: &[Row], mapping: &Mapping, issues: &Issues) -> Result<(), FieldLogError> {
+    let columns = &mapping.columns;
+    let (weight, weight_key) = match &columns.weight_on_bit {
+        WeightOnBitColumn::Direct(direct) => (&direct.column, "weight_on_bit: {direct: {column: ...}}"),
+        WeightOnBitColumn::Hookload(hookload) => (
+            &hookload.column,
+            "weight_on_bit: {hookload: {column: ..., drilling: ..., off_bottom: ...}}",
+        ),
+    };
+    let rate = columns.rate_of_penetration.as_ref().map(|rate| &rate.column);
+    let pressure = columns.standpipe_pressure.as_ref().map(|pressure| &pressure.column);
+    let required = |key: &str| format!("name the column that has it: `{key}` in the mapping");
+    let optional = |key: &str| format!("name the column that has it, or remove `{key}` from the mapping");
+    for (kind, column, cure) in [
+        (
+            InputKind::RotarySpeed,
+            Some(&columns.rotary_speed.column),
+            required("rotary_speed: {column: ...}"),
+        ),
+        (InputKind::WeightOnBit, Some(weight), required(weight_key)),
+        (InputKind::RateOfPenetration, rate, optional("rate_of_penetration")),
+        (InputKind::StandpipePressure, pressure, optional("standpipe_pressure")),
+    ] {
+        let Some(column) = column else { continue };
+        if rows.iter().any(|row| row.values[kind.index()].is_some()) {
+            continue;
+        }
+        let first = issues.first_of(column);
+        return Err(FieldLogError::NoValue {
+            file: file.to_owned(),
+            column: column.clone(),
+            input: kind.name(),
+            rows: rows.len(),
+            found: first.map_or_else(String::new, |issue| {
+                format!(": {}: {}", issue.kind.name(), issue.detail)
+            }),
+            cure,
+        });
+    }
+    Ok(())
+}
+
+fn sequence(rows: &[Row], mapping: &Mapping, numbering: Numbering) -> InputSequence {
     let begin = rows.first().map_or(0.0, |row| row.time);
     let scales = [mapping.columns.rotary_speed.scale, mapping.weight_scale(), 1.0, 1.0];
     let mut inputs = Vec::with_capacity(2 * rows.len());
@@ -208,26 +263,26 @@ fn sequence(rows: &[Row], mapping: &Mapping) -> InputSequence {
                     time: row.time - begin,
                     kind,
                     value: value * scale,
-                    row: row.number,
+                    row: numbering.swap(row.number),
                 });
             }
         }
     }
-    let column = &mapping.columns.time;
+    let (column, format) = (mapping.columns.time.name(), mapping.columns.time.format());
     InputSequence {
         inputs,
         rows: rows
             .iter()
             .map(|row| RowTime {
-                row: row.number,
+                row: numbering.swap(row.number),
                 time: row.time - begin,
-                own_time: column.format.own_text(&column.column, row.own_time),
+                own_time: format.own_text(&column, row.own_time),
             })
             .collect(),
         start: rows
             .first()
             .map(|row| row.own_time)
-            .filter(|start| column.format.has_dates() && *start >= 0.0),
+            .filter(|start| format.has_dates() && *start >= 0.0),
         measured: MeasuredSequence::default(),
         duration: rows.last().map_or(0.0, |row| row.time - begin),
     }

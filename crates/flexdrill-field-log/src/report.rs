@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::InputSequence;
+use crate::table::Numbering;
 use flexdrill_core::inputs::InputKind;
 
 /// Kinds of problems in a log.
@@ -12,6 +13,8 @@ pub enum IssueKind {
     Unreadable,
     /// Empty or a missing code.
     Missing,
+    /// A number that recorders write for no value and the mapping does not list.
+    MissingCode,
     /// The same time as the row before.
     TimeRepeats,
     /// Before the time of the row before, in a few rows.
@@ -36,9 +39,10 @@ pub enum IssueKind {
 
 impl IssueKind {
     /// All, in the order of the table.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Unreadable,
         Self::Missing,
+        Self::MissingCode,
         Self::TimeRepeats,
         Self::TimeBackwards,
         Self::TimeJumps,
@@ -56,6 +60,7 @@ impl IssueKind {
         match self {
             Self::Unreadable => "unreadable",
             Self::Missing => "missing value",
+            Self::MissingCode => "missing code",
             Self::TimeRepeats => "time repeats",
             Self::TimeBackwards => "time steps backwards",
             Self::TimeJumps => "time jumps",
@@ -73,7 +78,7 @@ impl IssueKind {
     pub const fn treatment(self) -> &'static str {
         match self {
             Self::Unreadable => "value left out, or the row where time or fields are wrong",
-            Self::Missing | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
+            Self::Missing | Self::MissingCode | Self::Spike | Self::NoTare | Self::NegativeWeight => "value left out",
             Self::TimeRepeats | Self::TimeBackwards | Self::TimeJumps => "row left out",
             Self::TimeRestarts => "a new part begins",
             Self::Gap => "left as a gap",
@@ -98,6 +103,15 @@ pub struct Issue {
     pub rows: u64,
     /// Detail of the first row.
     pub detail: String,
+}
+
+impl Issue {
+    fn swap(&mut self, numbering: Numbering) {
+        if numbering.is_mirrored() {
+            let [first, last] = [self.last_row, self.first_row].map(|row| numbering.swap(row));
+            (self.first_row, self.last_row) = (first, last);
+        }
+    }
 }
 
 /// The hookload off bottom, from which the weight on bit is measured.
@@ -202,6 +216,10 @@ pub struct Report {
     pub tares: Vec<Tare>,
     /// Everything found, in order of rows.
     pub issues: Vec<Issue>,
+    /// Whether the newest row is the first of the file; first and last rows are by their numbers.
+    pub newest_first: bool,
+    /// What was found in the log and not in the mapping, in words.
+    pub notes: Vec<String>,
     /// Where the log's clock restarts, a report of each part; otherwise empty.
     pub parts: Vec<Report>,
 }
@@ -232,6 +250,9 @@ impl fmt::Display for Report {
             write!(f, ", {} LEFT OUT", self.left_out)?;
         }
         writeln!(f, ", {:.1} s", self.duration)?;
+        for note in &self.notes {
+            writeln!(f, "  NOTE: {note}")?;
+        }
         // With several parts only these are printed, because sums across a seam would mislead.
         if !self.parts.is_empty() {
             writeln!(
@@ -296,6 +317,24 @@ impl fmt::Display for Report {
 }
 
 impl Report {
+    /// Numbers the rows as an editor does.
+    pub(crate) fn numbered(mut self, numbering: Numbering) -> Self {
+        if !numbering.is_mirrored() {
+            return self;
+        }
+        (self.first_row, self.last_row) = (numbering.swap(self.last_row), numbering.swap(self.first_row));
+        for tare in &mut self.tares {
+            (tare.first_row, tare.last_row) = (numbering.swap(tare.first_row), numbering.swap(tare.last_row));
+        }
+        for issue in &mut self.issues {
+            issue.swap(numbering);
+        }
+        self.issues.sort_by_key(|issue| (issue.first_row, issue.last_row));
+        self.newest_first = true;
+        self.parts = self.parts.into_iter().map(|part| part.numbered(numbering)).collect();
+        self
+    }
+
     fn print_tares(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.weight_from_hookload {
             return Ok(());
@@ -309,7 +348,12 @@ impl Report {
             writeln!(
                 f,
                 "    from row {:>6} on: {:.1} kN, median of rows {} to {}, which spread by {:.1} kN",
-                tare.last_row + 1,
+                // The rows after a tare have lower numbers where the newest row is first.
+                if self.newest_first {
+                    tare.last_row.saturating_sub(1)
+                } else {
+                    tare.last_row + 1
+                },
                 tare.hookload_kn,
                 tare.first_row,
                 tare.last_row,
@@ -395,6 +439,19 @@ impl Issues {
             rows,
             detail: detail(),
         });
+    }
+
+    /// The first problem of a column that was found.
+    pub(crate) fn first_of(&self, column: &str) -> Option<&Issue> {
+        self.list.iter().find(|issue| issue.column == column)
+    }
+
+    /// Numbers the rows in the other way of [`Numbering`].
+    pub(crate) fn swap(&mut self, numbering: Numbering) {
+        for issue in &mut self.list {
+            issue.swap(numbering);
+        }
+        self.list.reverse();
     }
 
     /// The issues that overlap a range of rows, clipped to the range, in order of rows.

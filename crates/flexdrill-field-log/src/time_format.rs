@@ -1,54 +1,189 @@
 //! Notations of time in a log.
 
+use std::borrow::Cow;
+
 use jiff::civil::{Date, Time};
+use jiff::fmt::strtime::BrokenDownTime;
 use jiff::tz::Offset;
-use serde::{Deserialize, Serialize};
+use serde::de::value::StrDeserializer;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::Decimal;
 
 /// Notation of time in a log. Only differences matter to the model; the dates are kept for the way back to the log.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum TimeFormat {
     /// A number of seconds.
     #[default]
     Seconds,
     /// A number of milliseconds.
     Milliseconds,
-    /// `2024-05-01T12:30:05.25Z`; also with a blank for the T, with or without the Z or an offset such as +02:00.
+    /// A number of microseconds.
+    Microseconds,
+    /// A number of nanoseconds.
+    Nanoseconds,
+    /// A number of minutes.
+    Minutes,
+    /// A number of hours.
+    Hours,
+    /// A number of days since 1899-12-30, as spreadsheets store date and time.
+    ExcelDays,
+    /// `2024-05-01T12:30:05.25Z`; also with a blank for the T, without `-` and `:`, with or without the Z or an offset
+    /// such as +02:00.
     Iso8601,
-    /// `23:59:58.5`, `23:59`, or a number of seconds since midnight. It restarts at midnight.
+    /// `23:59:58.5`, `23:59`, `11:59:58 PM`, or a number of seconds since midnight. It restarts at midnight.
     TimeOfDay,
+    /// A pattern of strftime, such as `%d/%m/%Y %H:%M:%S%.f`.
+    Pattern(String),
+}
+
+/// The words of a mapping file for the formats that are no pattern.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Word {
+    Seconds,
+    Milliseconds,
+    Microseconds,
+    Nanoseconds,
+    Minutes,
+    Hours,
+    ExcelDays,
+    Iso8601,
+    TimeOfDay,
+}
+
+impl<'de> Deserialize<'de> for TimeFormat {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        if text.contains('%') {
+            return Ok(Self::Pattern(text));
+        }
+        Ok(match Word::deserialize(StrDeserializer::<D::Error>::new(&text))? {
+            Word::Seconds => Self::Seconds,
+            Word::Milliseconds => Self::Milliseconds,
+            Word::Microseconds => Self::Microseconds,
+            Word::Nanoseconds => Self::Nanoseconds,
+            Word::Minutes => Self::Minutes,
+            Word::Hours => Self::Hours,
+            Word::ExcelDays => Self::ExcelDays,
+            Word::Iso8601 => Self::Iso8601,
+            Word::TimeOfDay => Self::TimeOfDay,
+        })
+    }
+}
+
+impl Serialize for TimeFormat {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
 }
 
 /// Latest time accepted (s): beyond any time in milliseconds read as seconds, and the sum of two is finite.
 const LATEST: f64 = 1e15;
 /// A day (s).
 pub(crate) const DAY: f64 = 86_400.0;
+/// Days from 1899-12-30, the epoch of spreadsheets, to 1970-01-01.
+const EXCEL_EPOCH: f64 = 25_569.0;
+/// Earliest year of a pattern's dates: an earlier one is a year of two digits read as four.
+const EARLIEST_YEAR: i16 = 1900;
 
 impl TimeFormat {
+    /// The formats that are a number of something.
+    pub(crate) const NUMBERS: [Self; 7] = [
+        Self::Seconds,
+        Self::Milliseconds,
+        Self::Microseconds,
+        Self::Nanoseconds,
+        Self::Minutes,
+        Self::Hours,
+        Self::ExcelDays,
+    ];
+
     /// The name in a mapping file.
-    pub const fn name(self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Self::Seconds => "seconds",
             Self::Milliseconds => "milliseconds",
+            Self::Microseconds => "microseconds",
+            Self::Nanoseconds => "nanoseconds",
+            Self::Minutes => "minutes",
+            Self::Hours => "hours",
+            Self::ExcelDays => "excel_days",
             Self::Iso8601 => "iso8601",
             Self::TimeOfDay => "time_of_day",
+            Self::Pattern(pattern) => pattern,
         }
     }
 
+    /// The format in a line of a mapping: in quotes where it is a pattern, which YAML reads otherwise.
+    pub(crate) fn in_mapping(&self) -> String {
+        match self {
+            Self::Pattern(pattern) => format!("format: \"{pattern}\""),
+            word => format!("format: {}", word.name()),
+        }
+    }
+
+    /// Seconds in one of what it counts; `None` where it is not a number.
+    pub(crate) const fn seconds_in_one(&self) -> Option<f64> {
+        Some(match self {
+            Self::Seconds => 1.0,
+            Self::Milliseconds => 1e-3,
+            Self::Microseconds => 1e-6,
+            Self::Nanoseconds => 1e-9,
+            Self::Minutes => 60.0,
+            Self::Hours => 3600.0,
+            Self::ExcelDays => DAY,
+            Self::Iso8601 | Self::TimeOfDay | Self::Pattern(_) => return None,
+        })
+    }
+
     /// Whether its times are instants, and not only differences.
-    pub const fn has_dates(self) -> bool {
-        matches!(self, Self::Iso8601)
+    pub fn has_dates(&self) -> bool {
+        match self {
+            Self::Iso8601 | Self::ExcelDays => true,
+            // Every directive of a date, and the number of seconds since 1970.
+            Self::Pattern(pattern) => directives(pattern).any(|directive| "dejDFs".contains(directive)),
+            _ => false,
+        }
+    }
+
+    /// Whether its times restart at midnight.
+    pub(crate) fn restarts_daily(&self) -> bool {
+        match self {
+            Self::TimeOfDay => true,
+            Self::Pattern(_) => !self.has_dates(),
+            _ => false,
+        }
+    }
+
+    /// Why a pattern cannot be used; `None` where it can, and for the other formats.
+    pub(crate) fn fault(&self) -> Option<String> {
+        let Self::Pattern(pattern) = self else { return None };
+        // An afternoon shows whether the hour of twelve has its AM or PM.
+        let sample = jiff::Timestamp::from_second(981_216_306)
+            .ok()?
+            .to_zoned(jiff::tz::TimeZone::UTC);
+        let written = match jiff::fmt::strtime::format(pattern, &sample) {
+            Ok(written) => written,
+            Err(error) => return Some(error.to_string()),
+        };
+        let wanted = f64::from(sample.hour()) * 3600.0 + f64::from(sample.minute()) * 60.0;
+        match self.parse(&written, Decimal::Point) {
+            Some(seconds) if (seconds.rem_euclid(DAY) - wanted).abs() < 60.0 => None,
+            Some(_) => Some("it does not give hour and minute".to_owned()),
+            None => Some(format!("it does not read {written:?}, which it writes")),
+        }
     }
 
     /// What a time of [`TimeFormat::parse`] is in the column of this name, such as `time_s 62.35`; empty where it has a date.
-    pub fn own_text(self, column: &str, seconds: f64) -> String {
-        match self {
-            Self::Seconds => format!("{column} {}", rounded(seconds)),
-            Self::Milliseconds => format!("{column} {}", (seconds * 1e3).round()),
-            Self::Iso8601 => String::new(),
-            Self::TimeOfDay => {
+    pub fn own_text(&self, column: &str, seconds: f64) -> String {
+        if self.has_dates() {
+            return String::new();
+        }
+        match self.seconds_in_one() {
+            Some(one) if one < 1.0 => format!("{column} {}", (seconds / one).round()),
+            Some(one) => format!("{column} {}", rounded(seconds / one)),
+            None => {
                 let (hours, minutes) = ((seconds / 3600.0) as u64, (seconds % 3600.0 / 60.0) as u64);
                 let seconds = rounded(seconds % 60.0);
                 let zero = if seconds < 10.0 { "0" } else { "" };
@@ -58,19 +193,55 @@ impl TimeFormat {
     }
 
     /// Time since the format's epoch (s); `None` when the text is not of this format.
-    pub fn parse(self, text: &str, decimal: Decimal) -> Option<f64> {
-        let clock = || match decimal {
-            Decimal::Point => text.to_owned(),
-            Decimal::Comma => text.replacen(',', ".", 1),
+    pub fn parse(&self, text: &str, decimal: Decimal) -> Option<f64> {
+        // A comma in a clock cannot separate anything but a fraction (ISO 8601, 4.2.2.4).
+        let clock = || match text.contains(',') {
+            true => Cow::Owned(text.replacen(',', ".", 1)),
+            false => Cow::Borrowed(text),
         };
         let seconds = match self {
-            Self::Seconds => decimal.parse(text)?,
-            Self::Milliseconds => decimal.parse(text)? * 1e-3,
+            Self::ExcelDays => (decimal.parse(text)? - EXCEL_EPOCH) * DAY,
             Self::Iso8601 => iso8601(&clock())?,
-            Self::TimeOfDay => time_of_day(&clock())?,
+            Self::TimeOfDay if text.contains(':') => clock_time(&clock())?,
+            Self::TimeOfDay => since_midnight(decimal.parse(text)?)?,
+            Self::Pattern(pattern) if pattern.contains(',') => of_pattern(pattern, text)?,
+            Self::Pattern(pattern) => of_pattern(pattern, &clock())?,
+            number => decimal.parse(text)? * number.seconds_in_one()?,
         };
         (seconds.abs() <= LATEST).then_some(seconds)
     }
+}
+
+/// The letters of a pattern's directives, without flags and widths.
+fn directives(pattern: &str) -> impl Iterator<Item = char> + '_ {
+    let mut characters = pattern.chars();
+    std::iter::from_fn(move || {
+        characters.find(|character| *character == '%')?;
+        characters
+            .find(|character| !matches!(character, '-' | '_' | '^' | '#' | '.' | ':') && !character.is_ascii_digit())
+    })
+}
+
+/// Seconds since 1970-01-01, UTC, or since midnight where the pattern has no date.
+fn of_pattern(pattern: &str, text: &str) -> Option<f64> {
+    let parsed = BrokenDownTime::parse(pattern, text.trim()).ok()?;
+    let fraction = f64::from(parsed.subsec_nanosecond().unwrap_or(0)) * 1e-9;
+    if let Some(instant) = parsed.timestamp() {
+        return Some(instant.as_second() as f64 + fraction);
+    }
+    let time = parsed.to_time().ok()?;
+    let clock =
+        f64::from(i32::from(time.hour()) * 3600 + i32::from(time.minute()) * 60 + i32::from(time.second())) + fraction;
+    if parsed.day().is_none() && parsed.day_of_year().is_none() {
+        return Some(clock);
+    }
+    let date = parsed.to_date().ok().filter(|date| date.year() >= EARLIEST_YEAR)?;
+    let midnight = Offset::UTC
+        .to_timestamp(date.to_datetime(Time::midnight()))
+        .ok()?
+        .as_second();
+    let offset = parsed.offset().map_or(0, Offset::seconds);
+    Some((midnight - i64::from(offset)) as f64 + clock)
 }
 
 /// Without digits that only the arithmetic has: to a microsecond.
@@ -81,24 +252,53 @@ fn rounded(seconds: f64) -> f64 {
 /// Seconds since 1970-01-01, UTC.
 fn iso8601(text: &str) -> Option<f64> {
     let (date, time) = text.split_once(['T', ' '])?;
-    let mut parts = date.split('-');
-    let year = i16::try_from(whole(parts.next()?, 4)?).ok()?;
-    let month = i8::try_from(whole(parts.next()?, 2)?).ok()?;
-    let day = i8::try_from(whole(parts.next()?, 2)?).ok()?;
-    if parts.next().is_some() {
-        return None;
-    }
+    let (year, month, day) = match date.len() {
+        8 if date.is_ascii() => (&date[..4], &date[4..6], &date[6..]),
+        _ => {
+            let (year, rest) = date.split_once('-')?;
+            let (month, day) = rest.split_once('-')?;
+            (year, month, day)
+        }
+    };
+    let year = i16::try_from(whole(year, 4)?).ok()?;
+    let month = i8::try_from(whole(month, 2)?).ok()?;
+    let day = i8::try_from(whole(day, 2)?).ok()?;
     let midnight = Date::new(year, month, day).ok()?.to_datetime(Time::midnight());
     let midnight = Offset::UTC.to_timestamp(midnight).ok()?.as_second();
-    let (clock, offset) = split_offset(time)?;
+    let (clock, offset) = split_offset(time.trim_start())?;
     // jiff does not parse the clock: it would clamp a leap second to 59 and cut fractions to nanoseconds.
-    Some((midnight - offset) as f64 + clock_time(clock)?)
+    let clock = if clock.contains(':') {
+        clock_time(clock)?
+    } else {
+        compact_clock(clock)?
+    };
+    Some((midnight - offset) as f64 + clock)
 }
 
-/// Time since midnight (s) of `HH:MM` or `HH:MM:SS.s`.
+/// Time since midnight (s) of `HHMMSS`, `HHMMSS.s` or `HHMM`.
+fn compact_clock(clock: &str) -> Option<f64> {
+    let digits = clock.split_once('.').map_or(clock, |(digits, _)| digits);
+    let seconds = match (digits.len(), clock.is_ascii()) {
+        (4, true) if digits == clock => "0",
+        (6, true) => &clock[4..],
+        _ => return None,
+    };
+    clock_time(&format!("{}:{}:{seconds}", &clock[..2], &clock[2..4]))
+}
+
+/// Time since midnight (s) of `HH:MM`, `HH:MM:SS.s`, or one of them with AM or PM behind it.
 fn clock_time(clock: &str) -> Option<f64> {
+    let (clock, half_day) = split_half_day(clock);
     let mut parts = clock.split(':');
-    let hour = whole(parts.next()?, 2).filter(|hour| *hour < 24)?;
+    let hour_text = parts.next()?;
+    // A clock of twelve hours has mostly one digit before ten, a clock of a day has two.
+    let hour = match half_day {
+        None => whole(hour_text, 2).filter(|hour| *hour < 24)?,
+        Some(afternoon) => {
+            let hour = whole(hour_text, hour_text.len().min(2)).filter(|hour| (1..=12).contains(hour))?;
+            hour % 12 + if afternoon { 12 } else { 0 }
+        }
+    };
     let minute = whole(parts.next()?, 2).filter(|minute| *minute < 60)?;
     let second_text = parts.next().unwrap_or("0");
     if parts.next().is_some() || !second_text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') {
@@ -108,20 +308,28 @@ fn clock_time(clock: &str) -> Option<f64> {
     Some((hour * 3600 + minute * 60) as f64 + second)
 }
 
-/// Seconds since midnight.
-fn time_of_day(text: &str) -> Option<f64> {
-    if text.contains(':') {
-        return clock_time(text);
+/// The clock without AM or PM, and whether it is the afternoon.
+fn split_half_day(clock: &str) -> (&str, Option<bool>) {
+    for (mark, afternoon) in [("AM", false), ("PM", true), ("am", false), ("pm", true)] {
+        if let Some(rest) = clock.strip_suffix(mark) {
+            return (rest.trim_end(), Some(afternoon));
+        }
     }
-    let seconds = text.parse::<f64>().ok()?;
+    (clock, None)
+}
+
+/// Seconds since midnight, from a number of them.
+fn since_midnight(seconds: f64) -> Option<f64> {
     // The end of the day is included: loggers write it for midnight.
     (0.0..=DAY).contains(&seconds).then_some(seconds)
 }
 
 /// The clock and the offset from UTC (s).
 fn split_offset(time: &str) -> Option<(&str, i64)> {
-    if let Some(clock) = time.strip_suffix(['Z', 'z']) {
-        return Some((clock, 0));
+    for zone in ["Z", "z", "UTC", "GMT"] {
+        if let Some(clock) = time.strip_suffix(zone) {
+            return Some((clock.trim_end(), 0));
+        }
     }
     let Some(at) = time.find(['+', '-']) else {
         return Some((time, 0));
@@ -133,7 +341,7 @@ fn split_offset(time: &str) -> Option<(&str, i64)> {
         4 if digits.is_ascii() => (whole(&digits[..2], 2)?, whole(&digits[2..], 2)?),
         _ => return None,
     };
-    Some((&time[..at], sign * (hours * 3600 + minutes * 60)))
+    Some((time[..at].trim_end(), sign * (hours * 3600 + minutes * 60)))
 }
 
 fn whole(text: &str, digits: usize) -> Option<i64> {
@@ -202,6 +410,61 @@ mod tests {
     }
 
     #[test]
+    fn notations_of_recorders_are_the_same_instant() {
+        let noon = 1_769_687_960.0; // date -u -d 2026-01-29T11:59:20 +%s
+        for text in [
+            "2026-01-29T11:59:20Z",
+            "2026-01-29 11:59:20",
+            "20260129T115920Z",
+            "20260129 115920",
+            "20260129T115920.000",
+            "2026-01-29 13:59:20 +02:00",
+            "2026-01-29 13:59:20+0200",
+            "2026-01-29T11:59:20,000",
+            "2026-01-29 11:59:20 UTC",
+            "2026-01-29 11:59:20 AM",
+        ] {
+            assert_eq!(TimeFormat::Iso8601.parse(text, Decimal::Point), Some(noon), "{text}");
+        }
+        for (pattern, text) in [
+            ("%d/%m/%Y-%H:%M:%S", "29/01/2026-11:59:20"),
+            ("%d-%b-%Y %H:%M:%S", "29-Jan-2026 11:59:20"),
+            ("%d-%b-%y %H:%M:%S", "29-JAN-26 11:59:20"),
+            ("%m/%d/%Y %I:%M:%S %p", "1/29/2026 11:59:20 AM"),
+            ("%d.%m.%Y %H:%M:%S%.f", "29.01.2026 11:59:20,000"),
+            ("%d.%m.%Y %H:%M:%S%.f", "29.01.2026 11:59:20"),
+            ("%d.%m.%Y %H:%M:%S %:z", "29.01.2026 13:59:20 +02:00"),
+            ("%s", "1769687960"),
+        ] {
+            let format = TimeFormat::Pattern(pattern.to_owned());
+            assert_eq!(format.fault(), None, "{pattern}");
+            assert_eq!(format.parse(text, Decimal::Point), Some(noon), "{pattern} {text}");
+            assert!(format.has_dates());
+        }
+        let excel = TimeFormat::ExcelDays.parse("46051.4995370370", Decimal::Point).unwrap();
+        assert!((excel - noon).abs() < 1e-3, "{excel}");
+        let clock = TimeFormat::Pattern("%I:%M:%S %p".to_owned());
+        assert_eq!(clock.parse("1:05:00 PM", Decimal::Point), Some(47_100.0));
+        assert!(clock.restarts_daily());
+        assert_eq!(
+            TimeFormat::TimeOfDay.parse("1:05:00 PM", Decimal::Point),
+            Some(47_100.0)
+        );
+        assert_eq!(TimeFormat::TimeOfDay.parse("12:05:00 AM", Decimal::Point), Some(300.0));
+        // A year of two digits is no year of four.
+        let four = TimeFormat::Pattern("%d/%m/%Y %H:%M:%S".to_owned());
+        assert_eq!(four.parse("29/01/26 11:59:20", Decimal::Point), None);
+    }
+
+    #[test]
+    fn a_pattern_that_does_not_give_the_time_back_is_refused() {
+        for pattern in ["%d/%m/%Y", "%I:%M:%S", "%Q!%", "%c", "%Y %j", "%"] {
+            let format = TimeFormat::Pattern(pattern.to_owned());
+            assert!(format.fault().is_some(), "{pattern}");
+        }
+    }
+
+    #[test]
     fn a_time_without_a_date_is_written_as_the_log_has_it() {
         for (format, text, own) in [
             (TimeFormat::Seconds, "62.35", "t 62.35"),
@@ -216,15 +479,18 @@ mod tests {
     }
 
     #[test]
-    fn decimal_commas_are_read_only_where_the_mapping_says_so() {
+    fn decimal_commas_of_a_number_need_the_mapping_and_those_of_a_clock_do_not() {
         for (format, text, seconds) in [
             (TimeFormat::Seconds, "0,5", 0.5),
             (TimeFormat::TimeOfDay, "23:59:58,5", DAY - 1.5),
             (TimeFormat::Iso8601, "1970-01-01T00:00:01,25Z", 1.25),
         ] {
             assert_eq!(format.parse(text, Decimal::Comma), Some(seconds), "{text}");
-            assert_eq!(format.parse(text, Decimal::Point), None, "{text}");
+            if format != TimeFormat::Seconds {
+                assert_eq!(format.parse(text, Decimal::Point), Some(seconds), "{text}");
+            }
         }
+        assert_eq!(TimeFormat::Seconds.parse("0,5", Decimal::Point), None);
         // A point may stand between thousands then.
         assert_eq!(TimeFormat::Seconds.parse("1.234", Decimal::Comma), None);
     }

@@ -54,7 +54,10 @@ pub(super) fn of_log(sequence: &InputSequence) -> Vec<Sample> {
             }
         }
     }
-    all.into_values().collect()
+    let mut samples: Vec<Sample> = all.into_values().collect();
+    // Rows and times rise together, except in a log that has its newest row first.
+    samples.sort_by(|a, b| a.time.total_cmp(&b.time));
+    samples
 }
 
 /// The messages of `rig/measured` of a bag, each with the newest inputs before it. Inputs older than `holds` seconds are

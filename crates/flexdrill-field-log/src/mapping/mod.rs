@@ -1,5 +1,6 @@
 //! The mapping file: the meaning, unit and quality limits of a log's columns.
 
+mod numbers;
 mod units;
 
 use std::collections::BTreeMap;
@@ -7,7 +8,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-pub use units::{Decimal, PressureUnit, RateUnit, SpeedUnit, TorqueUnit, WeightUnit};
+pub use numbers::Decimal;
+pub(crate) use numbers::{Notation, plain_blanks};
+pub use units::{PressureUnit, RateUnit, SpeedUnit, TorqueUnit, WeightUnit};
 
 use crate::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
@@ -22,12 +25,21 @@ pub struct Mapping {
     /// For people. Default empty.
     #[serde(default)]
     pub title: String,
-    /// One character between fields. Default a comma.
+    /// One character between fields; a blank stands for any blanks and tabs. A log that names its separator in a first
+    /// line such as `sep=;` overrules it. Default a comma.
     #[serde(default = "comma")]
     pub separator: char,
     /// `point` or `comma`, in numbers. Default point.
     #[serde(default)]
     pub decimal: Decimal,
+    /// The separator of thousands in numbers, such as a comma. Default none: thousands are read where only one reading is
+    /// possible.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thousands: Option<char>,
+    /// Row of the header, as an editor numbers it. Default none: the first row, or the first one with the columns of this
+    /// mapping.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub header_row: Option<u64>,
     /// Values that mean "no value", in addition to an empty field. Default none.
     #[serde(default)]
     pub missing: Vec<f64>,
@@ -107,15 +119,86 @@ pub struct TorqueColumn {
     pub unit: TorqueUnit,
 }
 
-/// Time.
+/// Time: `{column: COLUMN}`, or `{date: COLUMN, clock: COLUMN}` where the log has date and clock in two columns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TimeColumn {
-    /// Name in the header.
+    /// Name in the header; empty where `date` and `clock` are given.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub column: String,
-    /// `seconds`, `milliseconds`, `iso8601` or `time_of_day`. Default seconds.
-    #[serde(default)]
-    pub format: TimeFormat,
+    /// Name of the column of dates. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub date: Option<String>,
+    /// Name of the column of clock times. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock: Option<String>,
+    /// `seconds`, `milliseconds`, `microseconds`, `nanoseconds`, `minutes`, `hours`, `excel_days`, `iso8601`,
+    /// `time_of_day`, or a pattern of strftime such as `"%d/%m/%Y %H:%M:%S"`. With `date` and `clock` it is of both texts
+    /// with a blank between. Default seconds, and `iso8601` with `date` and `clock`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub format: Option<TimeFormat>,
+}
+
+impl TimeColumn {
+    /// The format, or its default.
+    pub fn format(&self) -> TimeFormat {
+        let default = if self.date.is_some() {
+            TimeFormat::Iso8601
+        } else {
+            TimeFormat::Seconds
+        };
+        self.format.clone().unwrap_or(default)
+    }
+
+    /// The name of the column, or of both.
+    pub fn name(&self) -> String {
+        match (&self.date, &self.clock) {
+            (Some(date), Some(clock)) => format!("{date} {clock}"),
+            _ => self.column.clone(),
+        }
+    }
+
+    fn check(&self, c: &mut Checker) {
+        let both = self.date.is_some() && self.clock.is_some();
+        let neither = self.date.is_none() && self.clock.is_none();
+        if self.column.is_empty() && neither {
+            c.require(
+                false,
+                "column",
+                "nothing",
+                "",
+                "given, or date and clock",
+                "it has no default",
+            );
+        } else {
+            c.require(
+                if self.column.is_empty() { both } else { neither },
+                "",
+                "a mixture",
+                "",
+                "either column, or date and clock",
+                "date and clock are two columns that are read as one text",
+            );
+        }
+        let format = self.format();
+        if let Some(fault) = format.fault() {
+            c.wrong(
+                "format",
+                format.name(),
+                "",
+                "a pattern of strftime with hour and minute",
+                &fault,
+            );
+        }
+        c.require(
+            !both || format.has_dates() && format.seconds_in_one().is_none(),
+            "format",
+            format.name(),
+            "",
+            "iso8601, or a pattern of strftime with a date",
+            "it is the format of both texts with a blank between",
+        );
+    }
 }
 
 /// Speed of the top drive.
@@ -232,7 +315,6 @@ impl Default for Quality {
 const REQUIRED: &[&str] = &[
     "columns",
     "columns.time",
-    "columns.time.column",
     "columns.rotary_speed",
     "columns.rotary_speed.column",
     "columns.rotary_speed.unit",
@@ -279,7 +361,92 @@ impl Mapping {
         }
     }
 
+    /// The names of all columns that the mapping gives.
+    pub(crate) fn column_names(&self) -> Vec<&str> {
+        let columns = &self.columns;
+        let mut names = match (&columns.time.date, &columns.time.clock) {
+            (Some(date), Some(clock)) => vec![date.as_str(), clock],
+            _ => vec![columns.time.column.as_str()],
+        };
+        names.push(&columns.rotary_speed.column);
+        match &columns.weight_on_bit {
+            WeightOnBitColumn::Direct(direct) => names.push(&direct.column),
+            WeightOnBitColumn::Hookload(hookload) => {
+                names.extend([
+                    &*hookload.column,
+                    &hookload.drilling.column,
+                    &hookload.off_bottom.column,
+                ]);
+            }
+        }
+        names.extend(columns.torque.iter().map(|torque| &*torque.column));
+        names.extend(columns.rate_of_penetration.iter().map(|rate| &*rate.column));
+        names.extend(columns.standpipe_pressure.iter().map(|pressure| &*pressure.column));
+        names.extend(columns.measured.values().map(|measured| &*measured.column));
+        names
+    }
+
+    /// The columns with a unit, by name.
+    pub(crate) fn column_units(&self) -> Vec<(&str, Unit)> {
+        let columns = &self.columns;
+        let weight = match &columns.weight_on_bit {
+            WeightOnBitColumn::Direct(direct) => (&*direct.column, direct.unit.unit()),
+            WeightOnBitColumn::Hookload(hookload) => (&*hookload.column, hookload.unit.unit()),
+        };
+        let mut units = vec![
+            (&*columns.rotary_speed.column, columns.rotary_speed.unit.unit()),
+            weight,
+        ];
+        units.extend(
+            columns
+                .torque
+                .iter()
+                .map(|torque| (&*torque.column, torque.unit.unit())),
+        );
+        units.extend(
+            columns
+                .rate_of_penetration
+                .iter()
+                .map(|rate| (&*rate.column, rate.unit.unit())),
+        );
+        let pressure = columns.standpipe_pressure.iter();
+        units.extend(pressure.map(|pressure| (&*pressure.column, pressure.unit.unit())));
+        units.extend(
+            columns
+                .measured
+                .values()
+                .map(|measured| (&*measured.column, measured.unit)),
+        );
+        units
+    }
+
+    /// How the log writes its numbers.
+    pub(crate) const fn notation(&self) -> Notation {
+        Notation {
+            decimal: self.decimal,
+            thousands: self.thousands,
+        }
+    }
+
     fn check(&self, c: &mut Checker) {
+        c.require(
+            self.thousands.is_none_or(|separator| {
+                matches!(separator, ',' | '.' | ' ' | '\'') && separator != self.decimal.mark()
+            }),
+            "thousands",
+            format!("{:?}", self.thousands.unwrap_or_default()),
+            "",
+            "a comma, a point, a blank or an apostrophe, and not the decimal separator",
+            "",
+        );
+        c.require(
+            self.header_row.is_none_or(|row| row > 0),
+            "header_row",
+            0,
+            "",
+            "at least 1",
+            "an editor numbers the first row 1",
+        );
         c.require(
             self.separator.is_ascii() && self.separator != '"' && self.separator != '\n',
             "separator",
@@ -291,6 +458,7 @@ impl Mapping {
         let scale = Bound::above(0.0, 1e3);
         let scale_reason = "a factor to the tool's range; 1 leaves the log's values unchanged";
         c.below("columns", |c| {
+            c.below("time", |c| self.columns.time.check(c));
             c.below("rotary_speed", |c| {
                 c.number("scale", self.columns.rotary_speed.scale, scale, "", scale_reason);
             });

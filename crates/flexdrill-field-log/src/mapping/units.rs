@@ -1,52 +1,64 @@
-//! Units of the columns, and how a log writes its numbers.
+//! Units of the columns.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::de::value::StrDeserializer;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use flexdrill_core::inputs::Unit;
 use flexdrill_core::units::{
     ft_to_m, kft_lbf_to_kn_m, kgf_to_kn, klbf_to_kn, lbf_to_kn, m_per_s_to_m_per_h, n_to_kn, psi_to_mpa,
     rad_per_s_to_rpm, tf_to_kn,
 };
 
-/// The decimal separator.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Decimal {
-    /// `12.5`.
-    #[default]
-    Point,
-    /// `12,5`. A point in a number is refused then: `1.234` may be a thousand or one.
-    Comma,
-}
-
-impl Decimal {
-    /// Parses a number of the log; `None` when the text is no number in this notation.
-    pub(crate) fn parse(self, text: &str) -> Option<f64> {
-        match self {
-            Self::Point => text.parse().ok(),
-            Self::Comma if text.contains('.') => None,
-            Self::Comma => text.replacen(',', ".", 1).parse().ok(),
-        }
-    }
-
-    /// The change of the mapping that would make `text` a number; empty when the other notation does not help.
-    pub(crate) fn hint(self, text: &str) -> &'static str {
-        let other = match self {
-            Self::Point => Self::Comma,
-            Self::Comma => Self::Point,
-        };
-        match self {
-            // Text that both notations read, such as "inf", has another problem.
-            _ if self.parse(text).is_some() || other.parse(text).is_none() => "",
-            Self::Point => "; if its comma is a decimal comma, set `decimal: comma` in the mapping",
-            Self::Comma => {
-                "; under `decimal: comma` a point may separate thousands: remove `decimal: comma` if this is a decimal point"
+/// Reads a unit of one kind by the spellings that all inputs share; a spelling without a unit of this kind is refused by
+/// the names of the kind.
+macro_rules! by_spelling {
+    ($kind:ident: $($unit:ident => $variant:ident),*) => {
+        impl $kind {
+            /// The unit in the list of all units.
+            pub(crate) const fn unit(self) -> Unit {
+                match self {
+                    $(Self::$variant => Unit::$unit,)*
+                }
             }
         }
-    }
+
+        impl<'de> Deserialize<'de> for $kind {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                let text = String::deserialize(deserializer)?;
+                match Unit::of_spelling(&text) {
+                    $(Some(Unit::$unit) => return Ok(Self::$variant),)*
+                    _ => {}
+                }
+                if let Some(words) = Unit::ambiguous_spelling(&text) {
+                    return Err(D::Error::custom(words));
+                }
+                // The derived function words the error of an unknown unit.
+                Self::deserialize(StrDeserializer::<D::Error>::new(&text))
+            }
+        }
+
+        impl Serialize for $kind {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                Self::serialize(self, serializer)
+            }
+        }
+    };
 }
+
+by_spelling!(RateUnit: MetrePerHour => MetresPerHour, MetrePerMinute => MetresPerMinute,
+    MetrePerSecond => MetresPerSecond, FootPerHour => FeetPerHour, FootPerMinute => FeetPerMinute);
+by_spelling!(PressureUnit: Megapascal => Megapascal, Kilopascal => Kilopascal, Pascal => Pascal, Bar => Bar, Psi => Psi);
+by_spelling!(TorqueUnit: NewtonMetre => NewtonMetre, KilonewtonMetre => KilonewtonMetre,
+    KilodecanewtonMetre => KilodecanewtonMetre, FootPound => FootPound, KilofootPound => KilofootPound);
+by_spelling!(SpeedUnit: TurnPerMinute => RevolutionsPerMinute, RadianPerSecond => RadiansPerSecond, Hertz => Hertz);
+by_spelling!(WeightUnit: Newton => N, Kilonewton => Kilonewton, Decanewton => Decanewton,
+    Kilodecanewton => Kilodecanewton, KilogramForce => KilogramForce, TonneForce => TonneForce,
+    PoundForce => PoundForce, Kilopound => Kilopound);
 
 /// Units of the rate of penetration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub enum RateUnit {
     /// Metres per hour.
     #[serde(rename = "m/h")]
@@ -60,6 +72,9 @@ pub enum RateUnit {
     /// Feet per hour.
     #[serde(rename = "ft/h", alias = "ft/hr")]
     FeetPerHour,
+    /// Feet per minute.
+    #[serde(rename = "ft/min")]
+    FeetPerMinute,
 }
 
 impl RateUnit {
@@ -69,12 +84,14 @@ impl RateUnit {
             Self::MetresPerMinute => value * 60.0,
             Self::MetresPerSecond => m_per_s_to_m_per_h(value),
             Self::FeetPerHour => ft_to_m(value),
+            Self::FeetPerMinute => ft_to_m(value) * 60.0,
         }
     }
 }
 
 /// Units of pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub enum PressureUnit {
     /// Megapascal.
     #[serde(rename = "MPa")]
@@ -82,6 +99,9 @@ pub enum PressureUnit {
     /// Kilopascal.
     #[serde(rename = "kPa")]
     Kilopascal,
+    /// Pascal.
+    #[serde(rename = "Pa")]
+    Pascal,
     /// Bar.
     #[serde(rename = "bar")]
     Bar,
@@ -95,6 +115,7 @@ impl PressureUnit {
         match self {
             Self::Megapascal => value,
             Self::Kilopascal => value / 1e3,
+            Self::Pascal => value / 1e6,
             Self::Bar => value / 10.0,
             Self::Psi => psi_to_mpa(value),
         }
@@ -103,6 +124,7 @@ impl PressureUnit {
 
 /// Units of torque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub enum TorqueUnit {
     /// Newton metre.
     #[serde(rename = "N.m")]
@@ -110,6 +132,9 @@ pub enum TorqueUnit {
     /// Kilonewton metre.
     #[serde(rename = "kN.m")]
     KilonewtonMetre,
+    /// Thousand decanewton metres (10 kN m).
+    #[serde(rename = "kdaN.m")]
+    KilodecanewtonMetre,
     /// Foot-pound-force.
     #[serde(rename = "ft.lbf")]
     FootPound,
@@ -123,6 +148,7 @@ impl TorqueUnit {
         match self {
             Self::NewtonMetre => n_to_kn(value),
             Self::KilonewtonMetre => value,
+            Self::KilodecanewtonMetre => value * 10.0,
             Self::FootPound => kft_lbf_to_kn_m(value / 1e3),
             Self::KilofootPound => kft_lbf_to_kn_m(value),
         }
@@ -131,6 +157,7 @@ impl TorqueUnit {
 
 /// Units of speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub enum SpeedUnit {
     /// Turns per minute.
     #[serde(rename = "r/min", alias = "rpm")]
@@ -155,12 +182,16 @@ impl SpeedUnit {
 
 /// Units of weight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub enum WeightUnit {
     /// Newton.
     N,
     /// Kilonewton.
     #[serde(rename = "kN")]
     Kilonewton,
+    /// Decanewton: 10 N.
+    #[serde(rename = "daN")]
+    Decanewton,
     /// Thousand decanewtons (10 kN).
     #[serde(rename = "kdaN")]
     Kilodecanewton,
@@ -183,11 +214,36 @@ impl WeightUnit {
         match self {
             Self::N => n_to_kn(value),
             Self::Kilonewton => value,
+            Self::Decanewton => n_to_kn(value * 10.0),
             Self::Kilodecanewton => value * 10.0,
             Self::KilogramForce => kgf_to_kn(value),
             Self::TonneForce => tf_to_kn(value),
             Self::PoundForce => lbf_to_kn(value),
             Self::Kilopound => klbf_to_kn(value),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit<T: for<'de> Deserialize<'de>>(text: &str) -> Result<T, String> {
+        T::deserialize(StrDeserializer::<serde::de::value::Error>::new(text)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn units_of_columns_are_read_in_the_shared_spellings() {
+        assert_eq!(unit::<SpeedUnit>("RPM"), Ok(SpeedUnit::RevolutionsPerMinute));
+        assert_eq!(unit::<WeightUnit>("klbs"), Ok(WeightUnit::Kilopound));
+        assert_eq!(unit::<WeightUnit>("KDN"), Ok(WeightUnit::Kilodecanewton));
+        assert_eq!(unit::<WeightUnit>("tonne"), Ok(WeightUnit::TonneForce));
+        assert_eq!(unit::<TorqueUnit>("ft-lbf"), Ok(TorqueUnit::FootPound));
+        assert_eq!(unit::<RateUnit>("FT/HR"), Ok(RateUnit::FeetPerHour));
+        assert_eq!(unit::<PressureUnit>("PSI"), Ok(PressureUnit::Psi));
+        assert!(unit::<WeightUnit>("ton").unwrap_err().contains("write tf"));
+        assert!(unit::<SpeedUnit>("klbf").unwrap_err().contains("unknown variant"));
+        assert!((WeightUnit::Decanewton.to_kn(100.0) - 1.0).abs() < 1e-15);
+        assert!((RateUnit::FeetPerMinute.to_m_per_h(1.0) - 18.288).abs() < 1e-12);
     }
 }
