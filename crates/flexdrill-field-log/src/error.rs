@@ -87,7 +87,7 @@ pub enum FieldLogError {
         cure: String,
     },
     /// An input has no usable value in the whole log.
-    #[error("{file}: column `{column}` has no usable value for {input} in {rows} rows{found}; {cure}")]
+    #[error("{file}: column `{column}` has no usable value for {input} in {found}; {cure}")]
     NoValue {
         /// Name of the log.
         file: String,
@@ -95,9 +95,7 @@ pub enum FieldLogError {
         column: String,
         /// Name of the input.
         input: &'static str,
-        /// Rows with a readable time.
-        rows: usize,
-        /// The first row and its problem, after `: `; empty when none is known.
+        /// How many rows have a readable time, and the first problem of the column where one is known.
         found: String,
         /// The line of the mapping that cures it.
         cure: String,

@@ -34,6 +34,7 @@ pub(crate) fn before_data(file: &str, lines: &mut Lines<'_>) -> Result<Las, Fiel
     let mut section = b' ';
     for (number, line) in lines {
         let line = line.trim_ascii();
+        // The letter alone names a section; loggers write different words behind it.
         if let [b'~', letter, ..] = line {
             section = letter.to_ascii_uppercase();
             if section == b'A' {

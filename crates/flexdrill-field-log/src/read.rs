@@ -221,6 +221,7 @@ fn every_input_has_a_value(file: &str, rows: &[Row], mapping: &Mapping, issues: 
     };
     let rate = columns.rate_of_penetration.as_ref().map(|rate| &rate.column);
     let pressure = columns.standpipe_pressure.as_ref().map(|pressure| &pressure.column);
+    // The model assumes a configured value of what the mapping does not name, so such a column may be left out of it.
     let required = |key: &str| format!("name the column that has it: `{key}` in the mapping");
     let optional = |key: &str| format!("name the column that has it, or remove `{key}` from the mapping");
     for (kind, column, cure) in [
@@ -237,15 +238,16 @@ fn every_input_has_a_value(file: &str, rows: &[Row], mapping: &Mapping, issues: 
         if rows.iter().any(|row| row.values[kind.index()].is_some()) {
             continue;
         }
+        // The first problem mostly shows the cause: a missing code, a unit in the field, no tare.
         let first = issues.first_of(column);
+        let first = first.map_or_else(String::new, |issue| {
+            format!(": {}: {}", issue.kind.name(), issue.detail)
+        });
         return Err(FieldLogError::NoValue {
             file: file.to_owned(),
             column: column.clone(),
             input: kind.name(),
-            rows: rows.len(),
-            found: first.map_or_else(String::new, |issue| {
-                format!(": {}: {}", issue.kind.name(), issue.detail)
-            }),
+            found: format!("{} rows{first}", rows.len()),
             cure,
         });
     }

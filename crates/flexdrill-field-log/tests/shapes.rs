@@ -263,7 +263,8 @@ fn date_and_clock_in_two_columns() {
 
 #[test]
 fn notations_of_date_and_time_are_read_by_pattern_and_suggested() {
-    let patterns: [(&dyn Fn(u32, u32) -> String, &str); 4] = [
+    type Write = dyn Fn(u32, u32) -> String;
+    let patterns: [(&Write, &str); 4] = [
         (&|m, s| format!("29/01/2026-11:{m}:{s:02}"), "%d/%m/%Y-%H:%M:%S"),
         (&|m, s| format!("29-Jan-2026 11:{m}:{s:02}"), "%d-%b-%Y %H:%M:%S"),
         (&|m, s| format!("01/29/2026 11:{m}:{s:02} AM"), "%m/%d/%Y %I:%M:%S %p"),

@@ -429,6 +429,7 @@ impl Mapping {
     }
 
     fn check(&self, c: &mut Checker) {
+        // A digit, or the decimal separator, between thousands would change numbers without a sign of it.
         c.require(
             self.thousands.is_none_or(|separator| {
                 matches!(separator, ',' | '.' | ' ' | '\'') && separator != self.decimal.mark()
@@ -455,6 +456,7 @@ impl Mapping {
             "one ASCII character other than a quote or a line end",
             "",
         );
+        // Each key is named with its whole path, so that the error has its line in the file.
         let scale = Bound::above(0.0, 1e3);
         let scale_reason = "a factor to the tool's range; 1 leaves the log's values unchanged";
         c.below("columns", |c| {
