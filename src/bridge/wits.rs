@@ -38,7 +38,10 @@ pub struct WitsBridge {
 
 struct Connection {
     line: Line,
-    peer: String,
+    /// Its other end with the port.
+    address: String,
+    /// It was silent and was asked, and has not answered yet.
+    asked: bool,
 }
 
 impl WitsBridge {
@@ -86,7 +89,14 @@ impl WitsBridge {
         let mut twin = TwinFigures::default();
         let seats = Seats::default();
         // The line lives in this task, not in another: when `run` is dropped its connections close with it.
-        let mut line = std::pin::pin!(lines::run(place, times, sender, outgoing.clone(), seats.clone()));
+        let mut line = std::pin::pin!(lines::run(
+            place,
+            times,
+            self.mapping.ask(),
+            sender,
+            outgoing.clone(),
+            seats.clone()
+        ));
         loop {
             tokio::select! {
                 () = &mut line => return,
@@ -116,15 +126,35 @@ impl WitsBridge {
 
     fn on(&mut self, event: LineState, seats: &Seats) {
         match event {
-            LineState::Opened { connection, peer } => {
+            LineState::Opened {
+                connection,
+                peer,
+                address,
+            } => {
                 self.health.open += 1;
                 self.health.made += 1;
                 // The peer is foreign text; `printable` keeps control characters out of the log.
                 if let Some(more) = log_ending("wits connection made") {
-                    tracing::info!("wits: connection {connection} with {}{more}", printable(&peer));
+                    tracing::info!("wits: connection {connection} with {}{more}", printable(&address));
                 }
                 let line = Line::new(&self.mapping, &peer);
-                self.connections.insert(connection, Connection { line, peer });
+                let opened = Connection {
+                    line,
+                    address,
+                    asked: false,
+                };
+                self.connections.insert(connection, opened);
+            }
+            LineState::Asked { connection } => {
+                if let Some(asked) = self.connections.get_mut(&connection) {
+                    asked.asked = true;
+                }
+                log("asked", || {
+                    format!(
+                        "connection {connection} has sent no frame yet. Some recorders send only in answer to a packet, so \
+                         the bridge sends one. If no frame follows, check that the recorder's WITS output is on"
+                    )
+                });
             }
             LineState::Bytes {
                 connection,
@@ -214,6 +244,22 @@ impl WitsBridge {
             }
             LineEvent::Frame(_, reading) => reading,
         };
+        for seen in &reading.records {
+            if let Some(defect) = seen.defect {
+                log("sequence defect", || {
+                    format!("connection {connection}: item {:02}04 {}", seen.record, defect.words())
+                });
+            }
+        }
+        if let Some(clock) = reading.clock {
+            log("clock", || {
+                format!(
+                    "connection {connection}: the rig's clock shows another time zone than the mapping says; set \
+                     `utc_offset_h: {}`",
+                    clock.utc_offset_h
+                )
+            });
+        }
         if let Some(refused) = self.sources.sort(connection, arrived, &mut reading) {
             self.refused(connection, &refused);
         }
@@ -224,7 +270,10 @@ impl WitsBridge {
             self.node.publish(Outgoing::Measured, measured);
         }
         match reading.outcome {
-            FrameUse::Used { .. } => self.health.used_at = Some(arrived),
+            FrameUse::Used { .. } => {
+                self.health.used_at = Some(arrived);
+                self.answered(connection);
+            }
             // Empty frames show life or ask for data; they are counted only.
             FrameUse::NotUsed(NotUsed::Empty) => {}
             FrameUse::NotUsed(reason) => log(reason.name(), || format!("a frame was not used: {}", reason.name())),
@@ -234,12 +283,26 @@ impl WitsBridge {
         }
     }
 
+    /// Says that a recorder sends in answer only, after its first frame.
+    fn answered(&mut self, connection: u64) {
+        let found = self.connections.get_mut(&connection).filter(|found| found.asked);
+        let Some(found) = found else { return };
+        found.asked = false;
+        log("answers", || {
+            format!(
+                "connection {connection} ({}) answers: its recorder sends on request, so the bridge continues to ask every \
+                 30 s. Write `ask: {{every_s: 30}}` in the mapping, and it asks at once",
+                printable(&found.address)
+            )
+        });
+    }
+
     /// Reports values of a second source.
     fn refused(&mut self, connection: u64, refused: &Refused) {
         self.health.second_source += refused.quantities.len() as u64;
         let peer = |connection| {
             let known = self.connections.get(&connection);
-            known.map_or("?", |known| known.peer.as_str())
+            known.map_or("?", |known| known.address.as_str())
         };
         let names: Vec<&str> = refused.quantities.iter().map(|quantity| quantity.name()).collect();
         let text = format!(

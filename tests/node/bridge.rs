@@ -158,7 +158,7 @@ fn a_second_source_on_a_bridge_is_refused_and_named() {
                   printf '&&\\r\\n0116 0.8\\r\\n0120 40\\r\\n!!\\r\\n' >&3; sleep 0.1; \
                   printf '&&\\r\\n0116 3\\r\\n0120 100\\r\\n!!\\r\\n' >&4; sleep 0.1; done";
     assert!(sources.args(["-c", script, port]).status().unwrap().success());
-    bridge.wait_for("also sends rotary_speed, weight_on_bit, which connection 1 (127.0.0.1) serves");
+    bridge.wait_for("also sends rotary_speed, weight_on_bit, which connection 1 (127.0.0.1:");
     for program in [&mut bridge, &mut twin] {
         program.signal("TERM");
         assert_eq!(program.end(), Some(0), "{}", program.said());

@@ -5,9 +5,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use flexdrill_bridge::lines::{self, BackOff, LineState, Place, Seats, Times};
+use flexdrill_bridge::lines::{self, Ask, BackOff, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::{Counts, Line, Mapping};
-use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
+use tokio::io::{AsyncRead, AsyncReadExt as _, AsyncWrite, AsyncWriteExt as _};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::timeout;
@@ -29,10 +29,14 @@ struct Running {
 }
 
 fn start(place: Place, times: Times) -> Running {
+    start_asking(place, times, None)
+}
+
+fn start_asking(place: Place, times: Times, ask: Option<Ask>) -> Running {
     let (sender, events) = mpsc::channel(16);
     let (outgoing, _) = broadcast::channel(4);
     let seats = Seats::default();
-    let task = tokio::spawn(lines::run(place, times, sender, outgoing.clone(), seats.clone()));
+    let task = tokio::spawn(lines::run(place, times, ask, sender, outgoing.clone(), seats.clone()));
     Running {
         events,
         outgoing,
@@ -82,7 +86,7 @@ async fn a_client_comes_back_and_loses_at_most_the_frame_in_flight() {
         drop(rig);
         let mut reader = None;
         line.until(|event| match event {
-            LineState::Opened { connection, peer } => {
+            LineState::Opened { connection, peer, .. } => {
                 assert_eq!(connection, round);
                 reader = Some(Line::new(&mapping, &peer));
                 None
@@ -243,6 +247,119 @@ async fn a_serial_line_reads_and_writes_over_a_pseudo_terminal() {
     let mut read = vec![0; frame(8).len()];
     timeout(PATIENCE, rig.read_exact(&mut read)).await.unwrap().unwrap();
     assert_eq!(read, frame(8).as_bytes());
+}
+
+/// The request of the default mapping, with short times.
+fn quick_ask() -> Ask {
+    Ask {
+        every: Duration::from_millis(50),
+        after: Duration::from_millis(100),
+        ..Mapping::default().ask().unwrap()
+    }
+}
+
+/// Sends a frame in answer to each valid packet and nothing otherwise, as a recorder in "send and receive" mode does.
+async fn polled_recorder(mut line: impl AsyncRead + AsyncWrite + Unpin) {
+    let (mut received, mut buffer, mut sent) = (Vec::new(), vec![0; 4096], 0);
+    while let Ok(count @ 1..) = line.read(&mut buffer).await {
+        received.extend(&buffer[..count]);
+        while let Some(end) = received.windows(2).position(|mark| mark == b"!!") {
+            let packet: Vec<u8> = received.drain(..end + 2).collect();
+            if packet.windows(2).any(|mark| mark == b"&&") {
+                sent += 1;
+                line.write_all(frame(sent).as_bytes()).await.unwrap();
+            }
+        }
+    }
+}
+
+/// Reads until a polled recorder has answered five times. Returns how often the line said that it asked.
+async fn five_answers(line: &mut Running) -> u32 {
+    let (mut reader, mut counts) = (Line::new(&Mapping::default(), "polled"), Counts::default());
+    let mut asked = 0;
+    line.until(|event| {
+        match event {
+            LineState::Bytes { bytes, time, .. } => reader.push(&bytes, time, &mut counts, |_| {}),
+            LineState::Asked { .. } => asked += 1,
+            _ => {}
+        }
+        (counts.used == 5).then_some(())
+    })
+    .await;
+    asked
+}
+
+#[tokio::test]
+async fn a_recorder_that_only_answers_is_asked_by_a_client_and_by_a_server() {
+    let server = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let place = Place::Connect(server.local_addr().unwrap().to_string());
+    let mut line = start_asking(place, QUICK, Some(quick_ask()));
+    let (rig, _) = timeout(PATIENCE, server.accept()).await.unwrap().unwrap();
+    let recorder = tokio::spawn(polled_recorder(rig));
+    assert_eq!(five_answers(&mut line).await, 1, "said once");
+    recorder.abort();
+
+    let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let address = listener.local_addr().unwrap();
+    let mut line = start_asking(Place::Listen(listener), QUICK, Some(quick_ask()));
+    let rig = TcpStream::connect(address).await.unwrap();
+    let recorder = tokio::spawn(polled_recorder(rig));
+    assert_eq!(five_answers(&mut line).await, 1, "said once");
+    recorder.abort();
+}
+
+/// What a mapping orders is no surprise, and is not said.
+#[tokio::test]
+async fn a_mapping_that_asks_does_so_at_once() {
+    let server = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let place = Place::Connect(server.local_addr().unwrap().to_string());
+    let ask = Mapping::from_text("site.yaml", "ask: {every_s: 0.1}\n").unwrap().ask();
+    let mut line = start_asking(place, QUICK, ask);
+    let (rig, _) = timeout(PATIENCE, server.accept()).await.unwrap().unwrap();
+    let recorder = tokio::spawn(polled_recorder(rig));
+    assert_eq!(five_answers(&mut line).await, 0);
+    recorder.abort();
+}
+
+#[tokio::test]
+async fn a_recorder_that_sends_unasked_is_not_asked() {
+    let server = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let place = Place::Connect(server.local_addr().unwrap().to_string());
+    let _line = start_asking(place, QUICK, Some(quick_ask()));
+    let (mut rig, _) = timeout(PATIENCE, server.accept()).await.unwrap().unwrap();
+    rig.write_all(frame(1).as_bytes()).await.unwrap();
+    let mut read = [0; 1];
+    let reading = timeout(Duration::from_millis(400), rig.read(&mut read)).await;
+    assert!(reading.is_err(), "it was asked: {reading:?}");
+}
+
+/// A recorder that needs no request, or one whose request is another, is not pestered: one request per connection.
+#[tokio::test]
+async fn a_request_without_an_answer_is_not_repeated() {
+    let server = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let place = Place::Connect(server.local_addr().unwrap().to_string());
+    let mut line = start_asking(place, QUICK, Some(quick_ask()));
+    let (mut rig, _) = timeout(PATIENCE, server.accept()).await.unwrap().unwrap();
+    line.until(|event| matches!(event, LineState::Asked { .. }).then_some(()))
+        .await;
+    let request = quick_ask().request;
+    let mut read = vec![0; request.len()];
+    timeout(PATIENCE, rig.read_exact(&mut read)).await.unwrap().unwrap();
+    assert_eq!(read, &*request);
+    let reading = timeout(Duration::from_millis(400), rig.read(&mut read)).await;
+    assert!(reading.is_err(), "it was asked again: {reading:?}");
+}
+
+#[tokio::test]
+async fn a_polled_recorder_on_a_serial_line_is_asked() {
+    let Ok((rig, device)) = pseudo_terminal() else {
+        println!("SKIPPED: no pseudo terminal on this machine");
+        return;
+    };
+    let mut line = start_asking(Place::Serial { device, baud: 9600 }, QUICK, Some(quick_ask()));
+    let recorder = tokio::spawn(polled_recorder(rig));
+    assert_eq!(five_answers(&mut line).await, 1, "said once");
+    recorder.abort();
 }
 
 /// The rig's end of a pseudo terminal, and the device of the other end.

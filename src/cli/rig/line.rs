@@ -52,7 +52,7 @@ impl WitsLine {
         let connections = Arc::new(AtomicU64::new(0));
         let mut tasks = JoinSet::new();
         let place = Place::Listen(listener);
-        tasks.spawn(lines::run(place, times, sender, outgoing.clone(), Seats::default()));
+        tasks.spawn(lines::run(place, times, None, sender, outgoing.clone(), Seats::default()));
         tasks.spawn(tell(events, Arc::clone(&connections)));
         Ok(Self {
             address,
@@ -95,7 +95,7 @@ impl WitsLine {
 async fn tell(mut events: mpsc::Receiver<LineState>, connections: Arc<AtomicU64>) {
     while let Some(event) = events.recv().await {
         match event {
-            LineState::Opened { connection, peer } => {
+            LineState::Opened { connection, peer, .. } => {
                 connections.fetch_add(1, Ordering::Relaxed);
                 say!("connection {connection} with {}", printable(&peer));
             }
@@ -115,7 +115,7 @@ async fn tell(mut events: mpsc::Receiver<LineState>, connections: Arc<AtomicU64>
                 say!("{}; the next attempt is in {} s", printable(&why), wait.as_secs_f64());
             }
             // What a reader sends has no meaning here.
-            LineState::Bytes { .. } => {}
+            LineState::Asked { .. } | LineState::Bytes { .. } => {}
         }
     }
 }

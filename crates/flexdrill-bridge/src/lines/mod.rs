@@ -3,10 +3,10 @@
 //! [`run`] keeps a line for as long as it is polled. What happens is sent as [`LineState`] and bytes; what is to be written
 //! is taken from a broadcast, of which a slow connection loses the oldest.
 
+mod ask;
 mod seats;
 
 use std::io;
-use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -17,6 +17,8 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::{broadcast, mpsc};
 use tokio::task::JoinSet;
 
+pub use ask::Ask;
+use ask::{Asking, Heard};
 pub use seats::{MOST_CONNECTIONS, Seats};
 
 /// Where the line is.
@@ -64,8 +66,15 @@ pub enum LineState {
     Opened {
         /// Its number, counted from 1.
         connection: u64,
-        /// Its other end.
+        /// Its other end: an address without the port, which changes with every connection, or a name.
         peer: String,
+        /// Its other end with the port, for logs.
+        address: String,
+    },
+    /// The connection was silent and was asked for frames.
+    Asked {
+        /// The connection.
+        connection: u64,
     },
     /// Bytes came.
     Bytes {
@@ -149,14 +158,24 @@ struct Ends {
     events: mpsc::Sender<LineState>,
     outgoing: broadcast::Sender<Arc<[u8]>>,
     times: Times,
+    ask: Option<Ask>,
+}
+
+/// A connection for which its line has a name.
+struct Named {
+    connection: u64,
+    peer: String,
+    address: String,
+    silence: Option<Duration>,
 }
 
 /// Keeps the line for as long as it is polled, or until the receiver of `events` is gone. `outgoing` is written to every
 /// connection. The receiver reports whole frames to `seats`; where connections have to send ([`Times::silence`]), one that
-/// sends nothing leaves its seat to a new one.
+/// sends nothing leaves its seat to a new one. `ask` is written to connections whose other end sends on request only.
 pub async fn run(
     place: Place,
     times: Times,
+    ask: Option<Ask>,
     events: mpsc::Sender<LineState>,
     outgoing: broadcast::Sender<Arc<[u8]>>,
     seats: Seats,
@@ -165,6 +184,7 @@ pub async fn run(
         events,
         outgoing,
         times,
+        ask,
     };
     match place {
         Place::Listen(listener) => listen(&listener, &ends, &seats).await,
@@ -206,7 +226,13 @@ async fn redial<S: AsyncRead + AsyncWrite + Unpin, F: Future<Output = io::Result
                 connection += 1;
                 // The only connection of the line yields to no other.
                 let stays = std::future::pending();
-                let (why, brought) = ends.serve(stream, connection, name, silence, stays).await;
+                let named = Named {
+                    connection,
+                    peer: name.to_owned(),
+                    address: name.to_owned(),
+                    silence,
+                };
+                let (why, brought) = ends.serve(stream, named, stays).await;
                 if brought {
                     back_off.reset();
                 }
@@ -241,8 +267,13 @@ async fn listen(listener: &TcpListener, ends: &Ends, seats: &Seats) {
                 connections.spawn(async move {
                     // Without it the frames of the twin wait for one another; the connection works all the same.
                     let _ = stream.set_nodelay(true);
-                    ends.serve(stream, number, &name_of(peer), ends.times.silence, leave.notified())
-                        .await;
+                    let named = Named {
+                        connection: number,
+                        peer: peer.ip().to_string(),
+                        address: peer.to_string(),
+                        silence: ends.times.silence,
+                    };
+                    ends.serve(stream, named, leave.notified()).await;
                     seats.leave(number);
                 });
             }
@@ -259,31 +290,34 @@ async fn listen(listener: &TcpListener, ends: &Ends, seats: &Seats) {
     }
 }
 
-/// An address without its port, which changes with every connection.
-fn name_of(peer: SocketAddr) -> String {
-    peer.ip().to_string()
-}
-
 impl Ends {
     /// Reads and writes a connection until it ends or has to `leave`. Returns why it ended and whether it brought anything.
     async fn serve<S: AsyncRead + AsyncWrite + Unpin>(
         &self,
         stream: S,
-        connection: u64,
-        peer: &str,
-        silence: Option<Duration>,
+        named: Named,
         leave: impl Future<Output = ()>,
     ) -> (String, bool) {
         let mut outgoing = self.outgoing.subscribe();
-        let peer = peer.to_owned();
-        if self.events.send(LineState::Opened { connection, peer }).await.is_err() {
+        let Named {
+            connection,
+            peer,
+            address,
+            silence,
+        } = named;
+        let opened = LineState::Opened {
+            connection,
+            peer,
+            address,
+        };
+        if self.events.send(opened).await.is_err() {
             return (String::new(), false);
         }
         let (mut reader, mut writer) = tokio::io::split(stream);
-        let mut brought = false;
+        let (mut brought, heard) = (false, Heard::default());
         let why = tokio::select! {
-            why = self.read(&mut reader, connection, silence, &mut brought) => why,
-            why = self.write(&mut writer, connection, &mut outgoing) => why,
+            why = self.read(&mut reader, connection, silence, &mut brought, &heard) => why,
+            why = self.write(&mut writer, connection, &mut outgoing, &heard, silence.is_some()) => why,
             () = leave => "it sent no whole frame and gave way to a new connection".to_owned(),
         };
         let closed = LineState::Closed {
@@ -302,6 +336,7 @@ impl Ends {
         connection: u64,
         silence: Option<Duration>,
         brought: &mut bool,
+        heard: &Heard,
     ) -> String {
         let mut buffer = vec![0; CHUNK];
         loop {
@@ -317,6 +352,7 @@ impl Ends {
                 Ok(0) => return "the other end closed it".to_owned(),
                 Ok(count) => {
                     *brought = true;
+                    heard.bytes(&buffer[..count]);
                     let bytes = LineState::Bytes {
                         connection,
                         time: now(),
@@ -336,19 +372,44 @@ impl Ends {
         writer: &mut (impl AsyncWrite + Unpin),
         connection: u64,
         outgoing: &mut broadcast::Receiver<Arc<[u8]>>,
+        heard: &Heard,
+        ends_by_silence: bool,
     ) -> String {
+        let mut asking = self.ask.clone().map(Asking::new);
+        let mut is_closed = false;
         loop {
-            let bytes = match outgoing.recv().await {
-                Ok(bytes) => bytes,
-                Err(RecvError::Lagged(frames)) => {
-                    let lost = LineState::NotWritten { connection, frames };
-                    if self.events.send(lost).await.is_err() {
+            let due = async {
+                match &asking {
+                    Some(asking) => asking.due().await,
+                    None => std::future::pending().await,
+                }
+            };
+            let bytes = tokio::select! {
+                () = due => {
+                    let Some((bytes, is_first)) = asking.as_mut().and_then(|asking| asking.take(heard, ends_by_silence))
+                    else {
+                        continue;
+                    };
+                    if is_first && self.events.send(LineState::Asked { connection }).await.is_err() {
                         return String::new();
                     }
-                    continue;
+                    bytes
                 }
-                // Nothing will be written any more; the connection is read as before.
-                Err(RecvError::Closed) => std::future::pending().await,
+                received = outgoing.recv(), if !is_closed => match received {
+                    Ok(bytes) => bytes,
+                    Err(RecvError::Lagged(frames)) => {
+                        let lost = LineState::NotWritten { connection, frames };
+                        if self.events.send(lost).await.is_err() {
+                            return String::new();
+                        }
+                        continue;
+                    }
+                    // No frame of the twin follows; the connection is read and asked as before.
+                    Err(RecvError::Closed) => {
+                        is_closed = true;
+                        continue;
+                    }
+                },
             };
             match tokio::time::timeout(WRITE_TIMEOUT, writer.write_all(&bytes)).await {
                 Ok(Ok(())) => {}

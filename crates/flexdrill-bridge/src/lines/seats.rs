@@ -9,9 +9,9 @@ use tokio::sync::Notify;
 
 /// Most connections that a listening line keeps at a time: sources of one rig.
 pub const MOST_CONNECTIONS: usize = 8;
-/// A connection without a whole frame for so long may have to yield. Rigs send one a second, slow ones every few
+/// A connection without a whole frame for so long yields to one that waits. Rigs send one a second, slow ones every few
 /// seconds.
-const QUIET: Duration = Duration::from_secs(10);
+const QUIET: Duration = Duration::from_secs(5);
 
 /// The connections that are open. Clones share them.
 #[derive(Debug, Clone, Default)]
@@ -30,7 +30,7 @@ impl Seats {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A connection has sent a whole frame: it keeps its seat for the next ten seconds.
+    /// A connection has sent a whole frame: it keeps its seat for the next five seconds.
     pub fn whole_frame(&self, connection: u64) {
         if let Some(seat) = self.all().get_mut(&connection) {
             seat.frame = Some(Instant::now());

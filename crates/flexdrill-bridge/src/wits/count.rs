@@ -60,8 +60,14 @@ impl Counts {
                 Sequence::OutOfOrder { .. } => self.out_of_order += 1,
                 Sequence::Gap { missing } => self.missing = self.missing.saturating_add(missing),
                 // The frame is counted with its reason.
-                Sequence::Jump { .. } | Sequence::Unnumbered | Sequence::First | Sequence::Next => {}
+                Sequence::Jump { .. }
+                | Sequence::Unnumbered
+                | Sequence::First
+                | Sequence::Next
+                | Sequence::Stalled
+                | Sequence::Restarted => {}
             }
+            self.missing = self.missing.saturating_sub(record.retracted);
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a frame means: records with their sequence, items as quantities, everything else reported.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header as RosHeader;
@@ -9,12 +10,14 @@ use flexdrill_messages::{RigInputs, RigMeasured};
 use super::frame::RawFrame;
 use super::header::{Header, LAST_HEADER_ITEM};
 use super::item::{ItemCode, is_null, number};
-use super::mapping::{ItemMapping, Mapping, StampSource};
+use super::mapping::{ItemMapping, Mapping, SequenceUse, StampSource};
 use super::report::{FrameUse, ItemFault, ItemFaultKind, NotUsed};
-use super::sequence::{Sequence, SequenceWatch};
+use super::sequence::{Numbered, Sequence, SequenceDefect, SequenceWatch};
 use super::shown;
 use crate::{Quantity, messages};
 
+/// The item of a header that has the sequence number.
+const SEQUENCE_ITEM: u8 = 4;
 /// Faults of one frame that are described; more are counted.
 const MOST_FAULTS: usize = 16;
 /// Bytes of a fault that are shown.
@@ -31,6 +34,18 @@ pub struct RecordSeen {
     pub header: Header,
     /// What its sequence number says.
     pub sequence: Sequence,
+    /// A defect of the numbers that this one reveals.
+    pub defect: Option<SequenceDefect>,
+    /// Records counted as missing before, by numbers that do not count.
+    pub retracted: u64,
+}
+
+/// The source's clock differs from this machine's by whole quarters of an hour: it shows another time zone than the
+/// mapping says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClockOffset {
+    /// How far it is ahead of UTC (h); the value for `utc_offset_h`.
+    pub utc_offset_h: f64,
 }
 
 /// What a frame means.
@@ -52,6 +67,8 @@ pub struct Reading {
     pub faults: Vec<ItemFault>,
     /// Faults beyond those.
     pub more_faults: u32,
+    /// The time zone of the source's clock, once per connection where stamps depend on it and it is not that of the mapping.
+    pub clock: Option<ClockOffset>,
 }
 
 /// Reads the frames of one connection.
@@ -66,7 +83,39 @@ pub struct Decoder {
     /// The well that the newest header with a name gave: the source is the same for all frames of a connection, also where
     /// some of them have no name.
     well: String,
-    sequences: BTreeMap<u8, SequenceWatch>,
+    /// How the numbers of each record behave; none where the mapping ignores them.
+    sequences: Option<BTreeMap<u8, SequenceWatch>>,
+    /// Items of headers whose fault was reported: they would be in every frame.
+    reported: BTreeSet<ItemCode>,
+    clock: ClockWatch,
+}
+
+/// Looks for a clock in another time zone.
+#[derive(Debug, Clone, Copy, Default)]
+struct ClockWatch {
+    /// Quarters of an hour by which the newest frame was ahead.
+    quarters: i64,
+    was_reported: bool,
+}
+
+/// A quarter of an hour (ns): the unit of time zones.
+const QUARTER: i64 = 900_000_000_000;
+/// Largest difference from whole quarters (ns): whole seconds in the header, and the time that a frame needs.
+const CLOCK_TOLERANCE: i64 = 2_000_000_000;
+/// Most quarters of an hour of a time zone.
+const MOST_QUARTERS: i64 = 14 * 4;
+
+impl ClockWatch {
+    /// Quarters of an hour by which the clock is ahead, if two frames in succession agree; once.
+    fn look(&mut self, ahead: i64) -> Option<i64> {
+        let quarters = ahead.saturating_add(QUARTER / 2).div_euclid(QUARTER);
+        let is_whole = (ahead - quarters * QUARTER).abs() <= CLOCK_TOLERANCE;
+        let before = std::mem::replace(&mut self.quarters, if is_whole { quarters } else { 0 });
+        let agrees = is_whole && quarters != 0 && before == quarters && quarters.abs() <= MOST_QUARTERS;
+        let is_new = agrees && !self.was_reported;
+        self.was_reported |= agrees;
+        is_new.then_some(quarters)
+    }
 }
 
 /// A value of a frame (SI).
@@ -85,6 +134,8 @@ struct Draft {
     nulls: u32,
     unmapped: u32,
     mapped: u32,
+    /// Two sources share the line.
+    disputed: bool,
 }
 
 impl Draft {
@@ -122,7 +173,9 @@ impl Decoder {
             utc_offset: mapping.utc_offset(),
             peer: peer.to_owned(),
             well: String::new(),
-            sequences: BTreeMap::new(),
+            sequences: (mapping.sequence == SequenceUse::Use).then(BTreeMap::new),
+            reported: BTreeSet::new(),
+            clock: ClockWatch::default(),
         }
     }
 
@@ -165,7 +218,7 @@ impl Decoder {
         }
         // The outcome counts frames for `/diagnostics`: a line that sends and brings nothing has its reason there.
         let outcome = outcome(&records, &newest, &draft);
-        let stamp = self.stamp(&records, arrived);
+        let (stamp, clock) = self.stamp(&records, arrived);
         // One stamp for both messages: the values come from one instant.
         let header = RosHeader {
             stamp: Time::from_nanoseconds(stamp),
@@ -181,6 +234,7 @@ impl Decoder {
             unmapped: draft.unmapped,
             faults: draft.faults,
             more_faults: draft.more_faults,
+            clock,
         }
     }
 
@@ -193,6 +247,8 @@ impl Decoder {
                     record: code.record,
                     header: Header::default(),
                     sequence: Sequence::Unnumbered,
+                    defect: None,
+                    retracted: 0,
                 });
             }
             if let Some(seen) = records.last_mut().filter(|_| code.item <= LAST_HEADER_ITEM) {
@@ -201,17 +257,41 @@ impl Decoder {
                 if !is_null(value, &self.nulls) {
                     seen.header.add(code.item, value);
                 }
-                if seen.header.unreadable.len() > before {
+                // A header that cannot be read is so in every frame; nothing depends on it but its own use.
+                let is_ignored = code.item == SEQUENCE_ITEM && self.sequences.is_none();
+                if seen.header.unreadable.len() > before && !is_ignored && self.reported.insert(*code) {
                     draft.fault(ItemFaultKind::Header, Some(*code), value, || {
                         "sequence, date YYMMDD, time HHMMSS and activity are whole numbers".to_owned()
                     });
                 }
             }
         }
+        let Some(sequences) = &mut self.sequences else {
+            return records;
+        };
         for seen in &mut records {
-            if let Some(sequence) = seen.header.sequence {
-                seen.sequence = self.sequences.entry(seen.record).or_default().classify(sequence);
-            }
+            let item = |item: u8| {
+                let code = ItemCode {
+                    record: seen.record,
+                    item,
+                };
+                items.get(&code).copied()
+            };
+            seen.header.look_at_sequence([item(5), item(6)]);
+            let Some(number) = seen.header.sequence else { continue };
+            let next = Numbered {
+                number,
+                contents: contents(items, seen.record),
+                instant: seen.header.instant(self.utc_offset),
+                is_clock: seen.header.is_clock,
+            };
+            let watch = sequences.entry(seen.record).or_default();
+            let classified = watch.classify(next);
+            seen.sequence = classified.sequence;
+            seen.defect = classified.found;
+            seen.retracted = classified.retracted;
+            // Which of two sources is the rig is unknown, so that neither is fully believed.
+            draft.disputed |= watch.defect() == Some(SequenceDefect::TwoCounters);
         }
         records
     }
@@ -266,17 +346,23 @@ impl Decoder {
         }
     }
 
-    fn stamp(&self, records: &[RecordSeen], arrived: i64) -> i64 {
-        let of_header = || {
-            records
-                .iter()
-                .filter_map(|seen| seen.header.instant(self.utc_offset))
-                .max()
-        };
-        match self.stamp {
-            StampSource::Arrival => arrived,
-            StampSource::Header => of_header().unwrap_or(arrived),
+    /// The stamp of the messages (ns since 1970), and the time zone of the source's clock where it is another.
+    fn stamp(&mut self, records: &[RecordSeen], arrived: i64) -> (i64, Option<ClockOffset>) {
+        if self.stamp == StampSource::Arrival {
+            return (arrived, None);
         }
+        let of_header = records
+            .iter()
+            .filter_map(|seen| seen.header.instant(self.utc_offset))
+            .max();
+        let Some(stamp) = of_header else {
+            return (arrived, None);
+        };
+        let quarters = self.clock.look(stamp.saturating_sub(arrived));
+        let clock = quarters.map(|quarters| ClockOffset {
+            utc_offset_h: f64::from(self.utc_offset) / 3600.0 + quarters as f64 / 4.0,
+        });
+        (stamp, clock.filter(|clock| clock.utc_offset_h.abs() <= 14.0))
     }
 
     /// The source of the messages: the line and the well.
@@ -291,6 +377,17 @@ impl Decoder {
         };
         text.chars().take(LONGEST_SOURCE).collect()
     }
+}
+
+/// A hash of a record's items without its sequence number: records of one number with other contents are no repeats.
+fn contents(items: &BTreeMap<ItemCode, &[u8]>, record: u8) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for (code, value) in items {
+        if code.record == record && code.item != SEQUENCE_ITEM {
+            (code, value).hash(&mut hasher);
+        }
+    }
+    hasher.finish()
 }
 
 fn outcome(records: &[RecordSeen], newest: &[u8], draft: &Draft) -> FrameUse {
@@ -316,12 +413,12 @@ fn outcome(records: &[RecordSeen], newest: &[u8], draft: &Draft) -> FrameUse {
 }
 
 fn rig_inputs(draft: &Draft, header: RosHeader, source: &str) -> Option<RigInputs> {
-    let doubtful = draft.any_fallback(|quantity| quantity.input().is_some());
+    let doubtful = draft.disputed || draft.any_fallback(|quantity| quantity.input().is_some());
     messages::rig_inputs(|quantity| draft.value(quantity), header, quality(doubtful), source)
 }
 
 fn rig_measured(draft: &Draft, header: RosHeader, source: &str) -> Option<RigMeasured> {
-    let doubtful = draft.any_fallback(|quantity| matches!(quantity, Quantity::Measured(_)));
+    let doubtful = draft.disputed || draft.any_fallback(|quantity| matches!(quantity, Quantity::Measured(_)));
     messages::rig_measured(|quantity| draft.value(quantity), header, quality(doubtful), source)
 }
 
@@ -473,7 +570,80 @@ mod tests {
         assert_eq!(outcome("0104 3\n0120 40"), FrameUse::NotUsed(NotUsed::Late));
         let jumped = outcome("0104 900000000000000\n0120 40");
         assert_eq!(jumped, FrameUse::NotUsed(NotUsed::Jumped));
+        // Equal numbers with other contents are other records.
+        assert_eq!(outcome("0104 5\n0120 41"), FrameUse::Used { values: 1 });
         // Another record counts for itself.
         assert_eq!(outcome("0904 3\n0917 4"), FrameUse::Used { values: 1 });
+    }
+
+    #[test]
+    fn a_mapping_may_ignore_the_sequence_and_its_unreadable_numbers_are_reported_once() {
+        let mut decoder = Decoder::new(&Mapping::default(), "rig");
+        let mut faults = |text: &str| decoder.decode(&frame(text), ARRIVED).faults.len();
+        let found = [
+            faults("0104 2026-09-25 08:37:24\n0120 40"),
+            faults("0104 2026-09-25 08:37:25\n0120 41"),
+        ];
+        assert_eq!(found, [1, 0]);
+        let ignoring = Mapping::from_text("site.yaml", "sequence: ignore\n").unwrap();
+        let mut decoder = Decoder::new(&ignoring, "rig");
+        for text in [
+            "0104 x\n0120 40",
+            "0104 5\n0120 40",
+            "0104 5\n0120 40",
+            "0104 3\n0120 40",
+        ] {
+            let reading = decoder.decode(&frame(text), ARRIVED);
+            assert_eq!(
+                (reading.outcome, reading.faults.len()),
+                (FrameUse::Used { values: 1 }, 0),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn two_counters_on_a_line_make_its_values_suspect() {
+        let mut decoder = Decoder::new(&Mapping::default(), "rig");
+        let mut last = None;
+        for number in 0..10 {
+            decoder.decode(&frame(&format!("0104 {}\n0120 40", 5 + number)), ARRIVED);
+            last = decoder
+                .decode(&frame(&format!("0104 {}\n0120 100", 1000 + number)), ARRIVED)
+                .inputs;
+        }
+        assert_eq!(last.unwrap().quality, RigInputs::SUSPECT);
+    }
+
+    #[test]
+    fn a_clock_of_another_time_zone_is_named_once() {
+        // 22:13:20 UTC. The clock of the rig is 5.5 h ahead, and the frame needs 0.5 s.
+        let found = |mapping: &str, clocks: &[&str]| {
+            let mapping = Mapping::from_text("site.yaml", mapping).unwrap();
+            let mut decoder = Decoder::new(&mapping, "rig");
+            let mut read = |clock: &&str| {
+                decoder
+                    .decode(&frame(&format!("0105231115\n0106{clock}\n0120 40")), ARRIVED)
+                    .clock
+            };
+            clocks
+                .iter()
+                .filter_map(&mut read)
+                .map(|clock| clock.utc_offset_h)
+                .collect::<Vec<_>>()
+        };
+        let ahead = ["034320", "034320", "034320"];
+        assert_eq!(found("stamp: header\n", &ahead), [5.5]);
+        assert_eq!(found("stamp: header\nutc_offset_h: 1\n", &ahead), [5.5]);
+        assert!(found("stamp: header\nutc_offset_h: 5.5\n", &ahead).is_empty());
+        assert!(found("", &ahead).is_empty(), "stamps of arrival need no zone");
+        assert!(
+            found("stamp: header\n", &["034324", "034324"]).is_empty(),
+            "no whole quarter"
+        );
+        assert!(
+            found("stamp: header\n", &["034320"]).is_empty(),
+            "one frame may be by chance"
+        );
     }
 }

@@ -12,6 +12,9 @@ pub const LONGEST_FRAME: usize = 64 << 10;
 /// Bytes of a discarded piece that are kept for the log.
 const SAMPLE: usize = 40;
 
+/// Bytes of the mark with which some programs begin UTF-8.
+const BYTE_ORDER_MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
+
 /// Why bytes were discarded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DiscardReason {
@@ -98,7 +101,7 @@ impl FrameReader {
                 self.end_line();
                 continue;
             }
-            if self.overlong {
+            if self.overlong || self.line.is_empty() && self.is_padding(byte) {
                 continue;
             }
             self.line.push(byte);
@@ -124,6 +127,12 @@ impl FrameReader {
             give(Piece::Discarded(cut(&frame, &self.line, DiscardReason::CutByEnd)));
         }
         *self = Self::default();
+    }
+
+    /// Whether a byte before the text of a line means nothing: control characters such as STX and XON, and between frames
+    /// also bytes beyond ASCII, such as a byte order mark or what a terminal server negotiates.
+    fn is_padding(&self, byte: u8) -> bool {
+        byte.is_ascii_control() || byte == b' ' || self.frame.is_none() && !byte.is_ascii()
     }
 
     /// Counts a byte to the frame or to what lies outside of frames.
@@ -196,8 +205,9 @@ impl FrameReader {
 
     fn flush_outside(&mut self, give: &mut impl FnMut(Piece)) {
         let (bytes, sample) = mem::take(&mut self.outside);
-        // Line ends between frames are no fault.
-        if bytes > 0 && (bytes > SAMPLE as u64 || !sample.trim_ascii().is_empty()) {
+        // Line ends and control characters between frames are no fault.
+        let is_padding = |byte: &u8| byte.is_ascii_control() || *byte == b' ' || BYTE_ORDER_MARK.contains(byte);
+        if bytes > 0 && (bytes > SAMPLE as u64 || !sample.iter().all(is_padding)) {
             give(Piece::Discarded(Discarded {
                 reason: DiscardReason::Outside,
                 bytes,
@@ -262,6 +272,21 @@ mod tests {
         let pieces = read(&[b"&&\r\n0101well &&!! 7\r\n0120 40\r\n!!&&0121 100\r\n!!"]);
         assert_eq!(lines(&pieces[0]), ["0101well &&!! 7", "0120 40"]);
         assert_eq!(lines(&pieces[1]), ["0121 100"]);
+    }
+
+    /// Framed serial protocols, flow control, byte order marks, terminal servers.
+    #[test]
+    fn control_characters_before_a_mark_are_skipped() {
+        let text =
+            b"\xef\xbb\xbf&&\r\n0120 40\r\n!!\r\n\x03\x02&&\r\n\x110120 41\r\n\x13!!\r\n\0 &&\r\n0120 42\r\n!!\x03\r\n";
+        let pieces = read(&[text]);
+        assert_eq!(pieces.len(), 3, "{pieces:?}");
+        for (piece, expected) in pieces.iter().zip(["0120 40", "0120 41", "0120 42"]) {
+            assert_eq!(lines(piece), [expected]);
+        }
+        let negotiated = read(&[b"\xff\xfd\x01\xff\xfb\x03&&\r\n0120 40\r\n!!\r\n"]);
+        assert_eq!(discarded(&negotiated[0]), (DiscardReason::Outside, 6));
+        assert_eq!(lines(&negotiated[1]), ["0120 40"]);
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub struct Header {
     pub time: Option<Time>,
     /// Code of the activity, as sent.
     pub activity: Option<u64>,
+    /// Whether the sequence number is a date or a time of day.
+    pub(crate) is_clock: bool,
     /// Items of the header that could not be read, by their number.
     pub unreadable: Vec<u8>,
 }
@@ -67,6 +69,17 @@ impl Header {
         }
     }
 
+    /// Looks whether the sequence number is a clock: date with time, or what items 05 and 06 have.
+    pub(crate) fn look_at_sequence(&mut self, items: [Option<&[u8]>; 2]) {
+        let Some(sequence) = self.sequence else { return };
+        let is_date_time = sequence >= 100_000_000_000
+            && date(sequence / 1_000_000).is_some_and(|date| (2000..2100).contains(&date.year()))
+            && time(sequence % 1_000_000).is_some();
+        // Numbers below a thousand may be like a time shortly after midnight.
+        let is_item = |text: &[u8]| number(text).is_some_and(|value| value == sequence as f64);
+        self.is_clock = is_date_time || sequence >= 1000 && items.into_iter().flatten().any(is_item);
+    }
+
     /// The instant of date and time (ns since 1970), if the header has both. `utc_offset` is that of the source's clock (s).
     pub fn instant(&self, utc_offset: i32) -> Option<i64> {
         let date_time = DateTime::from_parts(self.date?, self.time?);
@@ -105,6 +118,28 @@ mod tests {
         header.add(5, b"20231114");
         assert_eq!(header.instant(0), Some(1_700_000_000_000_000_000));
         assert!(header.unreadable.is_empty());
+    }
+
+    #[test]
+    fn a_sequence_number_that_is_a_clock_is_noticed() {
+        let is_clock = |sequence: &str| {
+            let mut header = Header::default();
+            header.add(4, sequence.as_bytes());
+            header.look_at_sequence([Some(b"260925"), Some(b"083724")]);
+            header.is_clock
+        };
+        assert!(
+            ["20260925083724", "260925083724", "83724", "260925"]
+                .map(is_clock)
+                .iter()
+                .all(|is| *is)
+        );
+        assert!(
+            !["1", "83725", "900000000000000", "99999999999"]
+                .map(is_clock)
+                .iter()
+                .any(|is| *is)
+        );
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
 
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
@@ -9,8 +11,10 @@ use flexdrill_config::reading;
 use flexdrill_core::inputs::{MeasuredKind, Unit};
 use serde::{Deserialize, Serialize};
 
+use super::frame::LONGEST_LINE;
 use super::header::LAST_HEADER_ITEM;
 use super::item::ItemCode;
+use crate::lines::Ask;
 use crate::quantity::check_unit_and_range;
 use crate::{Figure, Quantity};
 
@@ -37,6 +41,17 @@ pub enum StampSource {
     Header,
 }
 
+/// What the sequence numbers of a source (item 04) are good for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SequenceUse {
+    /// Repeated and late records are not used, missing ones are counted, until the numbers prove not to count.
+    #[default]
+    Use,
+    /// Every record is used, whatever its number.
+    Ignore,
+}
+
 /// The meaning of the items of a site.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -51,6 +66,12 @@ pub struct Mapping {
     pub stamp: StampSource,
     /// How far the source's clock is ahead of UTC (h), for stamps from the header and for frames that are written. Default 0.
     pub utc_offset_h: f64,
+    /// Whether the numbers in item 04 decide which records are used. Default use.
+    pub sequence: SequenceUse,
+    /// Requests to a recorder that sends in answer only. Default: a connection that is silent for 10 s is asked once, and
+    /// on if that helped.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ask: Option<AskMapping>,
     /// Items in addition to the defaults or in their place; an empty one removes a default.
     pub items: BTreeMap<ItemCode, Option<ItemMapping>>,
     /// Figures of the twin that are sent back over the same connection. Default none.
@@ -66,6 +87,8 @@ impl Default for Mapping {
             nulls: vec![-9999.0, -8888.0, -999.25],
             stamp: StampSource::default(),
             utc_offset_h: 0.0,
+            sequence: SequenceUse::default(),
+            ask: None,
             items: BTreeMap::new(),
             write: None,
         }
@@ -88,6 +111,31 @@ pub struct ItemMapping {
     #[serde(default)]
     pub fallback: bool,
 }
+
+/// Requests to a recorder that sends in answer only.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AskMapping {
+    /// Time between two requests (s). Default 30.
+    pub every_s: f64,
+    /// The request, with its marks. Default `&&`, `0111-9999`, `!!`. Without any the bridge never asks.
+    pub lines: Vec<String>,
+}
+
+impl Default for AskMapping {
+    fn default() -> Self {
+        Self {
+            every_s: 30.0,
+            // A valid packet without a value: item 11 with the null value.
+            lines: ["&&", "0111-9999", "!!"].map(str::to_owned).to_vec(),
+        }
+    }
+}
+
+/// Silence after which a connection is asked although the mapping does not say so. Rigs send every few seconds.
+const ASKED_AFTER: Duration = Duration::from_secs(10);
+/// A silent serial line is asked again after so long, as a TCP connection is by being made again.
+const ASKED_AGAIN: Duration = Duration::from_secs(60);
 
 /// What is sent back.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -212,6 +260,26 @@ impl Mapping {
         table
     }
 
+    /// How the line asks its other end for frames; none where the mapping says never.
+    pub fn ask(&self) -> Option<Ask> {
+        let default = AskMapping::default();
+        let ask = self.ask.as_ref().unwrap_or(&default);
+        if ask.lines.is_empty() {
+            return None;
+        }
+        let request: String = ask.lines.iter().flat_map(|line| [line.as_str(), "\r\n"]).collect();
+        Some(Ask {
+            request: Arc::from(request.into_bytes()),
+            every: Duration::from_secs_f64(ask.every_s),
+            after: if self.ask.is_some() {
+                Duration::ZERO
+            } else {
+                ASKED_AFTER
+            },
+            again: ASKED_AGAIN,
+        })
+    }
+
     /// How far the source's clock is ahead of UTC (s).
     pub fn utc_offset(&self) -> i32 {
         (self.utc_offset_h * 3600.0).round() as i32
@@ -232,6 +300,9 @@ impl Mapping {
                 c.below(code.to_string(), |c| item.check(c, *code));
             }
         });
+        if let Some(ask) = &self.ask {
+            c.below("ask", |c| ask.check(c));
+        }
         if let Some(write) = &self.write {
             c.below("write", |c| write.check(c));
         }
@@ -254,6 +325,31 @@ impl ItemMapping {
     fn check(&self, c: &mut Checker, code: ItemCode) {
         check_number(c, code, "quantity");
         check_unit_and_range(c, self.quantity, self.unit, self.valid);
+    }
+}
+
+impl AskMapping {
+    fn check(&self, c: &mut Checker) {
+        let reason = "a recorder answers each request with a frame";
+        c.number("every_s", self.every_s, Bound::within(0.1, 3600.0), "s", reason);
+        for line in &self.lines {
+            c.require(
+                line.len() <= LONGEST_LINE && line.bytes().all(|byte| (b' '..=b'~').contains(&byte)),
+                "lines",
+                format!("{line:?}"),
+                "",
+                "printable ASCII",
+                "recorders read no other characters",
+            );
+        }
+        c.require(
+            self.lines.len() <= 100,
+            "lines",
+            self.lines.len(),
+            "",
+            "at most 100",
+            "a request is one short frame",
+        );
     }
 }
 
@@ -336,6 +432,9 @@ mod tests {
                 "smallest",
             ),
             ("utc_offset_h: 30\n", "14"),
+            ("sequence: perhaps\n", "ignore"),
+            ("ask: {every_s: 0}\n", "0.1"),
+            ("ask: {lines: [\"caf\u{e9}\"]}\n", "ASCII"),
             ("write: {items: {}}\n", "at least one"),
             (
                 "write: {every_s: 0, items: {\"4008\": {figure: bit_torque, unit: kN.m}}}\n",
@@ -347,6 +446,21 @@ mod tests {
             let error = Mapping::from_text("site.yaml", text).unwrap_err().to_string();
             assert!(error.contains("site.yaml:1") && error.contains(words), "{text}{error}");
         }
+    }
+
+    #[test]
+    fn a_request_is_a_valid_packet_unless_the_site_has_another() {
+        let by_itself = Mapping::default().ask().unwrap();
+        assert_eq!(&*by_itself.request, b"&&\r\n0111-9999\r\n!!\r\n");
+        assert_eq!(by_itself.after, ASKED_AFTER);
+        let site = Mapping::from_text("site.yaml", "ask: {every_s: 5, lines: [\"&&\", \"!!\"]}\n").unwrap();
+        let ask = site.ask().unwrap();
+        assert_eq!(
+            (&*ask.request, ask.every, ask.after),
+            (b"&&\r\n!!\r\n".as_slice(), Duration::from_secs(5), Duration::ZERO)
+        );
+        let never = Mapping::from_text("site.yaml", "ask: {lines: []}\n").unwrap();
+        assert_eq!(never.ask(), None);
     }
 
     #[test]

@@ -19,14 +19,14 @@ mod sources;
 mod write;
 
 pub use count::Counts;
-pub use decode::{Decoder, Reading, RecordSeen};
+pub use decode::{ClockOffset, Decoder, Reading, RecordSeen};
 pub use frame::{DiscardReason, Discarded, FrameReader, LONGEST_FRAME, LONGEST_LINE, Piece, RawFrame};
 pub use header::{Header, LAST_HEADER_ITEM};
 pub use item::{ItemCode, NoItemCode};
 pub use line::{Line, LineEvent};
-pub use mapping::{ItemMapping, Mapping, StampSource, UnitSystem, WriteItem, WriteMapping};
+pub use mapping::{AskMapping, ItemMapping, Mapping, SequenceUse, StampSource, UnitSystem, WriteItem, WriteMapping};
 pub use report::{FrameUse, ItemFault, ItemFaultKind, NotUsed};
-pub use sequence::{Sequence, SequenceWatch};
+pub use sequence::{Classified, Numbered, Sequence, SequenceDefect, SequenceWatch};
 pub use sources::{Refused, Sources};
 pub use write::{FrameWriter, RigFrames, TwinFrames};
 
