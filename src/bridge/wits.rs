@@ -8,7 +8,9 @@ use std::time::Duration;
 use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureWriter};
-use flexdrill_bridge::wits::{FrameUse, Line, LineEvent, Mapping, NotUsed, Refused, Sources, TwinFrames, shown};
+use flexdrill_bridge::wits::{
+    FrameUse, Line, LineEvent, Look, Mapping, NotUsed, RawFrame, Refused, Sources, TwinFrames, shown,
+};
 use flexdrill_text::{counted, log_ending, printable};
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::{MissedTickBehavior, interval};
@@ -34,6 +36,8 @@ pub struct WitsBridge {
     /// Which connection serves each quantity.
     sources: Sources,
     health: LineHealth,
+    /// Shows the first frame of a connection to people.
+    show: fn(&str),
 }
 
 struct Connection {
@@ -42,10 +46,13 @@ struct Connection {
     address: String,
     /// It was silent and was asked, and has not answered yet.
     asked: bool,
+    /// Its first frame with an item was shown.
+    is_shown: bool,
 }
 
 impl WitsBridge {
-    /// A bridge; `place` names the line. With `capture` the bytes of the line are kept.
+    /// A bridge; `place` names the line. With `capture` the bytes of the line are kept. `show` prints for people what the
+    /// mapping makes of the first frame of a connection.
     ///
     /// # Errors
     /// When the capture cannot be created.
@@ -55,6 +62,7 @@ impl WitsBridge {
         place: String,
         mapping: Mapping,
         capture: Option<&Path>,
+        show: fn(&str),
     ) -> Result<Self, CaptureError> {
         Ok(Self {
             node,
@@ -65,6 +73,7 @@ impl WitsBridge {
             connections: BTreeMap::new(),
             sources: Sources::default(),
             health: LineHealth::default(),
+            show,
         })
     }
 
@@ -142,6 +151,7 @@ impl WitsBridge {
                     line,
                     address,
                     asked: false,
+                    is_shown: false,
                 };
                 self.connections.insert(connection, opened);
             }
@@ -242,7 +252,10 @@ impl WitsBridge {
                     )
                 });
             }
-            LineEvent::Frame(_, reading) => reading,
+            LineEvent::Frame(frame, reading) => {
+                self.show_first(connection, &frame, reading.outcome);
+                reading
+            }
         };
         for seen in &reading.records {
             if let Some(defect) = seen.defect {
@@ -280,6 +293,26 @@ impl WitsBridge {
         }
         for fault in &reading.faults {
             log(fault.kind.name(), || fault.to_string());
+        }
+    }
+
+    /// Shows what the mapping makes of the first frame of a connection: public programs give some items other meanings, and
+    /// only a person can see that a value belongs to another quantity.
+    fn show_first(&mut self, connection: u64, frame: &RawFrame, outcome: FrameUse) {
+        let found = self.connections.get_mut(&connection).filter(|found| !found.is_shown);
+        let Some(found) = found.filter(|_| outcome != FrameUse::NotUsed(NotUsed::Empty)) else {
+            return;
+        };
+        found.is_shown = true;
+        // A peer that connects again and again must not fill the terminal.
+        if let Some(more) = log_ending("wits first frame") {
+            let mut look = Look::new(&self.mapping);
+            look.frame(frame);
+            (self.show)(&format!(
+                "first frame of connection {connection} ({}); compare it with the rig's display{more}:\n{}",
+                printable(&found.address),
+                look.table()
+            ));
         }
     }
 

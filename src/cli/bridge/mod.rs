@@ -1,11 +1,13 @@
 //! `flexdrill bridge`: joins the twin's topics to a rig's own protocol, or to a broker.
 
+mod look;
 mod mqtt;
 mod opcua;
 mod ros_side;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
@@ -14,7 +16,7 @@ use self::ros_side::RosSideArgs;
 use super::{WrongUse, signals};
 use crate::bridge::Outgoing;
 use crate::bridge::wits::WitsBridge;
-use crate::cli::output::say;
+use crate::cli::output::{say, say_text};
 use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{Place, Times};
 use flexdrill_bridge::wits::Mapping;
@@ -50,6 +52,9 @@ struct WitsArgs {
     /// Keep the bytes of the line with their times in a new file.
     #[arg(long, value_name = "FILE")]
     capture: Option<PathBuf>,
+    /// Listen for so long (s), print what arrives and what the mapping makes of it, and end. Nothing is published.
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..=86_400), conflicts_with = "capture")]
+    look: Option<u32>,
     #[command(flatten)]
     ros: RosSideArgs,
 }
@@ -86,6 +91,9 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
         None => Mapping::default(),
     };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    if let Some(seconds) = args.look {
+        return runtime.block_on(look::run(args, &mapping, Duration::from_secs(seconds.into())));
+    }
     runtime.block_on(async {
         let (place, name) = args.line.place(args.baud).await?;
         let receives: &[_] = if mapping.write.is_some() {
@@ -101,7 +109,9 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
             ros.network.domain_id
         );
         let node_name = ros.identity.full_name();
-        let mut bridge = WitsBridge::new(node, node_name, name, mapping, args.capture.as_deref())?;
+        let mut bridge = WitsBridge::new(node, node_name, name, mapping, args.capture.as_deref(), |text| {
+            say_text!("{text}")
+        })?;
         let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}

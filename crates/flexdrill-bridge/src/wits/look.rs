@@ -1,0 +1,213 @@
+//! What a source sends and what the mapping makes of it: a table for people, who know whether both agree.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use flexdrill_core::inputs::{Dimension, Unit};
+use flexdrill_text::six_digits;
+
+use super::frame::RawFrame;
+use super::header::LAST_HEADER_ITEM;
+use super::item::{ItemCode, is_null, number};
+use super::mapping::{ItemMapping, Mapping};
+use super::shown;
+
+/// Most items that are kept: a source that sends more is no rig, and must not fill the memory.
+const MOST_ITEMS: usize = 1000;
+/// Bytes of a value that are shown.
+const SHOWN: usize = 20;
+
+/// The items of a source.
+#[derive(Debug, Clone)]
+pub struct Look {
+    table: BTreeMap<ItemCode, ItemMapping>,
+    nulls: Vec<f64>,
+    items: BTreeMap<ItemCode, Seen>,
+    frames: u64,
+}
+
+/// What an item held.
+#[derive(Debug, Clone)]
+struct Seen {
+    /// Its first value, as sent, escaped and cut.
+    first_text: String,
+    numbers: Option<Numbers>,
+}
+
+/// The numbers of an item, nulls left out.
+#[derive(Debug, Clone, Copy)]
+struct Numbers {
+    first: f64,
+    last: f64,
+    least: f64,
+    most: f64,
+    rose: bool,
+    fell: bool,
+}
+
+impl Look {
+    /// Before the first frame.
+    pub fn new(mapping: &Mapping) -> Self {
+        Self {
+            table: mapping.table(),
+            nulls: mapping.nulls.clone(),
+            items: BTreeMap::new(),
+            frames: 0,
+        }
+    }
+
+    /// Adds a frame.
+    pub fn frame(&mut self, frame: &RawFrame) {
+        self.frames += 1;
+        for (code, text) in frame.lines.iter().filter_map(|line| ItemCode::of_line(line)) {
+            if code.item <= LAST_HEADER_ITEM || self.items.len() >= MOST_ITEMS && !self.items.contains_key(&code) {
+                continue;
+            }
+            let seen = self.items.entry(code).or_insert_with(|| Seen {
+                first_text: shown(&text[..text.len().min(SHOWN)]),
+                numbers: None,
+            });
+            let Some(value) = number(text).filter(|_| !is_null(text, &self.nulls)) else {
+                continue;
+            };
+            match &mut seen.numbers {
+                Some(numbers) => numbers.add(value),
+                None => seen.numbers = Some(Numbers::new(value)),
+            }
+        }
+    }
+
+    /// Frames so far.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// The table: a line per item with its quantity, its first value as sent and as used, and how it changed if there were
+    /// several frames; then the items that the mapping does not name.
+    pub fn table(&self) -> String {
+        let mut text = String::new();
+        let mut unread = Vec::new();
+        for (code, seen) in &self.items {
+            let Some(mapping) = self.table.get(code) else {
+                unread.push(format!("{code} ({})", seen.first_text));
+                continue;
+            };
+            let sent = format!("{} {}", seen.first_text, mapping.unit);
+            let used = match seen.numbers {
+                Some(numbers) => as_used(mapping, numbers.first),
+                None => "no value".to_owned(),
+            };
+            let change = seen.numbers.filter(|_| self.frames > 1).map(Numbers::change);
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                "  {code}  {:<26} {sent:>18} = {used:<18} {}",
+                mapping.quantity.name(),
+                change.unwrap_or_default()
+            );
+        }
+        let mut text: String = text.lines().flat_map(|line| [line.trim_end(), "\n"]).collect();
+        if text.is_empty() {
+            text.push_str("  no item that the mapping names\n");
+        }
+        if !unread.is_empty() {
+            let _ = writeln!(text, "  not read: {}", unread.join(", "));
+        }
+        text
+    }
+}
+
+impl Numbers {
+    const fn new(value: f64) -> Self {
+        Self {
+            first: value,
+            last: value,
+            least: value,
+            most: value,
+            rose: false,
+            fell: false,
+        }
+    }
+
+    fn add(&mut self, value: f64) {
+        self.rose |= value > self.last;
+        self.fell |= value < self.last;
+        (self.least, self.most) = (self.least.min(value), self.most.max(value));
+        self.last = value;
+    }
+
+    /// Range and trend in the unit as sent: a depth only grows while drilling, a weight varies.
+    fn change(self) -> String {
+        let range = format!("{} to {}", six_digits(self.least), six_digits(self.most));
+        match (self.rose, self.fell) {
+            (false, false) => "constant".to_owned(),
+            (true, false) => format!("{range}, only rises"),
+            (false, true) => format!("{range}, only falls"),
+            (true, true) => format!("{range}, varies"),
+        }
+    }
+}
+
+/// A value in the unit in which people know the quantity.
+fn as_used(mapping: &ItemMapping, value: f64) -> String {
+    let dimension = mapping.quantity.dimension();
+    let unit = match dimension {
+        Dimension::Force => Unit::Kilonewton,
+        Dimension::Torque => Unit::KilonewtonMetre,
+        Dimension::Pressure => Unit::Megapascal,
+        Dimension::Speed => Unit::MetrePerHour,
+        Dimension::RotarySpeed => Unit::TurnPerMinute,
+        Dimension::Angle => Unit::Degree,
+        Dimension::Length | Dimension::Acceleration | Dimension::Time | Dimension::Number => dimension.si(),
+    };
+    format!("{} {unit}", six_digits(unit.from_si(mapping.unit.to_si(value))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(frames: &[&str]) -> String {
+        let mut look = Look::new(&Mapping::default());
+        for text in frames {
+            let lines = text.lines().map(|line| line.as_bytes().to_vec()).collect();
+            look.frame(&RawFrame {
+                lines,
+                ..RawFrame::default()
+            });
+        }
+        look.table()
+    }
+
+    #[test]
+    fn the_table_has_values_as_sent_and_as_used_and_what_is_not_read() {
+        let text = table(&["01041\n01082500.5\n01160.85\n0120 40\n0121-9999\n0144 \u{1b}[2J\n01991.5"]);
+        let rows: Vec<String> = text
+            .lines()
+            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "))
+            .collect();
+        assert_eq!(
+            rows,
+            [
+                "0108 bit_depth 2500.5 m = 2500.5 m",
+                "0116 weight_on_bit 0.85 kdaN = 8.5 kN",
+                "0120 rotary_speed 40 r/min = 40 r/min",
+                "0121 standpipe_pressure -9999 kPa = no value",
+                "not read: 0144 (\\x1b[2J), 0199 (1.5)",
+            ]
+        );
+    }
+
+    #[test]
+    fn several_frames_show_how_each_item_changes() {
+        let text = table(&[
+            "0108 1\n0116 2\n0120 7",
+            "0108 3\n0116 1\n0120 7",
+            "0108 4\n0116 5\n0120 7",
+        ]);
+        for words in ["1 to 4, only rises", "1 to 5, varies", "constant"] {
+            assert!(text.contains(words), "{words} in {text}");
+        }
+        assert_eq!(table(&["0104 1\n"]), "  no item that the mapping names\n");
+    }
+}
