@@ -324,7 +324,8 @@ impl WitsBridge {
         log("answers", || {
             format!(
                 "connection {connection} ({}) answers: its recorder sends on request, so the bridge continues to ask every \
-                 30 s. Write `ask: {{every_s: 30}}` in the mapping, and it asks at once",
+                 30 s. With `ask: {{every_s: 30}}` in the mapping it asks at once; a recorder that answers each request with \
+                 one frame needs `every_s: 1`",
                 printable(&found.address)
             )
         });

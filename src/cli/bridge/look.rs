@@ -35,6 +35,7 @@ pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> a
     let (sender, mut events) = mpsc::channel(QUEUE);
     let (outgoing, _) = broadcast::channel(1);
     let seats = Seats::default();
+    // As in the bridge, the line lives in this task: its connections close with it. It has nothing to write but requests.
     let mut line = std::pin::pin!(lines::run(
         place,
         Times::default(),
@@ -59,6 +60,7 @@ pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> a
                 }
                 LineState::Bytes { connection, time, bytes } => {
                     let Some(Seen { line, look, .. }) = seen.get_mut(&connection) else { continue };
+                    // Whole frames hold a seat here too, or a scanner could drive out the rig.
                     line.push(&bytes, time, &mut counts, |event| {
                         if let LineEvent::Frame(frame, _) = event {
                             seats.whole_frame(connection);
@@ -75,6 +77,7 @@ pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> a
             },
         }
     }
+    // A line without a frame is the usual first failure, so that the reason of the last attempt is part of the error.
     if counts.frames == 0 {
         bail!(
             "no frame in {} s{why}; {} outside of frames",

@@ -52,7 +52,14 @@ impl WitsLine {
         let connections = Arc::new(AtomicU64::new(0));
         let mut tasks = JoinSet::new();
         let place = Place::Listen(listener);
-        tasks.spawn(lines::run(place, times, None, sender, outgoing.clone(), Seats::default()));
+        tasks.spawn(lines::run(
+            place,
+            times,
+            None,
+            sender,
+            outgoing.clone(),
+            Seats::default(),
+        ));
         tasks.spawn(tell(events, Arc::clone(&connections)));
         Ok(Self {
             address,
