@@ -13,9 +13,12 @@ const FRAMES: u64 = 120;
 /// 2026-09-25 08:37:24 UTC.
 const FIRST: i64 = 1_790_325_444;
 
+/// The sequence number of a frame, if it has one.
+type Number = fn(u64) -> Option<String>;
+
 /// A recorder's frame, line by line.
 struct Shape {
-    sequence: fn(u64) -> Option<String>,
+    sequence: Number,
     date: fn(u64) -> Vec<String>,
     values: fn(u64) -> Vec<String>,
 }
@@ -184,7 +187,7 @@ fn lines_of_usual_recorders_are_read_whole() {
 
 #[test]
 fn numbers_that_do_not_count_are_declared_unusable_and_lose_nothing() {
-    let shapes: [(&str, fn(u64) -> Option<String>, SequenceDefect); 7] = [
+    let shapes: [(&str, Number, SequenceDefect); 7] = [
         ("constant 0", |_| Some("0".to_owned()), SequenceDefect::Constant),
         ("constant 1", |_| Some("1".to_owned()), SequenceDefect::Constant),
         ("wraps at 10", |k| Some((k % 10).to_string()), SequenceDefect::NoCount),

@@ -354,7 +354,7 @@ mod tests {
         for step in [1, 2] {
             let alternate = |record: u64| {
                 let own = record / 2 * step;
-                if record % 2 == 0 { 5 + own } else { 1000 + own }
+                if record.is_multiple_of(2) { 5 + own } else { 1000 + own }
             };
             for time in [false, true] {
                 let (classes, defect, missing) = long(alternate, time);
