@@ -79,7 +79,8 @@ impl Bound {
         InSchema(self)
     }
 
-    pub(crate) fn holds(self, value: f64) -> bool {
+    /// Whether a value is within; NaN never is.
+    pub fn holds(self, value: f64) -> bool {
         let low = if self.low_is_in {
             value >= self.low
         } else {
@@ -88,7 +89,8 @@ impl Bound {
         low && value <= self.high
     }
 
-    pub(crate) fn words(self, unit: &str) -> String {
+    /// The limits in words, with their unit, which is empty if dimensionless.
+    pub fn words(self, unit: &str) -> String {
         let space = if unit.is_empty() { "" } else { " " };
         let (low, high) = (number(self.low), number(self.high));
         if self.low_is_in {
@@ -116,6 +118,17 @@ pub struct NumberKey {
     pub unit: &'static str,
     /// Reason of the limits.
     pub reason: &'static str,
+}
+
+impl NumberKey {
+    /// Its limits.
+    pub const fn bound(&self) -> Bound {
+        if self.low_is_in {
+            Bound::within(self.low, self.high)
+        } else {
+            Bound::above(self.low, self.high)
+        }
+    }
 }
 
 /// Walks a configuration, holds its values against their bounds and collects the problems.

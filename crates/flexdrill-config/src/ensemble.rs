@@ -10,7 +10,7 @@ const MEMBERS: Bound = Bound::within(8.0, 256.0);
 
 /// Plausible tools that run with the twin, for bands and chances on `twin/bands`: tools drawn from `uncertainty`, under the
 /// same inputs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Ensemble {
     /// Their number, or `auto` for as many as the computer runs in the time that the twin leaves. A replay of a recording
@@ -18,6 +18,24 @@ pub struct Ensemble {
     pub members: Members,
     /// Seed of all draws. Default 1.
     pub seed: u64,
+    /// What the tools are drawn from: the `prior`, which is `uncertainty`, or `{posterior: FILE}`, the sample that `flexdrill
+    /// calibrate` has written for this tool. Keys that the sample leaves out come from the prior. A relative path is relative
+    /// to the folder of the configuration. Default prior.
+    pub from: DrawnFrom,
+    /// SHA-256 of the posterior's file, in hex; another file is refused. A node adds it to the configuration that it records,
+    /// so that a replay draws the same tools. Default none, any file.
+    pub posterior_sha256: Option<String>,
+}
+
+/// What plausible tools are drawn from.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DrawnFrom {
+    /// The distributions of `uncertainty`.
+    #[default]
+    Prior,
+    /// `{posterior: FILE}`: the sample in a file `posterior.csv` of `flexdrill calibrate`.
+    Posterior(String),
 }
 
 /// `auto`, or a number.
@@ -44,11 +62,21 @@ impl Default for Ensemble {
         Self {
             members: Members::Auto(Auto::Auto),
             seed: 1,
+            from: DrawnFrom::Prior,
+            posterior_sha256: None,
         }
     }
 }
 
 impl Ensemble {
+    /// The file of the posterior, where the tools are drawn from one.
+    pub fn posterior(&self) -> Option<&str> {
+        match &self.from {
+            DrawnFrom::Prior => None,
+            DrawnFrom::Posterior(file) => Some(file),
+        }
+    }
+
     /// Checks the section; `uncertain` says whether the file states what is not known.
     pub(super) fn check(&self, c: &mut Checker, uncertain: bool) {
         if let Members::Count(count) = self.members {
@@ -67,6 +95,33 @@ impl Ensemble {
             "given with uncertainty.keys or uncertainty.sensors",
             "all members would be the tool of the file",
         );
+        let empty = self.posterior().is_some_and(|file| file.trim().is_empty());
+        c.require(
+            !empty,
+            "from",
+            "an empty name",
+            "",
+            "prior, or posterior with the name of a file",
+            "an empty name is no sample",
+        );
+        if let Some(digest) = &self.posterior_sha256 {
+            c.require(
+                digest.len() == 64 && digest.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f')),
+                "posterior_sha256",
+                digest,
+                "",
+                "64 digits from 0 to f, in small letters",
+                "it is the checksum that names the file's content",
+            );
+            c.require(
+                self.posterior().is_some(),
+                "posterior_sha256",
+                digest,
+                "",
+                "left out with from: prior",
+                "a prior has no file",
+            );
+        }
     }
 }
 

@@ -29,6 +29,20 @@ const SECTIONS: &[&str] = &[
     "pressure_folding",
 ];
 
+/// Sections that say which tool in which hole it is: those of the mechanics, without its start, its steps, and the
+/// thresholds of alarms.
+const TOOL: &[&str] = &[
+    "well",
+    "tool",
+    "contact",
+    "environment",
+    "boundary",
+    "rock",
+    "string",
+    "loads",
+    "masses",
+];
+
 /// Alarms of the motion: their delays and whether they are in service.
 const ALARMS: &[&str] = &[
     "backward_whirl",
@@ -57,15 +71,12 @@ impl Config {
         // The tree has the keys as the file has them, defaults included, so
         // that a default that is written out changes nothing.
         let tree = self.to_tree();
-        let of = |value: &Value, keys: &[&str]| -> Map<String, Value> {
-            let present = keys
-                .iter()
-                .filter_map(|key| Some(((*key).to_owned(), value.get(key)?.clone())));
-            present.collect()
-        };
         // Sections are chosen and not removed, so that a new section is not part of the motion before it is listed.
-        let mut motion = of(&tree, SECTIONS);
-        let mut alarms = tree.get("alarms").map(|alarms| of(alarms, ALARMS)).unwrap_or_default();
+        let mut motion = chosen(&tree, SECTIONS);
+        let mut alarms = tree
+            .get("alarms")
+            .map(|alarms| chosen(alarms, ALARMS))
+            .unwrap_or_default();
         // An off-delay holds an alarm for the operator. Runs are judged with
         // at most this one, so longer ones give the same result.
         for alarm in alarms.values_mut() {
@@ -80,12 +91,7 @@ impl Config {
         {
             contact.remove("wall_friction_factors");
         }
-        if !self.tool.guide.closes_slots()
-            && let Some(guide) = motion.get_mut("tool").and_then(|tool| tool.get_mut("guide"))
-            && let Some(guide) = guide.as_object_mut()
-        {
-            guide.remove("slots_close_at");
-        }
+        self.leave_out_idle_slots(&mut motion);
         // Without a string there is no drive that could stall, and no hoist that is asked for a weight.
         if self.string.model != Model::Line {
             for (section, key) in [
@@ -106,6 +112,68 @@ impl Config {
         // As for `hash`: plain numbers, strings and lists can be serialised.
         hex_of(&serde_json::to_vec(&motion).unwrap_or_default())
     }
+
+    /// SHA-256, in hex, over what says which tool in which hole it is, without the keys `fitted` (dotted paths) whose
+    /// values were found by a calibration. A sample of these keys holds for every configuration of the same hash: also for
+    /// one that has their fitted values, another start, another step, or other thresholds.
+    pub fn tool_hash<'a>(&self, fitted: impl IntoIterator<Item = &'a str>) -> String {
+        let mut tree = self.to_tree();
+        let mut factor = self.calibration.friction_factor;
+        for key in fitted {
+            if key == "calibration.friction_factor" {
+                factor = 1.0;
+            }
+            let (parent, name) = key.rsplit_once('.').unwrap_or(("", key));
+            let parent = if parent.is_empty() {
+                Some(&mut tree)
+            } else {
+                tree.pointer_mut(&super::pointer(parent))
+            };
+            match parent {
+                Some(Value::Object(section)) => {
+                    section.remove(name);
+                }
+                // An item keeps its place, so that the others remain where they are.
+                Some(Value::Array(items)) => {
+                    if let Some(item) = name.parse().ok().and_then(|place: usize| items.get_mut(place)) {
+                        *item = Value::Null;
+                    }
+                }
+                _ => {}
+            }
+        }
+        let mut tool = chosen(&tree, TOOL);
+        // As in the motion, what changes nothing is left out: a key that is new in a version keeps the hash of a tool.
+        if let Some(contact) = tool.get_mut("contact").and_then(Value::as_object_mut) {
+            let factors = contact.get("wall_friction_factors").and_then(Value::as_object);
+            if factors.is_some_and(|factors| factors.values().all(|factor| factor.as_f64() == Some(1.0))) {
+                contact.remove("wall_friction_factors");
+            }
+        }
+        self.leave_out_idle_slots(&mut tool);
+        if factor != 1.0 {
+            tool.insert("friction_factor".to_owned(), Value::from(factor));
+        }
+        hex_of(&serde_json::to_vec(&tool).unwrap_or_default())
+    }
+
+    /// Removes the slots' key of a guide whose slots do not close.
+    fn leave_out_idle_slots(&self, sections: &mut Map<String, Value>) {
+        if !self.tool.guide.closes_slots()
+            && let Some(guide) = sections.get_mut("tool").and_then(|tool| tool.get_mut("guide"))
+            && let Some(guide) = guide.as_object_mut()
+        {
+            guide.remove("slots_close_at");
+        }
+    }
+}
+
+/// The keys of a section that are there.
+fn chosen(value: &Value, keys: &[&str]) -> Map<String, Value> {
+    let present = keys
+        .iter()
+        .filter_map(|key| Some(((*key).to_owned(), value.get(key)?.clone())));
+    present.collect()
 }
 
 #[cfg(test)]
@@ -189,5 +257,36 @@ mod tests {
         assert_eq!(stalled(&config).motion_hash(), hash);
         let rig = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
         assert_ne!(stalled(&rig).motion_hash(), rig.motion_hash());
+    }
+
+    #[test]
+    fn a_tool_remains_the_same_whatever_a_calibration_found() {
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        let fitted = [
+            "contact.inner.friction_tangential",
+            "contact.wall_friction_factors.arc",
+            "calibration.torque_tare_nm",
+        ];
+        let hash = |config: &Config| config.tool_hash(fitted);
+        let own = hash(&config);
+        for (key, value) in [
+            (fitted[0], Value::from(0.31)),
+            (fitted[1], Value::from(1.2)),
+            (fitted[2], Value::from(12.0)),
+            ("solver.time_step", Value::from(1e-4)),
+            ("alarms.shock.on_delay", Value::from(3.0)),
+            ("run.title", Value::from("another")),
+        ] {
+            assert_eq!(hash(&config.with_value(key, value).unwrap()), own, "{key}");
+        }
+        for (key, value) in [
+            ("contact.inner.friction_axial", Value::from(0.31)),
+            ("contact.wall_friction_factors.before_arc", Value::from(1.2)),
+            ("well.hole_diameter", Value::from(0.1185)),
+            ("calibration.friction_factor", Value::from(1.1)),
+        ] {
+            assert_ne!(hash(&config.with_value(key, value).unwrap()), own, "{key}");
+        }
+        assert_ne!(config.tool_hash([]), own);
     }
 }

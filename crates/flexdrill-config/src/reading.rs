@@ -111,7 +111,7 @@ fn unknown_message(error: &serde_saphyr::Error) -> Option<String> {
 }
 
 /// The known word that was probably meant; none where no word is similar.
-pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     /// Largest edit distance of a misspelt word, as on the command line.
     const LARGEST_DISTANCE: usize = 2;
     let (distance, near) = known

@@ -2,6 +2,8 @@
 
 use flexdrill_config::ConfigError;
 
+use crate::posterior::PosteriorError;
+
 /// Why a configuration has no priors, or a member cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -25,6 +27,18 @@ pub enum UncertaintyError {
     /// The correlations are not those of any set of values.
     #[error("uncertainty.correlated: the correlations of all pairs are not positive definite")]
     Correlation,
+    /// What a calibration has found cannot be used.
+    #[error(transparent)]
+    Posterior(#[from] PosteriorError),
+    /// The configuration does not allow a value.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The configuration names a posterior, and its file was not read.
+    #[error("ensemble.from: {file}: the posterior is needed to draw plausible tools, and was not given")]
+    NotGiven {
+        /// The file that it names.
+        file: String,
+    },
     /// The configuration refuses every draw of a member.
     #[error("uncertainty: {attempts} draws of member {member} were refused; the last one because of {reason}")]
     Refused {

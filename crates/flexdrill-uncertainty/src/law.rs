@@ -82,6 +82,11 @@ impl Law {
         })
     }
 
+    /// The share of the values below x, from 0 to 1: the inverse of [`Law::quantile`].
+    pub fn share(&self, x: f64) -> f64 {
+        ((self.shape.below(x) - self.below) / self.share).clamp(0.0, 1.0)
+    }
+
     /// The value below which a share p of the values lies, for p from 0 to 1; within the limits.
     pub fn quantile(&self, p: f64) -> f64 {
         let p = (self.below + p * self.share).clamp(0.0, 1.0);

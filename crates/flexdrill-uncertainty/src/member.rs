@@ -32,18 +32,27 @@ pub struct Member {
 }
 
 impl Priors {
-    /// The member of a number, a function of configuration, seed and number. Draws that the configuration refuses as a
+    /// The member of a number, a function of configuration, posterior, seed and number. Draws that the configuration refuses as a
     /// whole are drawn again: the distribution is that of the tools which it accepts.
     ///
     /// # Errors
     /// When the configuration refuses every draw.
     pub fn member(&self, seed: u64, member: u64) -> Result<Member, UncertaintyError> {
         let mut random = Random::new(seed, member, Part::Keys);
+        let mut of_sample = Random::new(seed, member, Part::Sample);
         let of_sensors = self.sensor_scores(seed, member);
         let mut refused = 0;
         loop {
             let mut scores = scores(&mut random, self.entries().len());
             scores.extend(&of_sensors);
+            if let Some(sample) = &self.sample {
+                // A member of the sample that the configuration refuses gives way to any other.
+                let share = match refused {
+                    0 => spread_share(seed, member),
+                    _ => of_sample.uniform(),
+                };
+                sample.draw(self.correlation_factor(), &mut scores, share, &mut of_sample);
+            }
             match self.at(scores) {
                 Ok(member) => return Ok(Member { refused, ..member }),
                 Err(reason) => {
@@ -78,7 +87,7 @@ impl Priors {
         })
     }
 
-    /// The first draws of a member, which the configuration may refuse as a whole.
+    /// The first draws of a member from the priors, which the configuration may refuse as a whole.
     pub fn draws(&self, seed: u64, member: u64) -> Vec<f64> {
         let mut random = Random::new(seed, member, Part::Keys);
         self.draws_at(&scores(&mut random, self.entries().len()))
@@ -114,6 +123,18 @@ impl Priors {
             .map(|(sensor, pair)| sensor.error([pair[0], pair[1]].map(standard_normal)))
             .collect()
     }
+}
+
+/// Shares of the weights at which members take a sample: multiples of the golden section, from a beginning that the seed
+/// decides. As in systematic resampling, any number of members takes each part of the sample as often as its weight asks for;
+/// and a member does not depend on how many there are.
+fn spread_share(seed: u64, member: u64) -> f64 {
+    /// 2^64 times the golden section.
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    /// 2^-53.
+    const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
+    let begin = Random::new(seed, u64::MAX, Part::Sample).bits();
+    (begin.wrapping_add(member.wrapping_mul(GOLDEN)) >> 11) as f64 * UNIT
 }
 
 /// The next independent standard normal scores.

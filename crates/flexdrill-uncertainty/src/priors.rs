@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::UncertaintyError;
 use crate::law::Law;
+use crate::posterior::{Posterior, PosteriorError, Sample};
 use crate::sensors::{Sensor, sensors};
 
 /// What is not known of a tool and its rig.
@@ -20,6 +21,8 @@ pub struct Priors {
     sensors: Vec<Sensor>,
     /// Lower Cholesky factor of the correlations of the normal scores.
     factor: DMatrix<f64>,
+    /// What members are drawn from instead, where a calibration has found it.
+    pub(crate) sample: Option<Sample>,
 }
 
 /// A draw with its distribution, and the keys that it acts on.
@@ -110,6 +113,11 @@ impl Entry {
         &self.keys
     }
 
+    /// Its distribution, cut off at the limits of its keys.
+    pub(crate) fn law(&self) -> &Law {
+        &self.law
+    }
+
     /// The draw below which a share p of the draws lies, for p from 0 to 1.
     pub fn draw(&self, p: f64) -> f64 {
         self.law.quantile(p)
@@ -137,6 +145,7 @@ impl Priors {
                 entries: Vec::new(),
                 sensors: Vec::new(),
                 factor: DMatrix::zeros(0, 0),
+                sample: None,
             });
         };
         let numbers: BTreeMap<String, NumberKey> = base
@@ -164,7 +173,40 @@ impl Priors {
             base,
             entries,
             factor,
+            sample: None,
         })
+    }
+
+    /// The same with members that are drawn from what a calibration has found: jointly from its sample where it has a key,
+    /// from the priors given those where it has none. A score of a member means the same as without it.
+    ///
+    /// # Errors
+    /// When a key of the sample has no distribution, or one without a value of the sample.
+    pub fn drawn_from(self, posterior: &Posterior) -> Result<Self, PosteriorError> {
+        let sample = Sample::of(&self, posterior, true)?;
+        Ok(self.with_sample(sample))
+    }
+
+    /// The same for a configuration that was changed while members run: keys of the sample that have lost their
+    /// distribution keep their configured values, and values beyond one are held at its ends.
+    #[must_use]
+    pub fn drawn_from_what_holds(self, posterior: &Posterior) -> Self {
+        match Sample::of(&self, posterior, false) {
+            Ok(sample) => self.with_sample(sample),
+            Err(_) => self,
+        }
+    }
+
+    fn with_sample(self, sample: Sample) -> Self {
+        Self {
+            sample: (!sample.is_empty()).then_some(sample),
+            ..self
+        }
+    }
+
+    /// Lower Cholesky factor of the correlations of the normal scores.
+    pub(crate) fn correlation_factor(&self) -> &DMatrix<f64> {
+        &self.factor
     }
 
     /// All entries, in the order of the file.

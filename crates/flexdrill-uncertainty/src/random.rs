@@ -7,6 +7,8 @@ pub(crate) enum Part {
     Keys = 1,
     /// Errors of sensors.
     Sensors = 2,
+    /// What is taken of a posterior's sample.
+    Sample = 3,
 }
 
 /// A generator of numbers.
@@ -27,6 +29,11 @@ impl Random {
         Self(fastrand::Rng::with_seed(mixed(
             mixed(mixed(seed) ^ member) ^ part as u64,
         )))
+    }
+
+    /// The next 64 bits.
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0.u64(..)
     }
 
     /// Uniform between 0 and 1, which are both left out: a quantile at either is infinite.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::DMatrix;
 
 use super::{Correlated, Distribution, Form, UncertainKey, Uncertainty};
-use crate::checker::{Bound, Checker, NumberKey, number};
+use crate::checker::{Checker, NumberKey, number};
 use crate::lines::Lines;
 use crate::reading::nearest;
 
@@ -200,11 +200,7 @@ impl UncertainKey {
             );
             return;
         }
-        let bound = if of.low_is_in {
-            Bound::within(of.low, of.high)
-        } else {
-            Bound::above(of.low, of.high)
-        };
+        let bound = of.bound();
         let ends = self.distribution.ends().map(|end| self.form.value(end, of.value));
         for end in ends {
             c.require(
