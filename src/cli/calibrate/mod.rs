@@ -20,6 +20,7 @@ use flexdrill_calibration::identify::Verdict;
 use flexdrill_calibration::study::check::At;
 use flexdrill_calibration::study::overlay::{self, Provenance};
 use flexdrill_calibration::study::points::{self, Cover, Point};
+use flexdrill_calibration::study::posterior::sample;
 use flexdrill_calibration::study::unknowns::Unknowns;
 use flexdrill_calibration::study::{self, Study, StudySettings};
 use flexdrill_calibration::windows::{self, Activity, Sample, WindowSettings, Windows};
@@ -28,13 +29,15 @@ use flexdrill_text::{counted, printable};
 
 /// File of the twin's points, by which an interrupted calibration continues.
 const POINTS: &str = "points.csv";
+/// File of the sample that plausible tools are drawn from.
+const POSTERIOR: &str = flexdrill_uncertainty::posterior::FILE;
 
 /// Fit friction, the bit's coefficient and the sensors' tares to a field log or a bag with what the rig measured.
 ///
 /// The steady parts of the log are compared with runs of the twin. What the log does not determine is left as it is and
 /// said so. Full runs check what was found: where they contradict it, the values are not to be used, and the exit code
 /// is 1. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
-/// calibration.json and report.html. The twin's runs are kept in points.csv: the same command goes on after an
+/// calibration.json, report.html, and posterior.csv, the sample that plausible tools are drawn from. The twin's runs are kept in points.csv: the same command goes on after an
 /// interruption.
 #[derive(Debug, Args)]
 pub(super) struct CalibrateArgs {
@@ -233,6 +236,7 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
     let calibrated = overlay::apply(config, study)?;
     let whole = overlay::header(provenance) + &overlay::warnings(study) + &calibrated.to_yaml()?;
     let json = serde_json::to_string_pretty(&overlay::json(study, provenance))?;
+    write_posterior(&args.out, config, study, provenance)?;
     write_file(&args.out, "overlay.yaml", &overlay::yaml(study, provenance))?;
     write_file(&args.out, "calibrated.yaml", &whole)?;
     write_file(&args.out, "calibration.json", &(json + "\n"))?;
@@ -280,6 +284,43 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
     ] {
         say!("wrote {}", args.out.join(name).display());
     }
+    Ok(())
+}
+
+/// Writes the sample of the posterior. Where the log determines nothing there is none, and an older one is removed, which
+/// would be taken for one of this log.
+fn write_posterior(folder: &Path, config: &Config, study: &Study, provenance: &Provenance) -> anyhow::Result<()> {
+    let sampled = sample(&config.numbers(), &study.unknowns, &study.outcome);
+    let path = folder.join(POSTERIOR);
+    if sampled.keys.is_empty() {
+        say!("no {POSTERIOR}: the log determines no key");
+        return match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(error).with_context(|| format!("cannot remove {}", path.display()))
+            }
+            _ => Ok(()),
+        };
+    }
+    let from = flexdrill_uncertainty::posterior::Provenance {
+        version: provenance.version.clone(),
+        tool: config.tool_hash(sampled.keys.iter().copied()),
+        configuration: provenance.configuration.clone(),
+        log: provenance.log.clone(),
+        sha256: provenance.sha256.clone(),
+        rows: provenance.rows,
+        seed: provenance.seed,
+        objections: study.objections().iter().map(ToString::to_string).collect(),
+    };
+    let rows = sampled.members.iter().map(|values| (1.0, values.as_slice()));
+    let text = flexdrill_uncertainty::posterior::to_csv(&from, &sampled.keys, rows);
+    write_file(folder, POSTERIOR, &text)?;
+    if sampled.beyond_limits > 0 {
+        say!(
+            "{POSTERIOR} leaves out {} with a value beyond the limits of its key",
+            counted(sampled.beyond_limits as u64, "member")
+        );
+    }
+    say!("wrote {}", path.display());
     Ok(())
 }
 

@@ -4,6 +4,7 @@ pub mod check;
 pub mod overlay;
 pub mod point;
 pub mod points;
+pub mod posterior;
 pub mod unknowns;
 
 use crate::CalibrationError;
