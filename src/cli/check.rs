@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -11,7 +11,7 @@ use crate::cli::output::{say, say_text};
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::{JointKind, TorsionalMode};
 use flexdrill_core::units::kn_to_n;
-use flexdrill_uncertainty::Priors;
+use flexdrill_uncertainty::{Posterior, Priors};
 
 /// Checks a configuration file and prints a summary, with what is not known of its tool.
 #[derive(Debug, Args)]
@@ -39,8 +39,14 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
         say_text!("{}", config.to_yaml()?);
     } else {
         say_text!("{}", Summary(&config));
-        for line in priors::lines(&Priors::of(&config)?, path, &config.hash()) {
+        let known = Priors::of(&config)?;
+        for line in priors::lines(&known, path, &config.hash()) {
             say!("{line}");
+        }
+        // A node would refuse what is refused here.
+        if let Some(posterior) = Posterior::named_by(&config, path.parent().unwrap_or(Path::new("")))? {
+            known.drawn_from(&posterior)?;
+            say!("{}", priors::posterior(&posterior));
         }
     }
     Ok(())

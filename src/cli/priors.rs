@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use flexdrill_config::Form;
-use flexdrill_text::{printable, six_digits};
+use flexdrill_text::{counted, printable, six_digits};
 use flexdrill_uncertainty::effects::{Effects, FILE};
-use flexdrill_uncertainty::{Entry, Priors, Sensor};
+use flexdrill_uncertainty::{Entry, Posterior, Priors, Sensor};
 
 /// Ends of 90 % of a distribution.
 const ENDS: [f64; 2] = [0.05, 0.95];
@@ -41,6 +41,23 @@ pub(super) fn lines(priors: &Priors, path: &Path, hash: &str) -> Vec<String> {
     lines.extend(sensors.map(|of| format!("  {of}")));
     lines.push(why);
     lines
+}
+
+/// What a calibration has found, where plausible tools are drawn from it.
+pub(super) fn posterior(posterior: &Posterior) -> String {
+    let from = &posterior.provenance;
+    format!(
+        "Plausible tools are drawn from {}: {}, {} alike by their weights, fitted to rows {} to {} of {} by flexdrill {}, of {}. \
+         Other keys are drawn from the distributions above, given these.",
+        posterior.file(),
+        counted(posterior.members().len() as u64, "member"),
+        six_digits(posterior.effective_number().round()),
+        from.rows[0],
+        from.rows[1],
+        printable(&from.log),
+        printable(&from.version),
+        printable(&posterior.keys().join(", "))
+    )
 }
 
 /// The table that was computed before, and a sentence about it.

@@ -12,7 +12,7 @@ use crate::runs::Kept;
 use crate::sensitivity::{Load, picture, study, table};
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
-use flexdrill_text::counted;
+use flexdrill_text::{counted, printable};
 use flexdrill_uncertainty::Priors;
 use flexdrill_uncertainty::effects::FILE;
 
@@ -79,6 +79,13 @@ pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
         progress.elapsed(),
         out.join("sensitivity.csv").display()
     );
+    if let Some(file) = config.ensemble.as_ref().and_then(|ensemble| ensemble.posterior()) {
+        say!(
+            "These are the effects of uncertainty.keys, not of the posterior {} that ensemble.from names: what it has found is \
+             narrower.",
+            printable(file)
+        );
+    }
     anyhow::ensure!(
         effects.outputs.iter().any(|output| output.nominal.is_some()),
         "the run with all keys as configured failed, so that no change is known"

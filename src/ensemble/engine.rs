@@ -14,7 +14,7 @@ use flexdrill_core::twin::RunInputs;
 use flexdrill_ensemble::{LEAST_MEMBERS, effective_number, renewal, weights};
 use flexdrill_messages::Bands;
 use flexdrill_realtime::monotonic;
-use flexdrill_uncertainty::{Priors, UncertaintyError};
+use flexdrill_uncertainty::{Posterior, Priors, UncertaintyError};
 
 /// Model time of a slice (s).
 pub(super) const SLICE: f64 = 0.5;
@@ -99,6 +99,8 @@ struct Choice {
 /// The ensemble of a run.
 pub struct Ensemble {
     config: Arc<Config>,
+    /// What a calibration has found, where members are drawn from it.
+    posterior: Option<Arc<Posterior>>,
     priors: Priors,
     errors: Errors,
     seed: u64,
@@ -117,18 +119,24 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// The ensemble of a configuration; `None` where it has none.
+    /// The ensemble of a configuration; `None` where it has none. `posterior` is what its key `ensemble.from` names, where it
+    /// names a file.
     ///
     /// # Errors
-    /// When nothing can be drawn, which the check of a configuration finds too.
-    pub fn of(config: &Arc<Config>) -> Result<Option<Self>, UncertaintyError> {
+    /// When nothing can be drawn, which the check of a configuration finds too, or the posterior does not fit its priors.
+    pub fn of(config: &Arc<Config>, posterior: Option<Arc<Posterior>>) -> Result<Option<Self>, UncertaintyError> {
         let Some(stated) = &config.ensemble else {
             return Ok(None);
         };
-        let priors = Priors::of(config)?;
+        let priors = match (stated.posterior(), &posterior) {
+            (None, _) => Priors::of(config)?,
+            (Some(_), Some(posterior)) => Priors::of(config)?.drawn_from(posterior)?,
+            (Some(file), None) => return Err(UncertaintyError::NotGiven { file: file.to_owned() }),
+        };
         Ok(Some(Self {
             errors: Errors::of(config, &priors),
             priors,
+            posterior: posterior.filter(|_| stated.posterior().is_some()),
             config: Arc::clone(config),
             seed: stated.seed,
             acts: None,
@@ -299,7 +307,10 @@ impl Ensemble {
         // A change that leaves nothing to draw from is refused by the check of the configuration.
         if let Ok(priors) = Priors::of(&config) {
             self.errors = Errors::of(&config, &priors);
-            self.priors = priors;
+            self.priors = match &self.posterior {
+                Some(posterior) => priors.drawn_from_what_holds(posterior),
+                None => priors,
+            };
         }
         self.config = config;
         let priors = &self.priors;

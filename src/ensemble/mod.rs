@@ -13,6 +13,7 @@ mod evidence;
 mod member;
 mod message;
 mod place;
+mod posterior;
 mod running;
 #[cfg(test)]
 mod tests;
@@ -20,4 +21,5 @@ mod tests;
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
 pub use place::Threads;
+pub use posterior::named_by;
 pub use running::{Pace, Running};

@@ -57,7 +57,7 @@ fn told(config: &Arc<Config>, (ticks, inputs): (u64, RunInputs)) -> Told {
 }
 
 fn ensemble(config: &Arc<Config>) -> Ensemble {
-    Ensemble::of(config).unwrap().unwrap()
+    Ensemble::of(config, None).unwrap().unwrap()
 }
 
 fn generation(members: u32) -> Generation {

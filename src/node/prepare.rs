@@ -24,7 +24,7 @@ use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
 use crate::bag::{RecordingThread, Topic};
-use crate::ensemble::{Ensemble, Pace, Running};
+use crate::ensemble::{self, Ensemble, Pace, Running};
 use crate::live::{Hub, LiveServer, Steering};
 use crate::rig_inputs::Driver;
 use crate::safe_window::SafeWindow;
@@ -40,6 +40,7 @@ use flexdrill_ros2::dds::port::{Inbox, PortBuilder, Sample};
 use flexdrill_ros2::parameters::Parameters;
 use flexdrill_ros2::service::Task;
 use flexdrill_ros2::{loggers, logging, type_description};
+use flexdrill_uncertainty::Posterior;
 
 /// A node whose names and files are checked and whose endpoints are declared. Nothing runs yet, and nothing is on the
 /// network or the disk.
@@ -69,6 +70,8 @@ pub(super) struct PreparedNode {
     checkpoint: Option<Vec<u8>>,
     /// The map of speed and weight, where one is named.
     window: Option<Arc<SafeWindow>>,
+    /// What plausible tools are drawn from, where the configuration names it.
+    posterior: Option<Arc<Posterior>>,
     /// Notified when a managed node is shut down by its service.
     shut_down: Arc<Notify>,
 }
@@ -81,8 +84,11 @@ impl PreparedNode {
     pub(super) fn new(setup: NodeSetup) -> Result<Self, NodeError> {
         // Files first: a wrong checkpoint or map ends the program before it appears on the network.
         let checkpoint = setup.checkpoint.as_deref().map(read_checkpoint).transpose()?;
-        let config = Arc::new(setup.config.clone());
-        let window = SafeWindow::of(&config, Path::new(&setup.config_file))?.map(Arc::new);
+        let config_file = Path::new(&setup.config_file);
+        let (config, posterior) =
+            ensemble::named_by(&setup.config, config_file).map_err(|error| NodeError::Stopped(error.to_string()))?;
+        let config = Arc::new(config);
+        let window = SafeWindow::of(&config, config_file)?.map(Arc::new);
         let node_name = setup.identity.full_name();
         let mut port = PortBuilder::new(&setup.network, &setup.identity.namespace, &setup.identity.name);
         // Log lines from here on also reach `/rosout`; those before it are in the terminal alone.
@@ -205,6 +211,7 @@ impl PreparedNode {
             viewers,
             checkpoint,
             window,
+            posterior,
             shut_down,
             setup,
         })
@@ -264,7 +271,8 @@ impl PreparedNode {
         if let Some(window) = self.window {
             session.judge_by(window);
         }
-        if let Some(ensemble) = Ensemble::of(&self.config).map_err(|error| NodeError::Stopped(error.to_string()))? {
+        let ensemble = Ensemble::of(&self.config, self.posterior);
+        if let Some(ensemble) = ensemble.map_err(|error| NodeError::Stopped(error.to_string()))? {
             let running =
                 Running::start(ensemble, Pace::Clock).map_err(|error| NodeError::Stopped(error.to_string()))?;
             session.run_with(running);

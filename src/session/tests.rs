@@ -75,7 +75,7 @@ fn hosted(config: &Arc<Config>) -> (Session, Kept) {
     let mut message = RigMeasured::not_given(session.header(START), RigMeasured::GOOD, "test".into());
     message.set(MeasuredKind::SurfaceTorque, 300.0);
     host.measured.accept(&message, START, 0.0, 1.0).unwrap();
-    let ensemble = Ensemble::of(config).unwrap().unwrap();
+    let ensemble = Ensemble::of(config, None).unwrap().unwrap();
     session.run_with(Running::start(ensemble, Pace::Waits(Vec::new())).unwrap());
     session.begin(START, &mut host).unwrap();
     session.applied(&run.applied(), &[], 0, &mut host).unwrap();

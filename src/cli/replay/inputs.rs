@@ -1,6 +1,7 @@
 //! Timed inputs of a field log or of another program's bag, passed through the same conditioner as live samples.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::player::Player;
 use crate::alarms::Unknown;
@@ -13,16 +14,19 @@ use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::INPUT_PERIOD;
 use flexdrill_text::counted;
+use flexdrill_uncertainty::Posterior;
 
 /// Model time after the last sample (s).
 const TAIL: f64 = 1.0;
 
-/// Runs the model through the samples, which are in the order of their times.
+/// Runs the model through the samples, which are in the order of their times. Plausible tools are drawn from `posterior`
+/// where the configuration names one.
 pub(super) fn replay(
     config: Config,
     samples: Samples,
     out: &Path,
     duration: Option<f64>,
+    posterior: Option<Arc<Posterior>>,
 ) -> anyhow::Result<(Player, Progress)> {
     // The messages are formed before the samples are taken apart: the recording
     // gets them as received, the conditioner gets their values.
@@ -57,7 +61,7 @@ pub(super) fn replay(
             }
         },
     )?;
-    player.run_ensemble(Vec::new())?;
+    player.run_ensemble(Vec::new(), posterior)?;
     // An optional input that is missing everywhere is said once; each sample that lacks it would repeat it.
     for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
         if conditioner.is_of_interest(kind) && !samples.iter().any(|sample| sample.kind == kind) {

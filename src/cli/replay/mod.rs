@@ -57,6 +57,10 @@ pub(super) struct ReplayArgs {
     /// run.
     #[arg(long, value_name = "NUMBER")]
     members: Option<u32>,
+    /// Sample that the plausible tools of a recording were drawn from, where its configuration names one (ensemble.from).
+    /// Default: that name, next to the recording.
+    #[arg(long, value_name = "FILE")]
+    posterior: Option<PathBuf>,
     /// Longest model time (s).
     #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
@@ -105,6 +109,8 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
         }
         // Without applied inputs the samples of the rig are the next best source;
         // they are conditioned again, so the replay is not exact.
+        let config = script.config()?;
+        let posterior = script.posterior(&config, args.posterior.as_deref(), &args.input)?;
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
                 format!(
@@ -113,9 +119,9 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
                     topics::APPLIED_INPUTS.name
                 )
             })?;
-            inputs::replay(script.config()?, samples, out, args.duration)?
+            inputs::replay(config, samples, out, args.duration, posterior)?
         } else {
-            script.replay(out, args.duration)?
+            script.replay(out, args.duration, posterior)?
         };
         finish(done, args.incidents.as_deref())?;
         match exactness.departures.as_slice() {
@@ -124,9 +130,17 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
         }
         return Ok(());
     }
+    if args.posterior.is_some() {
+        return Err(WrongUse::new("--posterior belongs to a recording of flexdrill; for other inputs the configuration names the file, ensemble.from").into());
+    }
     let (mut config, name) = load_config(args.config.as_deref())?;
     if let Some(members) = args.members {
         config = config.with_members("--members", members)?;
+    }
+    let mut posterior = None;
+    if player::asks_for_members(&config) {
+        let file = args.config.as_deref().unwrap_or(Path::new(""));
+        (config, posterior) = crate::ensemble::named_by(&config, file)?;
     }
     say!("configuration {name}, hash {}", &config.hash()[..12]);
     let samples = if args.wits {
@@ -134,7 +148,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     } else {
         args.source.read(&args.input)?
     };
-    let done = inputs::replay(config, samples, out, args.duration)?;
+    let done = inputs::replay(config, samples, out, args.duration, posterior)?;
     finish(done, args.incidents.as_deref())
 }
 

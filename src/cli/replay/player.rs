@@ -16,11 +16,12 @@ use crate::field_log::LogRows;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::residuals::{self, Samples};
 use crate::session::Session;
-use flexdrill_config::{Config, Rates};
+use flexdrill_config::{Config, Members, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
 use flexdrill_outputs::{ParameterChange, schedule};
 use flexdrill_realtime::monotonic;
+use flexdrill_uncertainty::Posterior;
 
 /// The topics of a replay: all that do not depend on wall-clock time.
 fn replayed() -> impl Iterator<Item = &'static TopicInfo> {
@@ -108,16 +109,19 @@ impl Player {
     }
 
     /// Runs plausible tools with the twin: those of a recorded run, or where none is given as many as the configuration asks
-    /// for by a number. Call it before the first inputs.
+    /// for by a number, drawn from the posterior that the configuration names. Call it before the first inputs.
     ///
     /// # Errors
     /// When nothing can be drawn, or there is no thread for them.
-    pub(super) fn run_ensemble(&mut self, recorded: Vec<Generation>) -> anyhow::Result<()> {
-        let Some(ensemble) = Ensemble::of(self.session.config())? else {
+    pub(super) fn run_ensemble(
+        &mut self,
+        recorded: Vec<Generation>,
+        posterior: Option<Arc<Posterior>>,
+    ) -> anyhow::Result<()> {
+        if recorded.is_empty() && !asks_for_members(self.config()) {
             return Ok(());
-        };
-        // `auto` is for a run by a clock: as many as it leaves time for.
-        if !recorded.is_empty() || ensemble.asked().is_some() {
+        }
+        if let Some(ensemble) = Ensemble::of(self.session.config(), posterior)? {
             self.session.run_with(Running::start(ensemble, Pace::Waits(recorded))?);
         }
         Ok(())
@@ -275,4 +279,11 @@ impl Player {
         let recording = recorder.finish().context("the bag could not be finished")?;
         Ok((recording, tally))
     }
+}
+
+/// Whether a configuration asks for a number of plausible tools. `auto` is for a run by a clock: as many as it leaves time
+/// for.
+pub(super) fn asks_for_members(config: &Config) -> bool {
+    let members = config.ensemble.as_ref().map(|ensemble| ensemble.members);
+    matches!(members, Some(Members::Count(_)))
 }

@@ -6,10 +6,11 @@
 //! tool at rest.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::Context as _;
 
-use super::player::Player;
+use super::player::{Player, asks_for_members};
 use crate::bag::{self, Bag, BagError, Gap, Gaps};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
@@ -24,6 +25,7 @@ use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_outputs::{ParameterChange, run_inputs};
 use flexdrill_text::printable;
+use flexdrill_uncertainty::Posterior;
 
 /// Possible differences between a replay and the recorded run.
 #[derive(Debug, Default)]
@@ -190,6 +192,35 @@ impl Script {
         )?)
     }
 
+    /// The posterior that its plausible tools were drawn from, if they were: in the file `given`, or in the recorded one next
+    /// to the recording `at`.
+    ///
+    /// # Errors
+    /// When the file is not there, or is another one: the replay would have other plausible tools.
+    pub(super) fn posterior(
+        &self,
+        config: &Config,
+        given: Option<&Path>,
+        at: &Path,
+    ) -> anyhow::Result<Option<Arc<Posterior>>> {
+        let stated = config.ensemble.as_ref();
+        let Some((stated, file)) = stated.and_then(|stated| Some((stated, stated.posterior()?))) else {
+            return Ok(None);
+        };
+        if self.ensembles.is_empty() && !asks_for_members(config) {
+            return Ok(None);
+        }
+        let path = given.map_or_else(|| at.with_file_name(file), Path::to_owned);
+        let posterior = Posterior::load(&path, config).with_context(|| {
+            format!(
+                "the recorded run drew its plausible tools from {} (SHA-256 {}); give that file with --posterior",
+                printable(file),
+                printable(stated.posterior_sha256.as_deref().unwrap_or("not recorded"))
+            )
+        })?;
+        Ok(Some(Arc::new(posterior)))
+    }
+
     /// Possible differences between its replay and the recorded run.
     pub(super) fn exactness(&self) -> Exactness {
         let mut exactness = Exactness::default();
@@ -249,7 +280,13 @@ impl Script {
     }
 
     /// Replays the recording into `out`, at most `duration` s of model time.
-    pub(super) fn replay(&self, out: &Path, duration: Option<f64>) -> anyhow::Result<(Player, Progress)> {
+    /// Its plausible tools are drawn from `posterior` where the recorded run drew them from one.
+    pub(super) fn replay(
+        &self,
+        out: &Path,
+        duration: Option<f64>,
+        posterior: Option<Arc<Posterior>>,
+    ) -> anyhow::Result<(Player, Progress)> {
         let config = self.config()?;
         let time_step = config.solver.time_step;
         let total = self.total() as f64 * time_step;
@@ -267,7 +304,7 @@ impl Script {
             begun: ((begun - base.start) as f64 * 1e-9 / time_step).round().max(0.0) as u64,
             ..generation.clone()
         });
-        player.run_ensemble(ensembles.collect())?;
+        player.run_ensemble(ensembles.collect(), posterior)?;
         let mut pace = Pace {
             taken: 0,
             most: duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64),
@@ -417,7 +454,6 @@ mod tests {
     use super::*;
     use crate::bag::{BagMessage, Topic};
     use crate::messages::to_cdr;
-    use std::sync::Arc;
 
     fn recorded(message: &AppliedInputs, shorter: usize) -> BagMessage {
         let mut data = to_cdr(message).unwrap();
