@@ -150,7 +150,8 @@ mod tests {
         ] {
             let config = Config::from_text("a file", text).unwrap();
             let with = config.with_members("--members", 12).unwrap();
-            assert_eq!(with.ensemble.map(|ensemble| ensemble.members), Some(Members::Count(12)));
+            let members = with.ensemble.as_ref().map(|ensemble| ensemble.members);
+            assert_eq!(members, Some(Members::Count(12)));
             assert!(config.with_members("--members", 7).is_err());
         }
         let known = Config::from_text("paper.yaml", include_str!("../../../config/paper.yaml")).unwrap();

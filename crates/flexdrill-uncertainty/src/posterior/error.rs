@@ -28,7 +28,7 @@ pub enum PosteriorError {
     },
     /// A value is out of bounds.
     #[error(
-        "{file}:{line}: {key}: {}{}: must be {bound} ({reason})",
+        "{file}:{line}: {key}: {}{}: must be {rule}",
         number(*value), unit_after(unit)
     )]
     Value {
@@ -42,10 +42,8 @@ pub enum PosteriorError {
         value: f64,
         /// Of the value; empty if dimensionless.
         unit: &'static str,
-        /// What is allowed.
-        bound: String,
-        /// Why.
-        reason: String,
+        /// What is allowed, and why.
+        rule: String,
     },
     /// A column that is no number of the configuration.
     #[error(

@@ -254,8 +254,7 @@ impl Posterior {
                         key: limit.key.clone(),
                         value: *value,
                         unit: limit.unit,
-                        bound: limit.bound().words(limit.unit),
-                        reason: limit.reason.to_owned(),
+                        rule: format!("{} ({})", limit.bound().words(limit.unit), limit.reason),
                     });
                 }
             }

@@ -277,8 +277,7 @@ fn same_draws(posterior: &Posterior, first: &Column, other: &Column) -> Result<(
                 key: other.key.to_owned(),
                 value: member.values[other.index],
                 unit: other.unit,
-                bound: number(value),
-                reason: format!("it has one draw with {}", first.key),
+                rule: format!("{} (it has one draw with {})", number(value), first.key),
             });
         }
     }
@@ -317,7 +316,6 @@ fn beyond(posterior: &Posterior, member: &Weighted, column: &Column) -> Posterio
         key: column.key.to_owned(),
         value: member.values[column.index],
         unit: column.unit,
-        bound: format!("from {low} to {high}"),
-        reason: "its prior has no values beyond; state a wider one".to_owned(),
+        rule: format!("from {low} to {high} (its prior has no values beyond; state a wider one)"),
     }
 }
