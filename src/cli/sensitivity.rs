@@ -60,6 +60,7 @@ pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
     );
     let out = args.out.clone().unwrap_or_else(|| priors::folder(&args.config));
     std::fs::create_dir_all(&out).with_context(|| format!("cannot create {}", out.display()))?;
+    // Runs that an interrupted study has left are not made again.
     let kept = args.resume.then(|| Kept::open(&out.join("points"))).transpose()?;
     let mut progress = Progress::share();
     let effects = study(config.hash(), &priors, &load, args.jobs, kept.as_ref(), |share| {
@@ -79,6 +80,7 @@ pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
         progress.elapsed(),
         out.join("sensitivity.csv").display()
     );
+    // A study of the priors overstates what is open once a calibration has narrowed them.
     if let Some(file) = config.ensemble.as_ref().and_then(|ensemble| ensemble.posterior()) {
         say!(
             "These are the effects of uncertainty.keys, not of the posterior {} that ensemble.from names: what it has found is \

@@ -9,6 +9,7 @@ use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::twin::{Run, RunInputs, Simulation};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_outputs::figures::OverTools;
+use flexdrill_uncertainty::Posterior;
 
 /// A short tool in a nearly horizontal hole under ten times the weight, so that friction takes much of its torque, with what
 /// is not known of it. Steps are few and whole: what is tested here is the ensemble, not the mechanics.
@@ -168,6 +169,64 @@ fn members_of_a_known_tool_do_what_the_twin_does() {
             );
         }
     }
+}
+
+/// A calibration that has found the friction draws members near it, whose bands lie about the run of the tool with it;
+/// without its file nothing is drawn.
+#[test]
+fn members_are_drawn_from_what_a_calibration_has_found() {
+    const FOUND: f64 = 0.3;
+    let key = "contact.inner.friction_tangential";
+    let wide = &*WIDE;
+    let ensemble_of = flexdrill_config::Ensemble {
+        from: flexdrill_config::DrawnFrom::Posterior("posterior.csv".to_owned()),
+        ..wide.ensemble.clone().unwrap()
+    };
+    let section = serde_json::to_string(&ensemble_of).unwrap();
+    let text = format!("{TOOL}uncertainty:\n{FRICTION}\nensemble: {section}\n");
+    let config = Arc::new(Config::from_text("tool.yaml", &text).unwrap());
+    let missing = Ensemble::of(&config, None).err().unwrap().to_string();
+    assert!(missing.contains("posterior.csv"), "{missing}");
+
+    let provenance = flexdrill_uncertainty::posterior::Provenance {
+        tool: config.tool_hash([key]),
+        configuration: config.hash(),
+        sha256: "ab".repeat(32),
+        rows: [1, 100],
+        ..Default::default()
+    };
+    let rows: Vec<(f64, [f64; 1])> = (0..40)
+        .map(|k| (1.0, [FOUND + 0.0005 * (f64::from(k) - 19.5)]))
+        .collect();
+    let rows = rows.iter().map(|(weight, values)| (*weight, values.as_slice()));
+    let csv = flexdrill_uncertainty::posterior::to_csv(&provenance, &[key], rows);
+    let posterior = Posterior::from_csv("posterior.csv", csv.as_bytes()).unwrap();
+    posterior.belongs_to(&config).unwrap();
+
+    let plan = acts(&config, 0, 60.0, 8.0);
+    let bands_of = |mut ensemble: Ensemble, config: &Arc<Config>| {
+        ensemble.hear(told(config, plan));
+        ensemble.hear(Told::Reached(4 * SECOND));
+        ensemble.begin(generation(12));
+        found(&mut ensemble, 2)
+    };
+    let drawn = Ensemble::of(&config, Some(Arc::new(posterior))).unwrap().unwrap();
+    let (near, prior) = (bands_of(drawn, &config), bands_of(ensemble(wide), wide));
+    let keys = [
+        key,
+        "contact.inner.friction_axial",
+        "contact.outer.friction_tangential",
+        "contact.outer.friction_axial",
+    ];
+    let tool = wide.with_values("a test", keys.map(|key| (key, FOUND))).unwrap();
+    let figures = &run(&tool, &[plan], 4)[3].0;
+    let name = "transfer/kickoff_torque";
+    let index = OverTools::known().iter().position(|known| known.name == name).unwrap();
+    let ([low, middle, high], [from, _, to]) = (band(&near[3], name), band(&prior[3], name));
+    // The sample is 0.02 wide and scatters by a tenth of that; the prior is 0.4 wide.
+    assert!(high - low < 0.15 * (to - from), "{low} to {high}, prior {from} to {to}");
+    let value = figures[index];
+    assert!((low..=high).contains(&value), "{low} {middle} {high}: {value}");
 }
 
 /// Pieces, order of arrival and threads change nothing; neither do speeds, a change of a parameter, or a reset.

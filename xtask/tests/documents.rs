@@ -160,7 +160,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 15] = [
+const WRITTEN_FILES: [&str; 16] = [
     "metadata.yaml",
     "report.md",
     "findings.csv",
@@ -173,6 +173,7 @@ const WRITTEN_FILES: [&str; 15] = [
     "envelope_y.csv",
     // by `flexdrill calibrate`
     "overlay.yaml",
+    "posterior.csv",
     "calibrated.yaml",
     "calibration.json",
     "sensitivity.csv",

@@ -87,6 +87,7 @@ impl Ensemble {
                 "fewer than 8 have no band from 5 to 95 %, and more take more than a workstation has",
             );
         }
+        // Without distributions the members would differ in nothing, and their bands would say that all is known.
         c.require(
             uncertain,
             "members",
@@ -104,6 +105,7 @@ impl Ensemble {
             "prior, or posterior with the name of a file",
             "an empty name is no sample",
         );
+        // A checksum that no file can have would refuse every file with a misleading reason.
         if let Some(digest) = &self.posterior_sha256 {
             c.require(
                 digest.len() == 64 && digest.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f')),

@@ -122,6 +122,7 @@ impl PlausibleTools {
                 self.why.clone_from(&message.no_bands);
             }
         }
+        // The largest numbers of the run, since members are replaced while it lasts.
         self.members = self.members.max(message.members);
         self.failed = self.failed.max(message.failed);
         self.renewals = self.renewals.max(message.renewals);
@@ -137,6 +138,7 @@ impl PlausibleTools {
             }
         }
         self.any_alarm.push(time, message.any_alarm);
+        // A message has only the alarms that a member has: the mean divides by all messages.
         for alarm in &message.alarms {
             let known = (self.alarms.iter()).position(|known| known.id == alarm.id && known.priority == alarm.priority);
             let index = known.unwrap_or(self.alarms.len());

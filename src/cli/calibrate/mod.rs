@@ -37,8 +37,8 @@ const POSTERIOR: &str = flexdrill_uncertainty::posterior::FILE;
 /// The steady parts of the log are compared with runs of the twin. What the log does not determine is left as it is and
 /// said so. Full runs check what was found: where they contradict it, the values are not to be used, and the exit code
 /// is 1. Writes overlay.yaml (the changed keys with their 90 % bands), calibrated.yaml (a whole configuration, to run),
-/// calibration.json, report.html, and posterior.csv, the sample that plausible tools are drawn from. The twin's runs are kept in points.csv: the same command goes on after an
-/// interruption.
+/// calibration.json, report.html, and posterior.csv, the sample that plausible tools are drawn from. The twin's runs are
+/// kept in points.csv: the same command goes on after an interruption.
 #[derive(Debug, Args)]
 pub(super) struct CalibrateArgs {
     /// Field log (CSV) or bag with rig/measured.

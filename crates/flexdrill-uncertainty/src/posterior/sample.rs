@@ -94,6 +94,7 @@ impl Sample {
     /// The sample in the scores of these priors. With `whole` each column must have a distribution that has its values;
     /// otherwise columns without one are left out, and values are held at its ends.
     pub(crate) fn of(priors: &Priors, posterior: &Posterior, whole: bool) -> Result<Self, PosteriorError> {
+        // Keys of one entry have one draw, so that the sample must have the same for all of them.
         let mut columns: Vec<Column> = Vec::new();
         for (index, key) in posterior.keys().iter().enumerate() {
             let Some(column) = column(priors, key, index) else {
@@ -125,6 +126,7 @@ impl Sample {
             }
             members.push(scores);
         }
+        // The scatter about a member needs the spread of all, by their weights.
         let shares = shares(posterior.members());
         let (mean, root) = spread(&members, &shares);
         let cumulated = shares.iter().scan(0.0, |sum, share| {
