@@ -28,7 +28,12 @@ const SILENCE: Duration = Duration::from_secs(3);
 const EVENTS: usize = 16;
 
 /// What the bridge receives: the topics that have figures, and these.
-const MORE_TOPICS: [&TopicInfo; 3] = [&topics::FORECAST, &topics::SAFE_WINDOW, &topics::RESIDUALS];
+const MORE_TOPICS: [&TopicInfo; 4] = [
+    &topics::FORECAST,
+    &topics::SAFE_WINDOW,
+    &topics::RESIDUALS,
+    &topics::BANDS,
+];
 
 /// Names of the two connections: an MQTT connection has one will, and JSON and Sparkplug need one each.
 const NAMES: [&str; 2] = ["mqtt", "sparkplug"];
@@ -132,17 +137,19 @@ impl MqttBridge {
         }
     }
 
-    /// Takes what DDS brought. Alarms, forecast, safe window and residuals are sent at once.
+    /// Takes what DDS brought. Alarms, forecast, safe window, residuals and bands are sent at once.
     fn receive(&mut self) {
         // The closure below borrows the node mutably, so the figures leave `self` for its time.
         let mut twin = std::mem::take(&mut self.twin);
         let mut heard = false;
         // A backlog may hold several of each, and a broker keeps one document per topic, so only the newest is sent.
-        let (mut alarms, mut forecast, mut window, mut residuals) = (false, None, None, None);
+        let (mut alarms, mut forecast, mut window) = (false, None, None);
+        let (mut residuals, mut bands) = (None, None);
         let unreadable = self.node.take(|topic, body| match topic.name {
             name if name == topics::FORECAST.name => newest(&mut forecast, body),
             name if name == topics::SAFE_WINDOW.name => newest(&mut window, body),
             name if name == topics::RESIDUALS.name => newest(&mut residuals, body),
+            name if name == topics::BANDS.name => newest(&mut bands, body),
             name => {
                 heard |= name == topics::STATUS.name;
                 // The list of alarms is latched state, sent in full; flags suffice and the figures hold the newest.
@@ -170,6 +177,10 @@ impl MqttBridge {
         if let Some(residuals) = residuals {
             self.put("residuals", &json::residuals(&residuals));
             self.node_update(|node| mqtt_figures::residuals(node, &residuals));
+        }
+        if let Some(bands) = bands {
+            self.put("bands", &json::bands(&bands));
+            self.node_update(|node| mqtt_figures::bands(node, &bands));
         }
         // A message that does not decode comes from another version. It is
         // counted and reported once, and does not end the bridge.

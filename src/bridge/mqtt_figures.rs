@@ -2,7 +2,7 @@
 
 use flexdrill_bridge::mqtt::{SparkplugNode, json};
 use flexdrill_bridge::{Figure, TwinFigures};
-use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals};
+use flexdrill_messages::{Alarm, AlarmList, Bands, Forecast, Residuals};
 use flexdrill_outputs::words;
 
 /// Whether the twin is there; it keeps its value when the others are no longer known.
@@ -46,6 +46,22 @@ pub fn forecast(node: &mut SparkplugNode, forecast: &Forecast) {
         let highest = band.p95.iter().copied().fold(f64::NAN, f64::max);
         node.number(&name("lowest"), &unit, lowest);
         node.number(&name("highest"), &unit, highest);
+    }
+}
+
+/// Plausible tools: how many there are, in what share of them an alarm stands, and the bands of the twin's figures.
+pub fn bands(node: &mut SparkplugNode, bands: &Bands) {
+    node.number("Bands/effective", "1", bands.effective);
+    node.number("Bands/any_alarm", "1", bands.any_alarm);
+    node.text("Bands/no_bands", Some(&bands.no_bands));
+    for band in &bands.bands {
+        let unit = match band.unit.as_str() {
+            "" => "1".to_owned(),
+            unit => unit.replace("N m", "N.m"),
+        };
+        for (what, value) in [("p5", band.p5), ("p50", band.p50), ("p95", band.p95)] {
+            node.number(&format!("Bands/{}/{what}", band.name), &unit, value);
+        }
     }
 }
 

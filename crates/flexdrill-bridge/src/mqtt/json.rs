@@ -2,7 +2,7 @@
 //! What is not known is `null`.
 
 use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::{Alarm, AlarmList, Forecast, Residuals, SafeWindow, TwinStatus};
+use flexdrill_messages::{Alarm, AlarmChance, AlarmList, Bands, Forecast, Residuals, SafeWindow, TwinStatus};
 use flexdrill_outputs::words;
 use jiff::Timestamp;
 use serde_json::{Map, Value, json};
@@ -160,6 +160,59 @@ fn alarm(alarm: &Alarm) -> Value {
     })
 }
 
+/// The chance of an alarm of a priority or a higher one, with its 95 % interval and the members that had it.
+fn chance(of: &AlarmChance) -> Value {
+    json!({
+        "id": of.id,
+        "name": of.name,
+        "priority": words::alarm_priority(of.priority),
+        "probability": of.probability,
+        "lower": of.lower,
+        "upper": of.upper,
+        "seen": of.seen,
+        "members": of.members,
+    })
+}
+
+/// The chance of an alarm in the next minute, with the median of the time to it.
+fn in_the_next_minute(of: &AlarmChance) -> Value {
+    let mut document = chance(of);
+    // `quantity` turns NaN into null with its unit: JSON has no NaN.
+    document["time_to_first"] = quantity(of.time_to_first, "s");
+    document
+}
+
+/// The document of `bands`.
+pub fn bands(bands: &Bands) -> Value {
+    let each: Vec<Value> = bands
+        .bands
+        .iter()
+        .map(|band| {
+            json!({
+                "name": band.name,
+                "unit": unit_name(&band.unit),
+                "p5": band.p5,
+                "p50": band.p50,
+                "p95": band.p95,
+            })
+        })
+        .collect();
+    json!({
+        "stamp": time(&bands.header.stamp),
+        "members": bands.members,
+        "failed": bands.failed,
+        "effective": bands.effective,
+        "no_bands": text(&bands.no_bands),
+        "any_alarm": {
+            "probability": bands.any_alarm,
+            "lower": bands.any_alarm_lower,
+            "upper": bands.any_alarm_upper,
+        },
+        "alarms": bands.alarms.iter().map(chance).collect::<Vec<_>>(),
+        "bands": each,
+    })
+}
+
 /// The document of `forecast`.
 pub fn forecast(forecast: &Forecast) -> Value {
     // Bands and alarms are lists, because a later version may have more; a reader finds its own by name.
@@ -176,22 +229,6 @@ pub fn forecast(forecast: &Forecast) -> Value {
             })
         })
         .collect();
-    let alarms: Vec<Value> = forecast
-        .alarms
-        .iter()
-        .map(|chance| {
-            json!({
-                "id": chance.id,
-                "name": chance.name,
-                "priority": words::alarm_priority(chance.priority),
-                "probability": chance.probability,
-                "lower": chance.lower,
-                "upper": chance.upper,
-                // `quantity` turns NaN into null with its unit: JSON has no NaN.
-                "time_to_first": quantity(chance.time_to_first, "s"),
-            })
-        })
-        .collect();
     // One document per topic, complete: a client that joins gets the retained one and needs no history.
     json!({
         "stamp": time(&forecast.header.stamp),
@@ -205,7 +242,7 @@ pub fn forecast(forecast: &Forecast) -> Value {
             "lower": forecast.any_alarm_lower,
             "upper": forecast.any_alarm_upper,
         },
-        "alarms": alarms,
+        "alarms": forecast.alarms.iter().map(in_the_next_minute).collect::<Vec<_>>(),
         // The bands are by whole seconds of model time, and begin with the first after the state.
         "bands_from": time(&forecast.bands_from),
         "interval": quantity(forecast.interval, "s"),
@@ -356,5 +393,52 @@ mod tests {
         assert_eq!(document["inputs"][1]["state"], Value::Null);
         let figures = figures(&TwinFigures::default(), 0);
         assert_eq!(figures["figures"]["bit_torque"], json!({"value": null, "unit": "N.m"}));
+    }
+
+    #[test]
+    fn plausible_tools_say_how_many_they_are_and_why_there_are_no_bands() {
+        let known = Bands {
+            members: 12,
+            effective: 9.5,
+            any_alarm: 0.25,
+            bands: vec![flexdrill_messages::FigureBand {
+                name: "transfer/bit_torque".into(),
+                unit: "N m".into(),
+                p5: 80.0,
+                p50: 92.0,
+                p95: f64::NAN,
+            }],
+            alarms: vec![AlarmChance {
+                id: "stick_slip".into(),
+                priority: Alarm::HIGH,
+                seen: 3,
+                members: 12,
+                probability: 0.25,
+                ..AlarmChance::default()
+            }],
+            ..Bands::default()
+        };
+        let document = bands(&known);
+        let band = &document["bands"][0];
+        assert_eq!(
+            (&band["unit"], &band["p50"], &band["p95"]),
+            (&json!("N.m"), &json!(92.0), &Value::Null)
+        );
+        let alarm = &document["alarms"][0];
+        assert_eq!((&alarm["seen"], &alarm["members"]), (&json!(3), &json!(12)));
+        assert_eq!(alarm["priority"], "high");
+        assert_eq!(
+            (&document["no_bands"], &document["stamp"]),
+            (&Value::Null, &Value::Null)
+        );
+        let unknown = Bands {
+            no_bands: "too few members".into(),
+            any_alarm: f64::NAN,
+            ..Bands::default()
+        };
+        let document = bands(&unknown);
+        assert_eq!(document["no_bands"], "too few members");
+        assert_eq!(document["any_alarm"]["probability"], Value::Null);
+        assert_eq!(document["bands"], json!([]));
     }
 }
