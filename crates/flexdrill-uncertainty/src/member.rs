@@ -46,7 +46,7 @@ impl Priors {
             let mut scores = scores(&mut random, self.entries().len());
             scores.extend(&of_sensors);
             if let Some(sample) = &self.sample {
-                // A member of the sample that the configuration refuses gives way to any other.
+                // A member of the sample that the configuration refuses is replaced by any other.
                 let share = match refused {
                     0 => spread_share(seed, member),
                     _ => of_sample.uniform(),

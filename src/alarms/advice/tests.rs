@@ -299,6 +299,9 @@ fn a_tested_change_says_which_alarms_it_ends_and_which_stay() {
             "Follow the advice for backward whirl first, then check this alarm again."
         ]
     );
+    // From 120 to 84 r/min: with half of the way behind it, or beyond it, the sentence would be wrong.
+    let ahead = [125.0, 120.0, 103.0, 101.0, 84.0, 80.0].map(|rpm| tested.lies_ahead([rpm, 10.0]));
+    assert_eq!(ahead, [true, true, true, false, false, false]);
     let alone = Tested {
         ends: set(&[AlarmId::BackwardWhirl]),
         stays: AlarmSet::EMPTY,

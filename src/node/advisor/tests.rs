@@ -95,7 +95,7 @@ fn a_search_waits_for_a_settled_alarm_and_holds_where_it_was_made() {
     assert!(advisor.due().is_none(), "one search is enough");
     assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
     assert_eq!(advisor.follow(leads(), &acting([119.0, 10.1])), Some(tested()));
-    // Beyond half of the change, which is to 72 r/min, the sentence would be wrong.
+    // A rig wavers by more than a drive does.
     assert_eq!(advisor.follow(leads(), &acting([117.0, 9.0])), Some(tested()));
     // Somewhere else, or for another alarm, it says nothing.
     assert_eq!(advisor.follow(leads(), &acting([100.0, 10.0])), None);
