@@ -141,3 +141,93 @@ fn every_number_reaches_the_mechanics() {
     // Only with a free curvature and a guide that is held against turning, and only with `scheme: newmark`.
     assert_eq!(refused, ["tool.guide.free_curvature_phase_deg", "solver.gamma"]);
 }
+
+/// The YAML files of the repository and the YAML in its documents, each with its name.
+fn yaml_texts() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let files = |folder: &str, extension: &str| {
+        let entries = std::fs::read_dir(root.join(folder)).unwrap();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+        files.retain(|path| path.extension().is_some_and(|found| found == extension));
+        files.sort();
+        files
+    };
+    let read = |path: &PathBuf| (path.display().to_string(), std::fs::read_to_string(path).unwrap());
+    let folders = [
+        "config",
+        "config/verify",
+        "config/field_logs",
+        "docs/examples",
+        "tests/data",
+    ];
+    let mut texts: Vec<_> = folders
+        .iter()
+        .flat_map(|folder| files(folder, "yaml"))
+        .map(|path| read(&path))
+        .collect();
+    assert!(texts.len() > 50, "{} files", texts.len());
+    let pages = ["", "docs", "docs/effects", "docs/decisions"]
+        .iter()
+        .flat_map(|folder| files(folder, "md"));
+    let before = texts.len();
+    for (name, page) in pages.map(|path| read(&path)) {
+        for block in page.split("```yaml\n").skip(1) {
+            texts.push((name.clone(), block.split("```").next().unwrap().to_owned()));
+        }
+    }
+    assert!(texts.len() > before + 5, "{} blocks", texts.len() - before);
+    texts
+}
+
+/// The plain values of a text, without comments.
+fn plain_values(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().flat_map(|line| {
+        let code = line.split(" #").next().unwrap_or(line);
+        let code = if code.trim_start().starts_with('#') { "" } else { code };
+        let items = code.split(['[', ']', '{', '}', ',']).flat_map(|item| item.split(": "));
+        items.map(|item| item.trim().trim_start_matches("- ").trim())
+    })
+}
+
+/// Whether YAML 1.1 reads a decimal number, as PyYAML 6 does: an exponent needs a point before it and a sign
+/// (<https://yaml.org/type/float.html>, <https://yaml.org/type/int.html>).
+fn is_number_of_yaml_1_1(text: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let (number, exponent) = text
+        .split_once(['e', 'E'])
+        .map_or((text, None), |(number, exponent)| (number, Some(exponent)));
+    let number = number.strip_prefix(['-', '+']).unwrap_or(number);
+    match (number.split_once('.'), exponent) {
+        (None, exponent) => digits(number) && exponent.is_none(),
+        (Some((whole, fraction)), exponent) => {
+            let exponent = exponent.is_none_or(|exponent| exponent.strip_prefix(['-', '+']).is_some_and(digits));
+            (digits(whole) || whole.is_empty() && digits(fraction))
+                && (fraction.is_empty() || digits(fraction))
+                && exponent
+        }
+    }
+}
+
+/// Programs in Python read the files too: with PyYAML `206e9` is a text, and `206.0e+9` a number.
+#[test]
+fn numbers_are_numbers_for_readers_of_yaml_1_1_too() {
+    // As PyYAML 6.0.3 reads them.
+    for text in ["206.0e+9", "1.0e-4", "-0.5", "12", "-3", "1.", ".5", "5.e+3"] {
+        assert!(is_number_of_yaml_1_1(text), "{text}");
+    }
+    for text in ["206e9", "206.0e9", "206e+9", "1e-4", "1.0e", "."] {
+        assert!(!is_number_of_yaml_1_1(text), "{text}");
+    }
+    let texts = yaml_texts();
+    let mut numbers = 0;
+    for (name, text) in &texts {
+        for value in plain_values(text).filter(|value| value.parse::<f64>().is_ok_and(f64::is_finite)) {
+            assert!(
+                is_number_of_yaml_1_1(value),
+                "{name}: PyYAML reads {value} as a text; write it as in 206.0e+9"
+            );
+            numbers += 1;
+        }
+    }
+    assert!(numbers > 1000, "{numbers} numbers in {} texts", texts.len());
+}
