@@ -159,7 +159,10 @@ pub(crate) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagE
     let text = std::fs::read_to_string(metadata).map_err(BagError::io("read", metadata))?;
     let document: Document = serde_saphyr::from_str(&text).map_err(|error| BagError::Metadata {
         path: metadata.to_owned(),
-        problem: format!("not a rosbag2 metadata file: {error}"),
+        problem: format!(
+            "not a rosbag2 metadata file: {}",
+            error.render_with_formatter(&serde_saphyr::UserMessageFormatter)
+        ),
     })?;
     let information = document.rosbag2_bagfile_information;
     let mode = information.compression_mode.unwrap_or_default();

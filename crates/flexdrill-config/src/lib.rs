@@ -50,6 +50,8 @@ mod warnings;
 mod well;
 mod whirl;
 mod whole;
+mod yaml_place;
+mod yaml_words;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

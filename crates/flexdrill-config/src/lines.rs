@@ -22,15 +22,24 @@ struct Entry {
 impl Lines {
     /// Of `text`; empty if it is not YAML, which the typed reading then reports.
     pub fn of(text: &str) -> Self {
+        let mut lines = Self::default();
+        if let Ok(tree) = Self::tree(text) {
+            lines.collect(String::new(), &tree);
+        }
+        lines
+    }
+
+    /// Why `text` is not YAML; `None` where it is.
+    pub(crate) fn fault(text: &str) -> Option<serde_saphyr::Error> {
+        Self::tree(text).err()
+    }
+
+    fn tree(text: &str) -> Result<Spanned<Tree>, serde_saphyr::Error> {
         let options = serde_saphyr::options! {
             non_finite_float_policy: serde_saphyr::NonFiniteFloatPolicy::AsString,
             alias_limits: crate::reading::alias_limits(),
         };
-        let mut lines = Self::default();
-        if let Ok(tree) = serde_saphyr::from_str_with_options::<Spanned<Tree>>(text, options) {
-            lines.collect(String::new(), &tree);
-        }
-        lines
+        serde_saphyr::from_str_with_options(text, options)
     }
 
     fn collect(&mut self, key: String, node: &Spanned<Tree>) {

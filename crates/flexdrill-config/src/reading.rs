@@ -7,6 +7,8 @@ use serde::de::DeserializeOwned;
 use super::checker::Checker;
 use super::error::ConfigError;
 use super::lines::Lines;
+use super::yaml_place as place;
+use super::yaml_words::words;
 
 /// The text of a file, and its name for errors.
 ///
@@ -55,30 +57,48 @@ pub fn alias_limits() -> serde_saphyr::options::AliasLimits {
 /// Words the error of reading `text`, the content of the file `name`. `required` are the keys without a default, to
 /// name the one that is missing.
 fn syntax_error(name: &str, text: &str, lines: &Lines, required: &[&str], error: &serde_saphyr::Error) -> ConfigError {
+    let is_missing = matches!(error.without_snippet(), serde_saphyr::Error::SerdeMissingField { .. });
+    // A key that seems to be missing may be one that the reader did not reach, because the text before it is no YAML.
+    let fault = if is_missing { Lines::fault(text) } else { None };
+    let error = fault.as_ref().unwrap_or(error);
     let (mut line, mut column) = error.location().map_or((0, 0), |place| (place.line(), place.column()));
     let mut key = lines.key_at(line, column).to_string();
-    let mut message = unknown_message(error).unwrap_or_else(|| plain_message(error));
-    if let serde_saphyr::Error::SerdeMissingField { field, .. } = error.without_snippet() {
+    let mut message = words(error);
+    match error.without_snippet() {
         // The reader notices a missing key only at the end of its parent, or later.
-        let missing = required.iter().find(|path| {
-            let (parent, name) = path.rsplit_once('.').unwrap_or(("", path));
-            name == *field && !lines.has(path) && (parent.is_empty() || lines.has(parent))
-        });
-        if let Some(path) = missing {
-            let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-            (line, column) = lines.place(parent).unwrap_or((1, 1));
-            key = (*path).to_string();
-            message = "must be given, it has no default".to_string();
+        serde_saphyr::Error::SerdeMissingField { field, .. } => {
+            let missing = required.iter().find(|path| {
+                let (parent, name) = path.rsplit_once('.').unwrap_or(("", path));
+                name == *field && !lines.has(path) && (parent.is_empty() || lines.has(parent))
+            });
+            if let Some(path) = missing {
+                let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+                (line, column) = lines.place(parent).unwrap_or((1, 1));
+                key = (*path).to_string();
+                message = "must be given, it has no default".to_string();
+            }
         }
-    } else if let Some(wanted) = wanted_scalar(&message) {
-        let value = scalar_at(text, line, column);
-        return ConfigError::Syntax {
-            file: name.to_string(),
-            line,
-            column,
-            key: format!("{key} = {value}"),
-            message: wanted.to_string(),
-        };
+        serde_saphyr::Error::InvalidScalar { .. } => {
+            let value = place::scalar_at(text, line, column);
+            if place::has_decimal_comma(&value) {
+                message += "; decimals follow a point, not a comma";
+            }
+            key = format!("{key} = {value}");
+        }
+        serde_saphyr::Error::SerdeUnknownField { field, .. }
+            if place::follows_decimal_comma(text, line, column, field) =>
+        {
+            message = format!("unknown field `{field}`; in a number, decimals follow a point, not a comma");
+        }
+        serde_saphyr::Error::SerdeUnknownField { .. } | serde_saphyr::Error::SerdeUnknownVariant { .. } => {}
+        // A tab has other consequences further down, which the library then names.
+        _ => {
+            if let Some((tab_line, tab_column)) = place::tab_before_key(text, line) {
+                (line, column) = (tab_line, tab_column);
+                key = String::new();
+                message = "a tab stands before this key; YAML indents with spaces".to_string();
+            }
+        }
     }
     ConfigError::Syntax {
         file: name.to_string(),
@@ -87,27 +107,6 @@ fn syntax_error(name: &str, text: &str, lines: &Lines, required: &[&str], error:
         key,
         message,
     }
-}
-
-/// The reader's message without its snippet and place, which [`ConfigError::Syntax`] says in its own way.
-fn plain_message(error: &serde_saphyr::Error) -> String {
-    let text = error.without_snippet().to_string();
-    let end = text.find(" at line ").unwrap_or(text.len());
-    text[..end].trim_end_matches([',', ':', ' ']).to_string()
-}
-
-/// The message on a key or a word that is unknown, with the nearest known one.
-fn unknown_message(error: &serde_saphyr::Error) -> Option<String> {
-    let (what, word, expected) = match error.without_snippet() {
-        serde_saphyr::Error::SerdeUnknownField { field, expected, .. } => ("field", field, expected),
-        serde_saphyr::Error::SerdeUnknownVariant { variant, expected, .. } => ("variant", variant, expected),
-        _ => return None,
-    };
-    let near = nearest(word, expected.iter().copied())?;
-    Some(format!(
-        "unknown {what} `{word}`; did you mean `{near}`? Expected one of {}",
-        expected.join(", ")
-    ))
 }
 
 /// The known word that was probably meant; none where no word is similar.
@@ -119,28 +118,4 @@ pub fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&
         .min()?;
     // A short word with every letter changed is another word.
     (distance <= LARGEST_DISTANCE && distance < word.chars().count()).then_some(near)
-}
-
-fn wanted_scalar(message: &str) -> Option<&'static str> {
-    let kind = message.strip_prefix("invalid ")?;
-    if kind.starts_with("floating") {
-        Some("must be a number")
-    } else if kind.starts_with('u') {
-        Some("must be a whole number, 0 or more")
-    } else if kind.starts_with("bool") {
-        Some("must be true or false")
-    } else {
-        None
-    }
-}
-
-/// The plain scalar that begins at a place (1-based).
-fn scalar_at(text: &str, line: u64, column: u64) -> String {
-    let (Ok(line), Ok(column)) = (usize::try_from(line), usize::try_from(column)) else {
-        return String::new();
-    };
-    let row = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
-    let rest: String = row.chars().skip(column.saturating_sub(1)).collect();
-    let end = rest.find([',', '}', ']', '#']).unwrap_or(rest.len());
-    rest[..end].trim().to_string()
 }

@@ -109,6 +109,81 @@ fn wrong_types_show_the_value() {
 }
 
 #[test]
+fn what_is_no_yaml_is_said_without_names_of_the_library() {
+    let twice = error_of(&replaced("  links: 33", "  links: 33\n  links: 34"));
+    assert_eq!(twice, "rig.yaml:6:3: `links` is given twice; keep one of them");
+    let two = error_of(&format!("{GOOD}---\n{GOOD}"));
+    assert!(two.contains("a second document begins here"), "{two}");
+    for text in [
+        replaced("  links: 33", "\tlinks: 33"),
+        replaced("well:", "\twell:"),
+        replaced("  hole_diameter", "\thole_diameter"),
+        replaced("  links: 33", "  links: 33\n\t"),
+        replaced("  hole_diameter: 0.118", "\thole_diameter: 0.118\n  other: 1"),
+    ] {
+        match Config::from_text("rig.yaml", &text) {
+            // A line of a tab alone has no key.
+            Ok(_) => assert!(text.contains("\n\t\n"), "{text}"),
+            Err(error) => {
+                let (error, line) = (
+                    error.to_string(),
+                    text.lines().position(|line| line.contains('\t')).unwrap() + 1,
+                );
+                assert_eq!(
+                    error,
+                    format!("rig.yaml:{line}:1: a tab stands before this key; YAML indents with spaces")
+                );
+            }
+        }
+    }
+    for (from, to, words) in [
+        (
+            "joint: {limit_deg: 6}",
+            "joint: 6",
+            "tool.joint: must be a group of keys",
+        ),
+        (
+            "joint: {limit_deg: 6}",
+            "joint: [6]",
+            "tool.joint: must be a group of keys",
+        ),
+        ("bit: {diameter: 0.118}", "bit: {diameter: 0.118", "bracket"),
+        ("  links: 33", "   links: 33", "indented"),
+        ("  links: 33", "  links: 33: 34", "a second `: `"),
+        ("  links: 33", "  links:", "links"),
+        ("  links: 33", "  links: [33]", "links"),
+    ] {
+        let error = error_of(&replaced(from, to));
+        assert!(error.starts_with("rig.yaml:") && error.contains(words), "{to}: {error}");
+        for name in [
+            "Option",
+            "Policy",
+            "from_str",
+            "struct ",
+            "Schema",
+            "usize",
+            "mapping start",
+            "parsing a",
+        ] {
+            assert!(!error.contains(name), "{to}: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_decimal_comma_is_quoted_and_named() {
+    assert_eq!(
+        error_of(&replaced("hole_diameter: 0.118", "hole_diameter: 0,118")),
+        "rig.yaml:3:18: well.hole_diameter = 0,118: must be a number; decimals follow a point, not a comma"
+    );
+    let error = error_of(&replaced("bit: {diameter: 0.118}", "bit: {diameter: 0,118}"));
+    assert!(
+        error.ends_with("unknown field `118`; in a number, decimals follow a point, not a comma"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_default_that_contradicts_the_file_is_called_a_default() {
     let error = error_of(&(GOOD.to_string() + "inputs:\n  rotary_speed:\n    min_rpm: 10\n"));
     assert!(

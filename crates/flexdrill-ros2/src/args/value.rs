@@ -21,7 +21,7 @@ pub enum ValueError {
     #[error("{0} does not fit a 64-bit signed integer")]
     TooLarge(u64),
     /// Not YAML; with line and column.
-    #[error(transparent)]
+    #[error("{}", .0.render_with_formatter(&serde_saphyr::UserMessageFormatter))]
     Syntax(#[from] serde_saphyr::Error),
 }
 
