@@ -125,6 +125,9 @@ fn wrong_rows_are_left_out_and_named() {
     let (sequence, report) = read_text(text, &direct_mapping()).unwrap();
     assert_eq!(places(&report, IssueKind::TimeRepeats), [(4, 4, 1)]);
     assert_eq!(places(&report, IssueKind::TimeBackwards), [(5, 5, 1)]);
+    let detail = |kind| &report.issues.iter().find(|issue| issue.kind == kind).unwrap().detail;
+    assert_eq!(detail(IssueKind::TimeRepeats), "that of the row before");
+    assert_eq!(detail(IssueKind::TimeBackwards), "by 0.5 s");
     assert_eq!(places(&report, IssueKind::Missing), [(7, 7, 1)]);
     assert_eq!(places(&report, IssueKind::Gap), [(11, 11, 1)]);
     let unreadable: Vec<_> = report

@@ -1,5 +1,7 @@
 //! Order of rows in time: detects jumps of the log's clock and leaves out the rows that they spoil.
 
+use flexdrill_text::six_digits;
+
 use crate::TimeFormat;
 use crate::report::{IssueKind, Issues};
 use crate::time_format::DAY;
@@ -71,12 +73,15 @@ pub(crate) fn order(rows: &mut Vec<Timed>, axis: &TimeAxis<'_>, issues: &mut Iss
             parts.push(row.number);
         // Rows that stand or fall back would have two values for one instant.
         } else if step <= 0.0 {
-            let kind = if step < 0.0 {
-                IssueKind::TimeBackwards
+            if step < 0.0 {
+                issues.add(IssueKind::TimeBackwards, axis.column, row.number, || {
+                    format!("by {} s", six_digits(-step))
+                });
             } else {
-                IssueKind::TimeRepeats
-            };
-            issues.add(kind, axis.column, row.number, || format!("by {:.2} s", -step));
+                issues.add(IssueKind::TimeRepeats, axis.column, row.number, || {
+                    "that of the row before".to_owned()
+                });
+            }
             continue;
         // A gap is reported and kept: the samples on both sides are good.
         } else if step > axis.max_gap {
