@@ -45,6 +45,7 @@ mod texts;
 mod tool;
 mod transfer;
 mod uncertainty;
+pub mod units;
 mod vibration;
 mod warnings;
 mod well;

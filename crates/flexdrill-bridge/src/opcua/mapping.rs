@@ -53,6 +53,7 @@ pub struct NodeItem {
     /// Required.
     pub quantity: Quantity,
     /// Required.
+    #[serde(deserialize_with = "flexdrill_config::units::spelled")]
     pub unit: Unit,
     /// Smallest and largest valid value, in the unit. Default: what a rig can have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -154,6 +155,9 @@ mod tests {
         let mapping = NodeMapping::from_text("site.yaml", text).unwrap();
         assert_eq!((mapping.interval_s, mapping.repeat_s), (0.2, 1.0));
         assert_eq!(mapping.stamp, StampSource::Source);
+        let spelled =
+            NodeMapping::from_text("site.yaml", &text.replace("klbf", "kip").replace("r/min", "RPM")).unwrap();
+        assert_eq!(spelled, mapping);
         let (uri, node) = parse("nsu=urn:vendor:rig;i=7").unwrap();
         assert_eq!((uri, node), (Some("urn:vendor:rig"), NodeId::new(0, 7_u32)));
         assert_eq!(parse("ns=2;s=Speed").unwrap(), (None, NodeId::new(2, "Speed")));

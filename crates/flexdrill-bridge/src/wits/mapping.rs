@@ -102,6 +102,7 @@ pub struct ItemMapping {
     /// Required.
     pub quantity: Quantity,
     /// Required. A KDN is a kdaN: 10 kN.
+    #[serde(deserialize_with = "flexdrill_config::units::spelled")]
     pub unit: Unit,
     /// Smallest and largest valid value, in the unit. Default: what a rig can have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -162,6 +163,7 @@ pub struct WriteItem {
     /// Required.
     pub figure: Figure,
     /// Required.
+    #[serde(deserialize_with = "flexdrill_config::units::spelled")]
     pub unit: Unit,
     /// Digits after the point. Default 2.
     #[serde(default = "two")]
@@ -421,6 +423,26 @@ mod tests {
 
     #[test]
     fn what_cannot_be_is_refused_with_its_line() {
+        // The spellings are those of logs and OPC UA too.
+        let unit = |unit: &str| {
+            let text = format!("items: {{\"0116\": {{quantity: weight_on_bit, unit: {unit}}}}}\n");
+            Mapping::from_text("site.yaml", &text).map(|mapping| mapping.table()[&code("0116")].unit)
+        };
+        for (spelling, expected) in [
+            ("klbs", Unit::Kilopound),
+            ("kip", Unit::Kilopound),
+            ("klb", Unit::Kilopound),
+            ("daN", Unit::Decanewton),
+            ("KDN", Unit::Kilodecanewton),
+            ("tonne", Unit::TonneForce),
+        ] {
+            assert_eq!(unit(spelling).unwrap(), expected, "{spelling}");
+        }
+        let error = unit("ton").unwrap_err().to_string();
+        assert!(
+            error.contains("site.yaml:1") && error.contains("write tf for a tonne"),
+            "{error}"
+        );
         for (text, words) in [
             ("units: imperial\n", "imperial"),
             ("items: {\"0116\": {quantity: weight_on_bit, unit: psi}}\n", "kdaN"),

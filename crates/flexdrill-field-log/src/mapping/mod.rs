@@ -86,6 +86,7 @@ pub struct MeasuredColumn {
     /// Name in the header.
     pub column: String,
     /// Required.
+    #[serde(deserialize_with = "flexdrill_config::units::spelled")]
     pub unit: Unit,
 }
 

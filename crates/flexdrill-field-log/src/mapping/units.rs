@@ -233,6 +233,33 @@ mod tests {
     }
 
     #[test]
+    fn measured_quantities_are_read_in_the_shared_spellings() {
+        let text = |unit: &str| {
+            format!(
+                "columns:\n  time: {{column: t, format: seconds}}\n  rotary_speed: {{column: n, unit: RPM}}\n  \
+                 weight_on_bit: {{direct: {{column: w, unit: kip}}}}\n  measured: {{hook_load: {{column: h, unit: {unit}}}}}\n"
+            )
+        };
+        let read = |unit: &str| crate::Mapping::from_text("m.yaml", &text(unit));
+        for (spelling, unit) in [
+            ("klbs", Unit::Kilopound),
+            ("tonne", Unit::TonneForce),
+            ("KDN", Unit::Kilodecanewton),
+        ] {
+            let mapping = read(spelling).unwrap_or_else(|error| panic!("{error}"));
+            assert!(
+                mapping.columns.measured.values().all(|column| column.unit == unit),
+                "{spelling}"
+            );
+        }
+        let error = read("ton").unwrap_err().to_string();
+        assert!(
+            error.contains("m.yaml:5") && error.contains("write tf for a tonne"),
+            "{error}"
+        );
+    }
+
+    #[test]
     fn units_of_columns_are_read_in_the_shared_spellings() {
         assert_eq!(unit::<SpeedUnit>("RPM"), Ok(SpeedUnit::RevolutionsPerMinute));
         assert_eq!(unit::<WeightUnit>("klbs"), Ok(WeightUnit::Kilopound));
