@@ -6,8 +6,9 @@ use super::driver::{Driver, DriverId};
 use super::drivers::{DriverSummary, Drivers, NotDriving, Rule};
 use super::measured::{Measured, MeasuredRefused};
 use super::safe_value_watch::{SafeValueEvent, SafeValueWatch};
+use super::time_zone::TimeZone;
 use flexdrill_config::InputsConfig;
-use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, Stamp};
+use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, RejectionReason, Stamp};
 use flexdrill_messages::RigMeasured;
 
 /// What a message on `rig/inputs` states about its source.
@@ -58,7 +59,16 @@ impl fmt::Display for SampleRefused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Driver(refused) => refused.fmt(f),
-            Self::Value(rejection) => rejection.fmt(f),
+            Self::Value(rejection) => {
+                rejection.fmt(f)?;
+                match rejection.reason {
+                    RejectionReason::FromFuture { by, .. } => match TimeZone::ahead(by) {
+                        Some(zone) => write!(f, "; {zone}"),
+                        None => Ok(()),
+                    },
+                    _ => Ok(()),
+                }
+            }
             Self::Measured(refused) => refused.fmt(f),
         }
     }
@@ -256,6 +266,27 @@ mod tests {
         assert_eq!(intake.drivers(RotarySpeed, 1.5).refused, 1);
         let refused = intake.accept(&sample(1, 500.0, 2.0)).unwrap_err();
         assert!(refused.to_string().contains("above the maximum of 120 r/min"));
+    }
+
+    #[test]
+    fn a_rig_clock_of_another_time_zone_is_named() {
+        let mut intake = Intake::new(&InputsConfig::default(), [true; InputKind::COUNT]);
+        let mut words = |age| {
+            let mut stamped = sample(1, 40.0, 1.0);
+            let stamp = Stamp {
+                age,
+                bad: false,
+                max_skew: 0.5,
+            };
+            stamped.stamp = Some((stamp, SampleSource::default()));
+            intake.accept(&stamped).unwrap_err().to_string()
+        };
+        let zone = words(-19_799.0);
+        assert!(
+            zone.contains("19799.000 s ahead") && zone.contains("; 5.5 h is a time zone: add it to `utc_offset_h`"),
+            "{zone}"
+        );
+        assert!(!words(-30.0).contains("time zone"));
     }
 
     #[test]

@@ -6,6 +6,9 @@ use std::fmt;
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_messages::RigMeasured;
 use flexdrill_outputs::MeasuredValues as _;
+use flexdrill_text::six_digits;
+
+use super::time_zone::TimeZone;
 
 /// Later than this (ns) a stamp of 0 is one that the sender has not set. A simulated clock begins at 0, and measurements of
 /// its first hour may say so.
@@ -78,10 +81,16 @@ impl fmt::Display for MeasuredRefused {
             Self::NoStamp => f.write_str(
                 "its stamp is 0, so that nobody knows when it was measured; set header.stamp to the time of the measurement",
             ),
-            Self::Ahead { ahead, most } => write!(
-                f,
-                "its stamp is {ahead:.3} s ahead of the clock, at most {most} s are accepted; synchronise the clocks"
-            ),
+            Self::Ahead { ahead, most } => {
+                write!(
+                    f,
+                    "its stamp is {ahead:.3} s ahead of the clock, at most {most} s are accepted; "
+                )?;
+                match TimeZone::ahead(*ahead) {
+                    Some(zone) => write!(f, "{zone}"),
+                    None => f.write_str("synchronise the clocks"),
+                }
+            }
             Self::Implausible {
                 kind,
                 value,
@@ -89,7 +98,8 @@ impl fmt::Display for MeasuredRefused {
             } => {
                 write!(
                     f,
-                    "{kind} = {value} {}, outside {least} to {most} {}; check the unit and the sensor",
+                    "{kind} = {} {}, outside {least} to {most} {}; check the unit and the sensor",
+                    six_digits(*value),
                     kind.unit(),
                     kind.unit()
                 )
@@ -295,6 +305,9 @@ mod tests {
         }
         let ahead = measured.accept(&message(NOW + 1_000_000_000, &[(HookLoad, 1e5)]), NOW, 0.0, 0.5);
         assert!(matches!(ahead, Err(MeasuredRefused::Ahead { .. })));
+        let words = |ahead| MeasuredRefused::Ahead { ahead, most: 0.5 }.to_string();
+        assert!(words(7199.2).contains("; 2 h is a time zone"), "{}", words(7199.2));
+        assert!(words(7206.0).contains("; synchronise"), "{}", words(7206.0));
         let unset = measured.accept(&message(0, &[(HookLoad, 1e5)]), NOW, 0.0, 0.5);
         assert_eq!(unset, Err(MeasuredRefused::NoStamp));
         assert_eq!(measured.newest(HookLoad), None);

@@ -12,6 +12,7 @@ mod intake;
 mod measured;
 mod safe_value_watch;
 pub mod stamped;
+mod time_zone;
 
 pub use driver::{Driver, DriverId};
 pub use drivers::{DriverSummary, Drivers, NotDriving, Rule};

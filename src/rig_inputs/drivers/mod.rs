@@ -5,6 +5,7 @@ use std::fmt;
 use super::driver::{Driver, DriverId};
 use flexdrill_config::{DriverPolicy, InputsConfig};
 use flexdrill_core::inputs::{InputKind, InputRoute};
+use flexdrill_text::six_digits;
 
 /// Most publishers kept per input; a further one replaces the one that has been silent longest.
 const MOST_PUBLISHERS: usize = 16;
@@ -55,7 +56,8 @@ pub struct NotDriving {
 impl fmt::Display for NotDriving {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (topic, unit) = (self.route.topic(self.kind), self.kind.unit());
-        write!(f, "{topic}: {} {unit} of {} refused: ", self.value, self.sender)?;
+        let value = six_digits(self.value);
+        write!(f, "{topic}: {value} {unit} of {} refused: ", self.sender)?;
         match &self.driving {
             Some(driving) => write!(
                 f,

@@ -176,6 +176,10 @@ fn two_sources_of_one_writer_are_two_drivers() {
         said.contains("of wits 10.0.0.8 refused") && said.contains("of wits 10.0.0.7; well 3 drives until"),
         "{said}"
     );
+    // 40 r/min, back from rad/s.
+    let refused = first.offer(RotarySpeed, Stamped, id(A, 1), other, 0.9, 39.999_999_999_999_99);
+    let said = refused.unwrap_err().to_string();
+    assert!(said.contains(": 40 r/min of "), "{said}");
     first.offer(RotarySpeed, Stamped, id(A, 1), rig, 1.0, 40.0).unwrap();
     let summary = first.summary(RotarySpeed, 1.0);
     assert!(
