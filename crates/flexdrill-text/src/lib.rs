@@ -11,6 +11,6 @@ mod throttle;
 
 pub use date::{compact_date_time, date_time, time_of_day};
 pub use host::is_host;
-pub use number::{beyond, counted, percent, six_digits};
+pub use number::{beyond, counted, fixed, percent, six_digits};
 pub use printable::{printable, printable_lines, table_cell};
 pub use throttle::{LOG_INTERVAL, Throttle, Throttles, log_ending};

@@ -24,6 +24,15 @@ pub fn six_digits(value: f64) -> String {
     }
 }
 
+/// A value with so many decimals, never a negative zero: what rounds to nothing has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
+        _ => text,
+    }
+}
+
 /// A share in whole per cent. Over a quantity that is nearly nothing a share has no meaning: beyond ten times the text says
 /// only that.
 pub fn percent(share: f64) -> String {
@@ -80,6 +89,13 @@ mod tests {
         for (value, text) in texts {
             assert_eq!(six_digits(value), text);
         }
+    }
+
+    #[test]
+    fn nothing_has_no_sign() {
+        let texts = [-0.004, -0.0, 0.0, -0.006, 12.3456].map(|value| fixed(value, 2));
+        assert_eq!(texts, ["0.00", "0.00", "0.00", "-0.01", "12.35"]);
+        assert_eq!([fixed(-0.4, 0), fixed(f64::NAN, 2)], ["0", "NaN"]);
     }
 
     #[test]

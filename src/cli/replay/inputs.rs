@@ -13,7 +13,7 @@ use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_realtime::INPUT_PERIOD;
-use flexdrill_text::counted;
+use flexdrill_text::{counted, fixed};
 use flexdrill_uncertainty::Posterior;
 
 /// Model time after the last sample (s).
@@ -89,7 +89,7 @@ pub(super) fn replay(
                 refused += 1;
                 // Ten are enough to see the pattern; the total follows at the end.
                 if refused <= 10 {
-                    tell!("at {at:.2} s: {rejection}");
+                    tell!("at {} s: {rejection}", fixed(at, 2));
                 }
             }
         }

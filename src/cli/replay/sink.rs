@@ -12,6 +12,7 @@ use crate::residuals::{Comparison, RigComparison, Samples};
 use crate::rig_inputs::Measured;
 use crate::session::Host;
 use flexdrill_outputs::Encoded;
+use flexdrill_text::fixed;
 
 /// Why a replay has not recorded a message.
 #[derive(Debug, thiserror::Error)]
@@ -94,7 +95,7 @@ impl BagSink {
                 let accepted = measured.accept(&sample.message, sample.time, since_start, max_skew);
                 let [_, refused, ..] = measured.counts();
                 match accepted {
-                    Err(why) if refused <= REFUSALS_SHOWN => tell!("at {since_start:.2} s: {why}"),
+                    Err(why) if refused <= REFUSALS_SHOWN => tell!("at {} s: {why}", fixed(since_start, 2)),
                     _ => {}
                 }
             }
