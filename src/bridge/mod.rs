@@ -1,6 +1,8 @@
 //! Bridges between a rig's own protocols and the twin's topics: nodes like any other, each with one connection. What
 //! stands on the line and what it means is [`flexdrill_bridge`]; this room joins it to ROS 2.
 
+#[cfg(feature = "mqtt")]
+pub mod birth_number;
 mod diagnosis;
 #[cfg(feature = "mqtt")]
 pub mod mqtt;

@@ -285,12 +285,24 @@ fn interop_twin_broker_and_bridge_may_be_killed_and_readers_know_what_holds() {
 
     // An orderly end says so too.
     let mut program = bridge(&network, &options);
-    late.sparkplug("NBIRTH", |_| true);
+    // The session continues the numbers of the one that was killed: its death, where it arrives late, ends not this one.
+    let birth = late.sparkplug("NBIRTH", |_| true);
+    assert_eq!(birth["metrics"]["bdSeq"], 2);
     program.signal("TERM");
     assert_eq!(program.end(), Some(0), "{}", program.said());
     let [end, death] = late.both(|bridge| bridge["state"] == "offline", "NDEATH", |_| true);
     assert!(end["reason"].as_str().unwrap().contains("was stopped"), "{end}");
-    assert_eq!(death["metrics"]["bdSeq"], 0);
+    assert_eq!(death["metrics"]["bdSeq"], 2);
+    let kept = network.state().join("flexdrill/sparkplug_field.rig_7.bdseq");
+    assert_eq!(std::fs::read_to_string(&kept).unwrap().trim(), "2");
+    // A damaged file costs the number, with a word, and not the session.
+    std::fs::write(&kept, "nonsense").unwrap();
+    let mut program = bridge(&network, &options);
+    program.wait_for("the numbers begin again at 0");
+    let birth = late.sparkplug("NBIRTH", |_| true);
+    assert_eq!(birth["metrics"]["bdSeq"], 0);
+    program.signal("TERM");
+    assert_eq!(program.end(), Some(0), "{}", program.said());
 }
 
 /// A twin of the short tool that looks ahead and has a map, in a file of the folder.

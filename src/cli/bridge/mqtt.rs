@@ -43,6 +43,10 @@ pub(super) struct MqttArgs {
     /// Name of the client at the broker. Default: made from the topics.
     #[arg(long, value_name = "NAME")]
     client_id: Option<String>,
+    /// Folder for the number of the last Sparkplug session, which the next one continues; default
+    /// $XDG_STATE_HOME/flexdrill or ~/.local/state/flexdrill.
+    #[arg(long, value_name = "DIR", requires = "sparkplug")]
+    state_dir: Option<PathBuf>,
     #[command(flatten)]
     ros: RosSideArgs,
 }
@@ -65,13 +69,14 @@ mod with_mqtt {
 
     use anyhow::Context as _;
     use flexdrill_bridge::mqtt::{Broker, Documents, LinkTimes, SparkplugNode, Tls};
-    use flexdrill_text::printable;
+    use flexdrill_text::{log_ending, printable};
     use tokio::sync::watch;
 
     use super::super::super::{WrongUse, signals};
     use super::MqttArgs;
-    use crate::bridge::Outgoing;
+    use crate::alarms::state_file;
     use crate::bridge::mqtt::MqttBridge;
+    use crate::bridge::{Outgoing, birth_number};
     use crate::cli::output::say;
 
     /// Name of the node unless it is remapped.
@@ -94,8 +99,9 @@ mod with_mqtt {
         // error of use, and would never come right by waiting.
         let sparkplug = match &args.sparkplug {
             Some(name) => {
-                let name = name.parse().map_err(WrongUse::new)?;
-                Some(SparkplugNode::new(name, args.client_id.as_deref()))
+                let parsed = name.parse().map_err(WrongUse::new)?;
+                let node = SparkplugNode::new(parsed, args.client_id.as_deref());
+                Some(args.continuing(node, name))
             }
             None => None,
         };
@@ -138,6 +144,34 @@ mod with_mqtt {
     }
 
     impl MqttArgs {
+        /// The node with the numbers of births after those of its last session. Without them it works too: only a death
+        /// that arrives late may then end the new session.
+        fn continuing(&self, node: SparkplugNode, name: &str) -> SparkplugNode {
+            let folder = self.state_dir.clone();
+            let Some(folder) = folder.or_else(|| state_file::default_folder(|name| std::env::var(name).ok())) else {
+                tracing::warn!(
+                    "the number of this Sparkplug session is not kept, because there is no home folder; use --state-dir"
+                );
+                return node;
+            };
+            let file = folder.join(birth_number::file_name(name));
+            let last = birth_number::read(&file).unwrap_or_else(|error| {
+                tracing::warn!("{error}");
+                None
+            });
+            node.continuing(last, move |number| {
+                if let Err(error) = birth_number::write(&file, number)
+                    && let Some(more) = log_ending("number of a Sparkplug session not written")
+                {
+                    tracing::warn!(
+                        "{}: the number of this Sparkplug session cannot be written: {error}; after a restart the numbers \
+                         begin again; --state-dir selects another folder{more}",
+                        file.display()
+                    );
+                }
+            })
+        }
+
         fn broker(&self) -> anyhow::Result<Broker> {
             let tls = match &self.tls_ca {
                 Some(file) => Tls::Authority(read("--tls-ca", file)?),

@@ -98,7 +98,7 @@ impl Source for Documents {
         self.client_id.clone()
     }
 
-    fn will(&self) -> Message {
+    fn will(&mut self) -> Message {
         self.gone("the connection of the bridge was lost; the other documents are old")
     }
 

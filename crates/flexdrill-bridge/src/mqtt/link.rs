@@ -198,7 +198,7 @@ async fn connection<S: Source>(
     stop: &mut watch::Receiver<bool>,
 ) -> End {
     let (client_id, will) = {
-        let source = shared.lock();
+        let mut source = shared.lock();
         (source.client_id(), source.will())
     };
     let mut options = match broker.options(&client_id, will, times.connect) {

@@ -40,8 +40,8 @@ pub struct Message {
 pub trait Source: Send {
     /// Name of the client. A broker ends an older connection of the same name and publishes its will.
     fn client_id(&self) -> String;
-    /// What the broker publishes when the next connection is lost.
-    fn will(&self) -> Message;
+    /// What the broker publishes when the next connection is lost. Called before every attempt to connect.
+    fn will(&mut self) -> Message;
     /// Topics to subscribe to.
     fn subscriptions(&self) -> Vec<String>;
     /// A connection was made.

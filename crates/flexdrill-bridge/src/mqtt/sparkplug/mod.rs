@@ -5,6 +5,7 @@
 pub mod payload;
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
@@ -70,6 +71,33 @@ struct State {
     is_due: bool,
 }
 
+/// Keeps the number of a pair of birth and death for the next start of the program.
+#[derive(Default)]
+struct Keep {
+    by: Option<Box<dyn FnMut(u8) + Send>>,
+    /// The newest number that was kept: attempts that fail use the same one.
+    newest: Option<u8>,
+}
+
+impl Keep {
+    fn number(&mut self, number: u8) {
+        if self.newest != Some(number)
+            && let Some(keep) = &mut self.by
+        {
+            keep(number);
+            self.newest = Some(number);
+        }
+    }
+}
+
+impl fmt::Debug for Keep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Keep")
+            .field("newest", &self.newest)
+            .finish_non_exhaustive()
+    }
+}
+
 /// The node and its metrics.
 #[derive(Debug)]
 pub struct SparkplugNode {
@@ -78,6 +106,7 @@ pub struct SparkplugNode {
     metrics: BTreeMap<String, State>,
     /// The pair of birth and death of the next connection, or of the present one.
     birth_death: u8,
+    keep: Keep,
     is_connected: bool,
     is_birth_due: bool,
     born: Option<Instant>,
@@ -97,6 +126,7 @@ impl SparkplugNode {
             name,
             metrics: BTreeMap::new(),
             birth_death: 0,
+            keep: Keep::default(),
             is_connected: false,
             is_birth_due: false,
             born: None,
@@ -105,6 +135,15 @@ impl SparkplugNode {
             commands: [0; 2],
             refused: 0,
         }
+    }
+
+    /// Continues the numbers of births and deaths of an earlier program whose last one was `last`: a death of its session
+    /// that arrives late then ends none of this one. `keep` is called with each number before the first attempt to connect with it.
+    #[must_use]
+    pub fn continuing(mut self, last: Option<u8>, keep: impl FnMut(u8) + Send + 'static) -> Self {
+        self.birth_death = last.map_or(0, |last| last.wrapping_add(1));
+        self.keep.by = Some(Box::new(keep));
+        self
     }
 
     /// Sets a number; NaN and infinite ones are "not known".
@@ -282,7 +321,8 @@ impl Source for SparkplugNode {
         self.client_id.clone()
     }
 
-    fn will(&self) -> Message {
+    fn will(&mut self) -> Message {
+        self.keep.number(self.birth_death);
         self.death()
     }
 
@@ -346,6 +386,37 @@ mod tests {
 
     fn read(message: &Message) -> Payload {
         Payload::decode(message.payload.as_slice()).unwrap()
+    }
+
+    #[test]
+    fn numbers_of_births_continue_those_of_an_earlier_program() {
+        let kept = std::sync::Arc::new(std::sync::Mutex::new(Vec::new()));
+        let started = |last| {
+            let kept = kept.clone();
+            node().continuing(last, move |number| kept.lock().unwrap().push(number))
+        };
+        let number = |message: &Message| match read(message).metrics[0].value {
+            Some(Value::Long(number)) => number,
+            ref other => panic!("{other:?}"),
+        };
+        let mut first = started(None);
+        assert_eq!(number(&first.will()), 0);
+        // An attempt that fails has no birth.
+        first.disconnected();
+        assert_eq!(number(&first.will()), 0);
+        first.connected(Instant::now());
+        assert_eq!(number(&first.next(Instant::now()).unwrap()), 0);
+        first.disconnected();
+        assert_eq!(number(&first.will()), 1);
+        let last = kept.lock().unwrap().last().copied();
+        let mut second = started(last);
+        second.connected(Instant::now());
+        assert_eq!(
+            [number(&second.will()), number(&second.next(Instant::now()).unwrap())],
+            [2, 2]
+        );
+        assert_eq!(number(&started(Some(255)).will()), 0);
+        assert_eq!(*kept.lock().unwrap(), [0, 1, 2, 0]);
     }
 
     #[test]
