@@ -11,6 +11,7 @@ mod common;
 
 mod cable;
 mod faults;
+mod loopback_end;
 mod others;
 mod outsider;
 mod peers;

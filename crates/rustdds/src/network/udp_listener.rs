@@ -4,7 +4,7 @@ use std::{
   net::{IpAddr, Ipv4Addr, SocketAddr},
 };
 
-use log::{debug, error, info, trace, warn};
+use log::{debug, info, trace, warn};
 use socket2::{Domain, Protocol, SockAddr, Socket, Type};
 use bytes::{Bytes, BytesMut};
 
@@ -51,6 +51,8 @@ pub struct UDPListener {
   socket: mio1::net::UdpSocket,
   receive_buffer: BytesMut,
   multicast_group: Option<Ipv4Addr>,
+  // The interfaces on which the group was joined, by their addresses.
+  joined_on: Vec<Ipv4Addr>,
   has_multicast_join: bool,
   // Cached OS interface-index -> local interface map, used to resolve the
   // receiving interface reported by IP_PKTINFO. Built once at construction.
@@ -60,12 +62,17 @@ pub struct UDPListener {
 impl Drop for UDPListener {
   fn drop(&mut self) {
     if let Some(mcg) = self.multicast_group {
-      self
-        .socket
-        .leave_multicast_v4(&mcg, &Ipv4Addr::UNSPECIFIED)
-        .unwrap_or_else(|e| {
-          error!("leave_multicast_group: {e:?}");
-        });
+      // A group is left where it was joined: the unspecified address means the interface of the
+      // default route, which is another one where only loopback is used, or none.
+      for interface in &self.joined_on {
+        self
+          .socket
+          .leave_multicast_v4(&mcg, interface)
+          .unwrap_or_else(|e| {
+            // The interface may have gone. Closing the socket leaves the group in any case.
+            debug!("leave_multicast_group {mcg} on {interface}: {e:?}");
+          });
+      }
     }
   }
 }
@@ -195,6 +202,7 @@ impl UDPListener {
       socket: mio_socket,
       receive_buffer: BytesMut::with_capacity(MESSAGE_BUFFER_ALLOCATION_CHUNK),
       multicast_group: None,
+      joined_on: Vec::new(),
       has_multicast_join: false,
       ifindex_map: build_ifindex_to_interface_map(),
     })
@@ -218,6 +226,7 @@ impl UDPListener {
 
     let mio_socket = Self::new_listening_socket(host, port, true, recv_buffer_size)?;
     let mut joined_multicast = false;
+    let mut joined_on = Vec::new();
 
     for multicast_if_ipaddr in get_local_multicast_ip_addrs_filtered(only_networks)? {
       match multicast_if_ipaddr {
@@ -225,6 +234,7 @@ impl UDPListener {
           .join_multicast_v4(&multicast_group, &a)
           .map(|()| {
             joined_multicast = true;
+            joined_on.push(a);
           })
           .unwrap_or_else(|e| {
             warn!(
@@ -260,6 +270,7 @@ impl UDPListener {
       socket: mio_socket,
       receive_buffer: BytesMut::with_capacity(MESSAGE_BUFFER_ALLOCATION_CHUNK),
       multicast_group: Some(multicast_group),
+      joined_on,
       has_multicast_join: joined_multicast,
       ifindex_map: build_ifindex_to_interface_map(),
     })
