@@ -12,3 +12,4 @@ mod sensitivity;
 mod sweep;
 mod usage;
 mod verify;
+mod wits_look;

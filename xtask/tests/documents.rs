@@ -160,7 +160,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 16] = [
+const WRITTEN_FILES: [&str; 17] = [
     "metadata.yaml",
     "report.md",
     "findings.csv",
@@ -178,6 +178,8 @@ const WRITTEN_FILES: [&str; 16] = [
     "calibration.json",
     "sensitivity.csv",
     "sensitivity.json",
+    // by `flexdrill bridge wits --look`
+    "site.yaml",
 ];
 
 #[test]

@@ -1,9 +1,12 @@
 //! `flexdrill bridge wits --look`: what a line carries and what the mapping makes of it, without publishing.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{ErrorKind, Write as _};
+use std::path::Path;
 use std::time::Duration;
 
-use anyhow::bail;
+use anyhow::{Context as _, bail};
 use tokio::sync::{broadcast, mpsc};
 
 use super::super::signals;
@@ -25,10 +28,10 @@ struct Seen {
     look: Look,
 }
 
-/// Listens for `time` and prints a table per connection.
+/// Listens for `time`, prints a table per connection and writes the items of the one with most frames as a mapping.
 ///
 /// # Errors
-/// When the line cannot be used, or no frame came.
+/// When the line cannot be used, no frame came, or the mapping cannot be written.
 pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> anyhow::Result<()> {
     let (place, name) = args.line.place(args.baud).await?;
     say!("wits {name}; nothing is published; listening for {} s", time.as_secs());
@@ -92,6 +95,29 @@ pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> a
             counted(look.frames(), "frame"),
             look.table()
         );
+    }
+    let most = seen.values().max_by_key(|seen| seen.look.frames());
+    match most {
+        Some(Seen { address, look, .. }) => write_site(&args.site, &look.site_file(&printable(address))),
+        None => Ok(()),
+    }
+}
+
+/// Writes the mapping of what was seen, and says how it is used.
+///
+/// # Errors
+/// When the file cannot be written, unless it exists: a mapping on which somebody has worked stays.
+fn write_site(file: &Path, text: &str) -> anyhow::Result<()> {
+    let name = printable(&file.display().to_string()).into_owned();
+    let written = File::create_new(file).and_then(|mut created| created.write_all(text.as_bytes()));
+    match written {
+        Ok(()) => say!(
+            "{name} has these items as a mapping; correct what differs from the rig's display, and use it with --map {name}"
+        ),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            say!("{name} exists and is left as it is; --site names another file for the mapping of these items");
+        }
+        Err(error) => return Err(error).with_context(|| format!("--site {name}")),
     }
     Ok(())
 }

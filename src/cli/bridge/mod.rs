@@ -55,6 +55,9 @@ struct WitsArgs {
     /// Listen for so long (s), print what arrives and what the mapping makes of it, and end. Nothing is published.
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..=86_400), conflicts_with = "capture")]
     look: Option<u32>,
+    /// With --look: the mapping to write, with the items that arrived. A file that exists is left as it is.
+    #[arg(long, value_name = "FILE", default_value = "site.yaml", requires = "look")]
+    site: PathBuf,
     #[command(flatten)]
     ros: RosSideArgs,
 }
@@ -64,7 +67,7 @@ struct WitsArgs {
 #[group(required = true, multiple = false)]
 struct LineArgs {
     /// Connect to the rig's server.
-    #[arg(long, value_name = "HOST:PORT")]
+    #[arg(long, value_name = "HOST:PORT", value_parser = host_and_port)]
     connect: Option<String>,
     /// Let the rig connect to this address. Whoever reaches it can drive the twin.
     #[arg(long, value_name = "ADDRESS:PORT")]
@@ -72,6 +75,29 @@ struct LineArgs {
     /// Read a serial line.
     #[arg(long, value_name = "DEVICE")]
     serial: Option<PathBuf>,
+}
+
+/// A host and a port. Whether the host is known shows later, and again with every attempt: a rig's network may come after
+/// the bridge.
+///
+/// # Errors
+/// When one of the two is missing, which no waiting cures.
+fn host_and_port(text: &str) -> Result<String, String> {
+    let (host, port) = text
+        .rsplit_once(':')
+        .ok_or("it has no port; write HOST:PORT, such as 192.168.1.20:5555")?;
+    let is_host = !host.is_empty() && !host.chars().any(|letter| letter.is_whitespace() || letter == '/');
+    if !is_host {
+        return Err("it has no host; write HOST:PORT alone, such as 192.168.1.20:5555".to_owned());
+    }
+    let is_in_brackets = host.starts_with('[') && host.ends_with(']');
+    if host.contains(':') && !is_in_brackets {
+        return Err(format!("an IPv6 address stands in brackets: [{host}]:{port}"));
+    }
+    match port.parse::<u16>() {
+        Ok(1..) => Ok(text.to_owned()),
+        _ => Err(format!("{port:?} is no port: a port is 1 to 65535")),
+    }
 }
 
 /// # Errors
@@ -143,5 +169,30 @@ impl LineArgs {
         let listener = listening.with_context(|| format!("--listen {address}"))?;
         let name = format!("at {}", listener.local_addr()?);
         Ok((Place::Listen(listener), name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::host_and_port;
+
+    #[test]
+    fn what_no_waiting_cures_is_refused_at_once() {
+        for good in ["192.168.1.20:5555", "rig.local:1", "[::1]:65535"] {
+            assert_eq!(host_and_port(good).as_deref(), Ok(good));
+        }
+        for (wrong, words) in [
+            ("nohost", "no port"),
+            (":5555", "no host"),
+            ("rig:", "1 to 65535"),
+            ("rig:0", "1 to 65535"),
+            ("rig:70000", "1 to 65535"),
+            ("::1:5555", "[::1]:5555"),
+            ("tcp://rig:5555", "HOST:PORT alone"),
+            ("a rig:5555", "no host"),
+        ] {
+            let error = host_and_port(wrong).unwrap_err();
+            assert!(error.contains(words), "{wrong}: {error}");
+        }
     }
 }

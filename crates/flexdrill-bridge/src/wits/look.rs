@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use flexdrill_core::inputs::{Dimension, Unit};
-use flexdrill_text::six_digits;
+use flexdrill_text::{counted, six_digits};
 
 use super::frame::RawFrame;
 use super::header::LAST_HEADER_ITEM;
@@ -21,7 +21,7 @@ const SHOWN: usize = 20;
 #[derive(Debug, Clone)]
 pub struct Look {
     table: BTreeMap<ItemCode, ItemMapping>,
-    nulls: Vec<f64>,
+    mapping: Mapping,
     items: BTreeMap<ItemCode, Seen>,
     frames: u64,
 }
@@ -50,7 +50,7 @@ impl Look {
     pub fn new(mapping: &Mapping) -> Self {
         Self {
             table: mapping.table(),
-            nulls: mapping.nulls.clone(),
+            mapping: mapping.clone(),
             items: BTreeMap::new(),
             frames: 0,
         }
@@ -67,7 +67,7 @@ impl Look {
                 first_text: shown(&text[..text.len().min(SHOWN)]),
                 numbers: None,
             });
-            let Some(value) = number(text).filter(|_| !is_null(text, &self.nulls)) else {
+            let Some(value) = number(text).filter(|_| !is_null(text, &self.mapping.nulls)) else {
                 continue;
             };
             match &mut seen.numbers {
@@ -112,6 +112,44 @@ impl Look {
         }
         if !unread.is_empty() {
             let _ = writeln!(text, "  not read: {}", unread.join(", "));
+        }
+        text
+    }
+
+    /// A mapping file (YAML) that reads the items as the table does, with their first values as comments: the beginning of
+    /// a site's mapping. Items that are not read stand in it as comments. `source` names the other end.
+    pub fn site_file(&self, source: &str) -> String {
+        let mut text = format!(
+            "# Items of {source} in {}, as the bridge reads them. Compare each value with the rig's\n# display, and correct \
+             quantity and unit. Items that are not listed are read as by default.\n",
+            counted(self.frames, "frame")
+        );
+        text.push_str(&self.mapping.keys_in_yaml());
+        text.push_str("items:\n");
+        for (code, seen) in &self.items {
+            // Writing to a string does not fail.
+            let _ = match self.table.get(code) {
+                Some(item) => {
+                    let used = seen
+                        .numbers
+                        .map_or_else(|| "no value".to_owned(), |numbers| as_used(item, numbers.first));
+                    writeln!(
+                        text,
+                        "  \"{code}\": {}  # {} {} = {used}",
+                        item.in_yaml(),
+                        seen.first_text,
+                        item.unit
+                    )
+                }
+                None => writeln!(
+                    text,
+                    "  # \"{code}\": {{quantity: NAME, unit: UNIT}}  # {}",
+                    seen.first_text
+                ),
+            };
+        }
+        for (code, _) in self.mapping.items.iter().filter(|(_, item)| item.is_none()) {
+            let _ = writeln!(text, "  \"{code}\":  # never read");
         }
         text
     }
@@ -196,6 +234,33 @@ mod tests {
                 "not read: 0144 (\\x1b[2J), 0199 (1.5)",
             ]
         );
+    }
+
+    #[test]
+    fn the_mapping_of_a_site_is_read_as_it_was_seen() {
+        let given = "units: field\nnulls: [-1]\nstamp: header\nutc_offset_h: 5.5\nsequence: ignore\nitems:\n  \"0117\":\n  \
+                     \"0116\": {quantity: weight_on_bit, unit: klbs, valid: [-1, 20.5], fallback: true}\n";
+        let mapping = Mapping::from_text("given", given).unwrap();
+        let mut look = Look::new(&mapping);
+        let lines = ["0108 9000", "0116 2.5", "0117 3", "0199 # \u{1b}: {"].map(|line| line.as_bytes().to_vec());
+        look.frame(&RawFrame {
+            lines: lines.to_vec(),
+            ..RawFrame::default()
+        });
+        let text = look.site_file("10.0.0.7:5555");
+        let again = Mapping::from_text("site.yaml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_eq!(again.table(), mapping.table(), "{text}");
+        let others = |mapping: &Mapping| Mapping {
+            items: BTreeMap::new(),
+            ..mapping.clone()
+        };
+        assert_eq!(others(&again), others(&mapping));
+        for line in [
+            "  \"0108\": {quantity: bit_depth, unit: ft}  # 9000 ft = 2743.2 m\n",
+            "  # \"0199\": {quantity: NAME, unit: UNIT}  # # \\x1b: {\n",
+        ] {
+            assert!(text.contains(line), "{line}\n{text}");
+        }
     }
 
     #[test]

@@ -262,6 +262,33 @@ impl Mapping {
         table
     }
 
+    /// The keys above the items that differ from the defaults, in YAML. Requests and figures that are sent back are left out,
+    /// with a comment.
+    pub(super) fn keys_in_yaml(&self) -> String {
+        let default = Self::default();
+        let mut text = match self.units {
+            UnitSystem::Metric => "units: metric\n".to_owned(),
+            UnitSystem::Field => "units: field\n".to_owned(),
+        };
+        if self.nulls != default.nulls {
+            let nulls: Vec<String> = self.nulls.iter().map(f64::to_string).collect();
+            text += &format!("nulls: [{}]\n", nulls.join(", "));
+        }
+        if self.stamp == StampSource::Header {
+            text += "stamp: header\n";
+        }
+        if self.utc_offset_h != default.utc_offset_h {
+            text += &format!("utc_offset_h: {}\n", self.utc_offset_h);
+        }
+        if self.sequence == SequenceUse::Ignore {
+            text += "sequence: ignore\n";
+        }
+        if self.ask.is_some() || self.write.is_some() {
+            text += "# ask and write of the mapping in use are to be copied here.\n";
+        }
+        text
+    }
+
     /// How the line asks its other end for frames; none where the mapping says never.
     pub fn ask(&self) -> Option<Ask> {
         let default = AskMapping::default();
@@ -324,6 +351,15 @@ fn check_number(c: &mut Checker, code: ItemCode, key: &str) {
 }
 
 impl ItemMapping {
+    /// The item in YAML, on one line.
+    pub(super) fn in_yaml(&self) -> String {
+        let valid = self
+            .valid
+            .map_or_else(String::new, |[least, most]| format!(", valid: [{least}, {most}]"));
+        let fallback = if self.fallback { ", fallback: true" } else { "" };
+        format!("{{quantity: {}, unit: {}{valid}{fallback}}}", self.quantity, self.unit)
+    }
+
     fn check(&self, c: &mut Checker, code: ItemCode) {
         check_number(c, code, "quantity");
         check_unit_and_range(c, self.quantity, self.unit, self.valid);
