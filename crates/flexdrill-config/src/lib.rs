@@ -96,7 +96,7 @@ pub use solver::{Solver, TimeScheme};
 pub use start::{Initial, Start};
 pub use string::{DrillString, Feed, Friction, Hoist, Model, Section as StringSection, TopDrive, Tuning};
 pub use texts::key_texts;
-pub use tool::{Bit, Damping, Joint, Material, Tool};
+pub use tool::{Bit, BitAxis, Damping, Joint, Material, Tool};
 pub use transfer::{GuidePreload, PressureFolding, Transfer};
 pub use uncertainty::{
     Correlated, Distribution, DownholeTorque, DownholeWeight, Factor, Form, Sensors, SpeedSensor, UncertainKey,

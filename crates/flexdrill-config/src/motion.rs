@@ -92,6 +92,7 @@ impl Config {
             contact.remove("wall_friction_factors");
         }
         self.leave_out_idle_slots(&mut motion);
+        leave_out_hole_ahead(&mut motion);
         // Without a string there is no drive that could stall, and no hoist that is asked for a weight.
         if self.string.model != Model::Line {
             for (section, key) in [
@@ -151,6 +152,7 @@ impl Config {
             }
         }
         self.leave_out_idle_slots(&mut tool);
+        leave_out_hole_ahead(&mut tool);
         if factor != 1.0 {
             tool.insert("friction_factor".to_owned(), Value::from(factor));
         }
@@ -165,6 +167,23 @@ impl Config {
         {
             guide.remove("slots_close_at");
         }
+    }
+}
+
+/// Keys of the bit that only `flexdrill ahead` reads.
+const HOLE_AHEAD: [&str; 4] = [
+    "lateral_resistance",
+    "lateral_resistance_range",
+    "walk_angle_deg",
+    "axis",
+];
+
+/// Removes the keys of the bit that act on the hole ahead and not on the motion.
+fn leave_out_hole_ahead(sections: &mut Map<String, Value>) {
+    if let Some(bit) = sections.get_mut("tool").and_then(|tool| tool.get_mut("bit"))
+        && let Some(bit) = bit.as_object_mut()
+    {
+        bit.retain(|key, _| !HOLE_AHEAD.contains(&key.as_str()));
     }
 }
 
@@ -239,6 +258,10 @@ mod tests {
             ("inputs.rotary_speed.max_rpm", Value::from(100.0)),
             ("alarms.longest_shelving", Value::from(60.0)),
             ("calibration.follow", Value::from(true)),
+            ("tool.bit.lateral_resistance", Value::from(30.0)),
+            ("tool.bit.lateral_resistance_range", Value::from(vec![6.0, 90.0])),
+            ("tool.bit.walk_angle_deg", Value::from(-5.0)),
+            ("tool.bit.axis", Value::from("link")),
         ] {
             assert_eq!(other(key, value).motion_hash(), hash, "{key}");
         }
@@ -276,6 +299,7 @@ mod tests {
             ("solver.time_step", Value::from(1e-4)),
             ("alarms.shock.on_delay", Value::from(3.0)),
             ("run.title", Value::from("another")),
+            ("tool.bit.lateral_resistance", Value::from(30.0)),
         ] {
             assert_eq!(hash(&config.with_value(key, value).unwrap()), own, "{key}");
         }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::checker::{Bound, Checker};
+use super::checker::{Bound, Checker, EachItem};
 use super::json_schema;
 use super::pipe::{Guide, Pipe};
 use super::section::section;
@@ -16,6 +16,12 @@ use flexdrill_core::units::deg_to_rad;
 const LINKS: Bound = Bound::within(1.0, 500.0);
 const ELEMENTS: Bound = Bound::within(1.0, MOST_ELEMENTS as f64);
 const MOST_ELEMENTS: usize = 50;
+const LATERAL_RESISTANCE: Bound = Bound::within(2.0, 1000.0);
+/// A resistance of 1 cuts as easily across as along: the tilt of the bit then no longer steers.
+const RESISTANCE_RANGE: Bound = Bound::within(1.1, 1e4);
+const WALK_ANGLE: Bound = Bound::within(-60.0, 60.0);
+/// The lateral resistance of a gauge of 40 mm in mid-hard rock.
+const USUAL_RESISTANCE: f64 = 20.0;
 
 /// The tool.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -183,7 +189,46 @@ section! {
         /// acts there.
         #[serde(default)]
         inertia: f64, within(0.0, 1e3), "kg m2", "an inertia is not negative; a bit of 8 kg in a 118 mm hole has 0.01";
+        /// Lateral resistance of the bit: depth of cut along the axis over that across it, under equal forces. Large: the
+        /// bit hardly cuts sideways and drills where it points. A gauge of 40 mm gives about 20. Only `flexdrill ahead`
+        /// reads it. Default 20.
+        ///
+        /// Allowed: within 2 to 1000
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = LATERAL_RESISTANCE.in_schema())]
+        lateral_resistance: Option<f64>;
+        /// Range of the lateral resistance, 90 % of what is plausible with rock and wear: `[5, 100]`. Only `flexdrill
+        /// ahead` reads it, unless `uncertainty.keys` has a distribution of `lateral_resistance`. Default a quarter to five
+        /// times `lateral_resistance`.
+        ///
+        /// Allowed: within 1.1 to 10000
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = EachItem(RESISTANCE_RANGE))]
+        lateral_resistance_range: Option<[f64; 2]>;
+        /// Angle by which the bit cuts to the side of its side force, clockwise seen down the hole. Only `flexdrill ahead`
+        /// reads it. Default 0.
+        ///
+        /// Allowed: within -60 to 60 deg
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = WALK_ANGLE.in_schema())]
+        walk_angle_deg: Option<f64>;
+        /// What holds the bit's axis: the `guide`, in a bearing of some length, or the last `link` of the pipe, with the bit
+        /// only centred by the guide. Only `flexdrill ahead` reads it, and predicts nothing with `link`. Default guide.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(with = "BitAxis")]
+        axis: Option<BitAxis>;
     }
+}
+
+/// What holds the bit's axis.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BitAxis {
+    /// The guide, in a bearing of some length.
+    #[default]
+    Guide,
+    /// The last link of the pipe.
+    Link,
 }
 
 fn paper_eta() -> f64 {
@@ -198,6 +243,62 @@ impl Bit {
     /// Torque of Eq. 1 per weight on bit (m): N m per N.
     pub fn torque_arm(&self) -> f64 {
         self.friction_factor * self.diameter / 3.0
+    }
+
+    /// The lateral resistance, as given or the default.
+    pub fn lateral_resistance(&self) -> f64 {
+        self.lateral_resistance.unwrap_or(USUAL_RESISTANCE)
+    }
+
+    /// Ends of 90 % of the plausible lateral resistances.
+    pub fn lateral_resistance_range(&self) -> [f64; 2] {
+        let middle = self.lateral_resistance();
+        self.lateral_resistance_range
+            .unwrap_or([(0.25 * middle).max(1.1), 5.0 * middle])
+    }
+
+    /// Angle of the sideways cutting against the side force (deg).
+    pub fn walk_angle_deg(&self) -> f64 {
+        self.walk_angle_deg.unwrap_or_default()
+    }
+
+    /// What holds the bit's axis.
+    pub fn axis(&self) -> BitAxis {
+        self.axis.unwrap_or_default()
+    }
+
+    fn check(&self, c: &mut Checker) {
+        self.check_numbers(c);
+        if let Some(resistance) = self.lateral_resistance {
+            let reason = "below 2 the tilt of the bit no longer steers; beyond 1000 it drills where it points";
+            c.number("lateral_resistance", resistance, LATERAL_RESISTANCE, "", reason);
+        }
+        if let Some(angle) = self.walk_angle_deg {
+            let reason = "bits walk by some 20 deg at most";
+            c.number("walk_angle_deg", angle, WALK_ANGLE, "deg", reason);
+        }
+        if let Some([low, high]) = self.lateral_resistance_range {
+            let middle = self.lateral_resistance();
+            c.require(
+                low < high && [low, high].into_iter().all(|end| RESISTANCE_RANGE.holds(end)),
+                "lateral_resistance_range",
+                format!("[{low}, {high}]"),
+                "",
+                format!(
+                    "two numbers within {}, the first the smaller one",
+                    RESISTANCE_RANGE.words("")
+                ),
+                "they are the ends of 90 % of the plausible values",
+            );
+            c.require(
+                low >= high || (low..=high).contains(&middle),
+                "lateral_resistance_range",
+                format!("[{low}, {high}]"),
+                "",
+                format!("a range around tool.bit.lateral_resistance, {middle}"),
+                "the value itself is plausible",
+            );
+        }
     }
 }
 
@@ -235,7 +336,7 @@ impl Tool {
         }
         c.below("joint", |c| self.joint.check(c));
         c.below("damping", |c| self.damping.check_numbers(c));
-        c.below("bit", |c| self.bit.check_numbers(c));
+        c.below("bit", |c| self.bit.check(c));
     }
 }
 
