@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use flexdrill::ahead::{Candidate, Goal};
 use flexdrill::messages::generated::{
     TYPES, action_msgs, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs,
-    rcl_interfaces, rosgraph_msgs, sensor_msgs, service_msgs, std_msgs, std_srvs, tf2_msgs,
+    rcl_interfaces, rosgraph_msgs, sensor_msgs, service_msgs, simulation_interfaces, std_msgs, std_srvs, tf2_msgs,
     type_description_interfaces, unique_identifier_msgs, visualization_msgs,
 };
 use flexdrill::messages::{Message, find_type, from_cdr, from_cdr_body, to_cdr, to_cdr_body};
@@ -144,6 +144,27 @@ types! {
     sensor_msgs::CompressedImage,
     sensor_msgs::JointState,
     service_msgs::ServiceEventInfo,
+    simulation_interfaces::SimulateStepsFeedback,
+    simulation_interfaces::SimulateStepsFeedbackMessage,
+    simulation_interfaces::SimulateStepsGetResultRequest,
+    simulation_interfaces::SimulateStepsGetResultResponse,
+    simulation_interfaces::SimulateStepsGoal,
+    simulation_interfaces::SimulateStepsResult,
+    simulation_interfaces::SimulateStepsSendGoalRequest,
+    simulation_interfaces::SimulateStepsSendGoalResponse,
+    simulation_interfaces::Result,
+    simulation_interfaces::SimulationState,
+    simulation_interfaces::SimulatorFeatures,
+    simulation_interfaces::GetSimulationStateRequest,
+    simulation_interfaces::GetSimulationStateResponse,
+    simulation_interfaces::GetSimulatorFeaturesRequest,
+    simulation_interfaces::GetSimulatorFeaturesResponse,
+    simulation_interfaces::ResetSimulationRequest,
+    simulation_interfaces::ResetSimulationResponse,
+    simulation_interfaces::SetSimulationStateRequest,
+    simulation_interfaces::SetSimulationStateResponse,
+    simulation_interfaces::StepSimulationRequest,
+    simulation_interfaces::StepSimulationResponse,
     std_msgs::ColorRGBA,
     std_msgs::Float64,
     std_msgs::Header,
@@ -302,6 +323,13 @@ const REQUESTS: &[Read] = &[
     goal,
     request::<ours::WhatIfGetResultRequest>,
     request::<action_msgs::CancelGoalRequest>,
+    request::<simulation_interfaces::GetSimulatorFeaturesRequest>,
+    request::<simulation_interfaces::GetSimulationStateRequest>,
+    request::<simulation_interfaces::SetSimulationStateRequest>,
+    request::<simulation_interfaces::ResetSimulationRequest>,
+    request::<simulation_interfaces::StepSimulationRequest>,
+    request::<simulation_interfaces::SimulateStepsSendGoalRequest>,
+    request::<simulation_interfaces::SimulateStepsGetResultRequest>,
 ];
 
 /// A request that begins a look-ahead: what its bytes ask for is within the bounds, or is refused in words.

@@ -10,6 +10,7 @@ import re
 from cyclonedds.idl import IdlStruct, annotations, types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXTERNAL = ROOT / "crates" / "flexdrill-messages" / "external"
 
 PRIMITIVES = {
     "bool": bool,
@@ -47,12 +48,15 @@ def _definition(package, kind, name):
         }
         if part in made:
             return made[part]
-        parts = re.split(r"^---$", (ROOT / "msg" / f"{action}.action").read_text(), flags=re.M)
+        file = ROOT / "msg" / f"{action}.action"
+        if package != "flexdrill":
+            file = EXTERNAL / package / "action" / f"{action}.action"
+        parts = re.split(r"^---$", file.read_text(), flags=re.M)
         return parts[["Goal", "Result", "Feedback"].index(part)]
     if kind == "srv":
         name, half = name.rsplit("_", 1)
     own = ROOT / "msg" / f"{name}.{kind}"
-    foreign = ROOT / "crates" / "flexdrill-messages" / "external" / package / kind / f"{name}.{kind}"
+    foreign = EXTERNAL / package / kind / f"{name}.{kind}"
     text = (own if package == "flexdrill" else foreign).read_text()
     if half:
         parts = re.split(r"^---$", text, flags=re.M)

@@ -3557,6 +3557,499 @@ pub mod service_msgs {
     }
 }
 
+/// Messages of the ROS package `simulation_interfaces`.
+pub mod simulation_interfaces {
+    use serde::{Deserialize, Serialize};
+
+    use crate::Message;
+
+    /// `simulation_interfaces/action/SimulateSteps_Feedback`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsFeedback {
+        pub completed_steps: u64,
+        pub remaining_steps: u64,
+    }
+
+    impl Message for SimulateStepsFeedback {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_Feedback";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_Feedback";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_Feedback_";
+        const RIHS01: &'static str = "RIHS01_735661ca01115eb9bca068c3f2cb79bd790cd46962317ce7ee9081a5915c9a77";
+        const SCHEMA: &'static str = "uint64 completed_steps\nuint64 remaining_steps\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_Feedback", "fields": [{"name": "completed_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "remaining_steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_FeedbackMessage`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsFeedbackMessage {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+        pub feedback: SimulateStepsFeedback,
+    }
+
+    impl Message for SimulateStepsFeedbackMessage {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_FeedbackMessage";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_FeedbackMessage";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_FeedbackMessage_";
+        const RIHS01: &'static str = "RIHS01_a30dee7ee7380769e616406ec5067b238aa2b27e1dbd7a5957fba1d908d7754d";
+        const SCHEMA: &'static str = concat!(
+            "unique_identifier_msgs/UUID goal_id\nsimulation_interfaces/SimulateSteps_Feedback feedback\n",
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: simulation_interfaces/SimulateSteps_Feedback\n",
+            "uint64 completed_steps\nuint64 remaining_steps\n",
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_FeedbackMessage", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_Feedback"}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_GetResult_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsGetResultRequest {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+    }
+
+    impl Message for SimulateStepsGetResultRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_GetResult_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_GetResult_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_GetResult_Request_";
+        const RIHS01: &'static str = "RIHS01_4591b0bfbcb881003bbd46a2acebcaddceb977e5352905218688ce5ed051fdeb";
+        const SCHEMA: &'static str = concat!(
+            "unique_identifier_msgs/UUID goal_id\n",
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Request", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_GetResult_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsGetResultResponse {
+        pub status: i8,
+        pub result: SimulateStepsResult,
+    }
+
+    impl Message for SimulateStepsGetResultResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_GetResult_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_GetResult_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_GetResult_Response_";
+        const RIHS01: &'static str = "RIHS01_5658172e771cb145a986a8ef4c2b80b5407b741038453b8539e35bed5ff23207";
+        const SCHEMA: &'static str = concat!(
+            "int8 status\nsimulation_interfaces/SimulateSteps_Result result\n",
+            "================================================================================\nMSG: simulation_interfaces/SimulateSteps_Result\n",
+            "Result result\n",
+            "================================================================================\nMSG: simulation_interfaces/Result\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Response", "fields": [{"name": "status", "type": {"type_id": 2, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_Result"}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_Goal`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsGoal {
+        pub steps: u64,
+    }
+
+    impl Message for SimulateStepsGoal {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_Goal";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_Goal";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_Goal_";
+        const RIHS01: &'static str = "RIHS01_3f02c5df1dcdc7c08efee7f47c953c42c11686e0df8f8bbfb2d7e901f0d440d2";
+        const SCHEMA: &'static str = "uint64 steps\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_Goal", "fields": [{"name": "steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_Result`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsResult {
+        pub result: Result,
+    }
+
+    impl Message for SimulateStepsResult {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_Result";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_Result";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_Result_";
+        const RIHS01: &'static str = "RIHS01_a1384eaee4ca7ae9238e612dfe26939dd0922cae664be1b5886cf773718823dc";
+        const SCHEMA: &'static str = concat!(
+            "Result result\n",
+            "================================================================================\nMSG: simulation_interfaces/Result\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_Result", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/Result"}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_SendGoal_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsSendGoalRequest {
+        pub goal_id: super::unique_identifier_msgs::UUID,
+        pub goal: SimulateStepsGoal,
+    }
+
+    impl Message for SimulateStepsSendGoalRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_SendGoal_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_SendGoal_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_SendGoal_Request_";
+        const RIHS01: &'static str = "RIHS01_275e6fd2fafc5d33dcdc83bdea6de5cf29f30b9df74a3b9514a8c5d501fd0fe3";
+        const SCHEMA: &'static str = concat!(
+            "unique_identifier_msgs/UUID goal_id\nsimulation_interfaces/SimulateSteps_Goal goal\n",
+            "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
+            include_str!("../../../crates/flexdrill-messages/external/unique_identifier_msgs/msg/UUID.msg"),
+            "================================================================================\nMSG: simulation_interfaces/SimulateSteps_Goal\n",
+            "uint64 steps\n",
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Request", "fields": [{"name": "goal_id", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "unique_identifier_msgs/msg/UUID"}}, {"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_Goal"}}]}"#;
+    }
+
+    /// `simulation_interfaces/action/SimulateSteps_SendGoal_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulateStepsSendGoalResponse {
+        pub accepted: bool,
+        pub stamp: super::builtin_interfaces::Time,
+    }
+
+    impl Message for SimulateStepsSendGoalResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulateSteps_SendGoal_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/action/SimulateSteps_SendGoal_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::action::dds_::SimulateSteps_SendGoal_Response_";
+        const RIHS01: &'static str = "RIHS01_755f44a68d1e8d116f50dfed7ab30a140137fb71ad59eca4851d55abe2b3d4c2";
+        const SCHEMA: &'static str = concat!(
+            "bool accepted\nbuiltin_interfaces/Time stamp\n",
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Response", "fields": [{"name": "accepted", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stamp", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}]}"#;
+    }
+
+    /// `simulation_interfaces/msg/Result`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct Result {
+        /// One of the codes above, or one from 101 on that the service defines.
+        pub result: u8,
+        pub error_message: std::string::String,
+    }
+
+    impl Result {
+        /// The interface is not offered, or not with these arguments.
+        pub const RESULT_FEATURE_UNSUPPORTED: u8 = 0;
+        pub const RESULT_OK: u8 = 1;
+        pub const RESULT_NOT_FOUND: u8 = 2;
+        /// The simulator is in a state in which the request cannot be carried out.
+        pub const RESULT_INCORRECT_STATE: u8 = 3;
+        /// The request failed; error_message has the reason.
+        pub const RESULT_OPERATION_FAILED: u8 = 4;
+    }
+
+    impl Message for Result {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "Result";
+        const ROS_TYPE: &'static str = "simulation_interfaces/msg/Result";
+        const DDS_TYPE: &'static str = "simulation_interfaces::msg::dds_::Result_";
+        const RIHS01: &'static str = "RIHS01_cf43a306adff3337a0a47143d8f5689933bc70a30478f13b077dc1fe3bc5ad17";
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/msg/Result", "fields": [{"name": "result", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "error_message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/msg/SimulationState`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulationState {
+        pub state: u8,
+    }
+
+    impl SimulationState {
+        /// At its start, and paused.
+        pub const STATE_STOPPED: u8 = 0;
+        pub const STATE_PLAYING: u8 = 1;
+        pub const STATE_PAUSED: u8 = 2;
+        pub const STATE_QUITTING: u8 = 3;
+        pub const STATE_NO_WORLD: u8 = 4;
+        pub const STATE_LOADING_WORLD: u8 = 5;
+    }
+
+    impl Message for SimulationState {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulationState";
+        const ROS_TYPE: &'static str = "simulation_interfaces/msg/SimulationState";
+        const DDS_TYPE: &'static str = "simulation_interfaces::msg::dds_::SimulationState_";
+        const RIHS01: &'static str = "RIHS01_bb9f87ccdd98fba113052a512d9801e84ce732d0a2b3c2b0cb281828de36e415";
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/SimulationState.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/msg/SimulationState", "fields": [{"name": "state", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/msg/SimulatorFeatures`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SimulatorFeatures {
+        /// Of the constants above.
+        pub features: Vec<u16>,
+        /// Formats of what may be spawned.
+        pub spawn_formats: Vec<std::string::String>,
+        pub custom_info: std::string::String,
+    }
+
+    impl SimulatorFeatures {
+        pub const SPAWNING: u8 = 0;
+        pub const DELETING: u8 = 1;
+        pub const NAMED_POSES: u8 = 2;
+        pub const POSE_BOUNDS: u8 = 3;
+        pub const ENTITY_TAGS: u8 = 4;
+        pub const ENTITY_BOUNDS: u8 = 5;
+        pub const ENTITY_BOUNDS_BOX: u8 = 6;
+        pub const ENTITY_BOUNDS_CONVEX: u8 = 7;
+        pub const ENTITY_CATEGORIES: u8 = 8;
+        pub const SPAWNING_RESOURCE_STRING: u8 = 9;
+        pub const ENTITY_STATE_GETTING: u8 = 10;
+        pub const ENTITY_STATE_SETTING: u8 = 11;
+        pub const ENTITY_INFO_GETTING: u8 = 12;
+        pub const ENTITY_INFO_SETTING: u8 = 13;
+        pub const SPAWNABLES: u8 = 14;
+        pub const SIMULATION_RESET: u8 = 20;
+        pub const SIMULATION_RESET_TIME: u8 = 21;
+        pub const SIMULATION_RESET_STATE: u8 = 22;
+        pub const SIMULATION_RESET_SPAWNED: u8 = 23;
+        pub const SIMULATION_STATE_GETTING: u8 = 24;
+        pub const SIMULATION_STATE_SETTING: u8 = 25;
+        pub const SIMULATION_STATE_PAUSE: u8 = 26;
+        pub const STEP_SIMULATION_SINGLE: u8 = 31;
+        pub const STEP_SIMULATION_MULTIPLE: u8 = 32;
+        pub const STEP_SIMULATION_ACTION: u8 = 33;
+        pub const WORLD_LOADING: u8 = 40;
+        pub const WORLD_RESOURCE_STRING: u8 = 41;
+        pub const WORLD_TAGS: u8 = 42;
+        pub const WORLD_UNLOADING: u8 = 43;
+        pub const WORLD_INFO_GETTING: u8 = 44;
+        pub const AVAILABLE_WORLDS: u8 = 45;
+        pub const SPAWNING_ENTITIES: u8 = 50;
+    }
+
+    impl Message for SimulatorFeatures {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SimulatorFeatures";
+        const ROS_TYPE: &'static str = "simulation_interfaces/msg/SimulatorFeatures";
+        const DDS_TYPE: &'static str = "simulation_interfaces::msg::dds_::SimulatorFeatures_";
+        const RIHS01: &'static str = "RIHS01_8b101c8529bc0ea3dcf056078254768f39832b9ef0adaf93bd5cea96c0de3305";
+        const SCHEMA: &'static str = include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/SimulatorFeatures.msg");
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/msg/SimulatorFeatures", "fields": [{"name": "features", "type": {"type_id": 149, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "spawn_formats", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "custom_info", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/GetSimulationState_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetSimulationStateRequest {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl Message for GetSimulationStateRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "GetSimulationState_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/GetSimulationState_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::GetSimulationState_Request_";
+        const RIHS01: &'static str = "RIHS01_c6d65bc5c0a95ca2886bc57f146f803e01722c84ddb5acd5f32a4417f55eecfb";
+        const SCHEMA: &'static str = "";
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/GetSimulationState_Request", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/GetSimulationState_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetSimulationStateResponse {
+        pub state: SimulationState,
+        pub result: Result,
+    }
+
+    impl Message for GetSimulationStateResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "GetSimulationState_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/GetSimulationState_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::GetSimulationState_Response_";
+        const RIHS01: &'static str = "RIHS01_dc80ce852a5ab04c2b23cdd47910cee1bcc46e0f1931cac85825e6916b15517f";
+        const SCHEMA: &'static str = concat!(
+            "SimulationState state\nResult result\n",
+            "================================================================================\nMSG: simulation_interfaces/SimulationState\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/SimulationState.msg"),
+            "================================================================================\nMSG: simulation_interfaces/Result\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/GetSimulationState_Response", "fields": [{"name": "state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/SimulationState"}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/Result"}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/GetSimulatorFeatures_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetSimulatorFeaturesRequest {
+        /// Carries nothing; DDS has no empty struct.
+        pub structure_needs_at_least_one_member: u8,
+    }
+
+    impl Message for GetSimulatorFeaturesRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "GetSimulatorFeatures_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/GetSimulatorFeatures_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::GetSimulatorFeatures_Request_";
+        const RIHS01: &'static str = "RIHS01_982b8c1adef1d556f6ecdc019d1269fc39413626a9222d73b4fc874bd798b7db";
+        const SCHEMA: &'static str = "";
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Request", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/GetSimulatorFeatures_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct GetSimulatorFeaturesResponse {
+        pub features: SimulatorFeatures,
+    }
+
+    impl Message for GetSimulatorFeaturesResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "GetSimulatorFeatures_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/GetSimulatorFeatures_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::GetSimulatorFeatures_Response_";
+        const RIHS01: &'static str = "RIHS01_ede4dc8227cbb2f86a24612c999dcaa67d17dab21dab566cefdc233e7a2a65d1";
+        const SCHEMA: &'static str = concat!(
+            "SimulatorFeatures features\n",
+            "================================================================================\nMSG: simulation_interfaces/SimulatorFeatures\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/SimulatorFeatures.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Response", "fields": [{"name": "features", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/SimulatorFeatures"}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/ResetSimulation_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ResetSimulationRequest {
+        /// Bits of the constants above.
+        pub scope: u8,
+    }
+
+    impl ResetSimulationRequest {
+        /// All.
+        pub const SCOPE_DEFAULT: u8 = 0;
+        pub const SCOPE_TIME: u8 = 1;
+        pub const SCOPE_STATE: u8 = 2;
+        pub const SCOPE_SPAWNED: u8 = 4;
+        pub const SCOPE_ALL: u8 = 255;
+    }
+
+    impl Message for ResetSimulationRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "ResetSimulation_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/ResetSimulation_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::ResetSimulation_Request_";
+        const RIHS01: &'static str = "RIHS01_2c766d09c3aa30f01fadc55a42fd760b63db358c7d1d3b6a64ea9978225ffbc7";
+        const SCHEMA: &'static str = "# All.\nuint8 SCOPE_DEFAULT = 0\nuint8 SCOPE_TIME = 1\nuint8 SCOPE_STATE = 2\nuint8 SCOPE_SPAWNED = 4\nuint8 SCOPE_ALL = 255\n\n# Bits of the constants above.\nuint8 scope\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/ResetSimulation_Request", "fields": [{"name": "scope", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/ResetSimulation_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ResetSimulationResponse {
+        pub result: Result,
+    }
+
+    impl Message for ResetSimulationResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "ResetSimulation_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/ResetSimulation_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::ResetSimulation_Response_";
+        const RIHS01: &'static str = "RIHS01_718428121e0f1755720878d3c28f1688da7581ee5a5d56d26d10d941a28a50a0";
+        const SCHEMA: &'static str = concat!(
+            "Result result\n",
+            "================================================================================\nMSG: simulation_interfaces/Result\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/ResetSimulation_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/Result"}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/SetSimulationState_Request`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetSimulationStateRequest {
+        pub state: SimulationState,
+    }
+
+    impl Message for SetSimulationStateRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SetSimulationState_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/SetSimulationState_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::SetSimulationState_Request_";
+        const RIHS01: &'static str = "RIHS01_73283477d36ba619db2ac37a3e599077ca244502c9d8ca2a7183afcb2224f476";
+        const SCHEMA: &'static str = concat!(
+            "SimulationState state\n",
+            "================================================================================\nMSG: simulation_interfaces/SimulationState\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/SimulationState.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/SetSimulationState_Request", "fields": [{"name": "state", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/SimulationState"}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/SetSimulationState_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SetSimulationStateResponse {
+        pub result: Result,
+    }
+
+    impl SetSimulationStateResponse {
+        pub const ALREADY_IN_TARGET_STATE: u8 = 101;
+        pub const STATE_TRANSITION_ERROR: u8 = 102;
+        pub const INCORRECT_TRANSITION: u8 = 103;
+    }
+
+    impl Message for SetSimulationStateResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "SetSimulationState_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/SetSimulationState_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::SetSimulationState_Response_";
+        const RIHS01: &'static str = "RIHS01_6351aebf2bbf06e2993977918b944240f7403b532a9e4a344c53e71a56afd174";
+        const SCHEMA: &'static str = concat!(
+            "uint8 ALREADY_IN_TARGET_STATE = 101\nuint8 STATE_TRANSITION_ERROR = 102\nuint8 INCORRECT_TRANSITION = 103\nResult result\n",
+            "================================================================================\nMSG: simulation_interfaces/Result\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/SetSimulationState_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/Result"}}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/StepSimulation_Request`.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub struct StepSimulationRequest {
+        pub steps: u64,
+    }
+
+    impl Default for StepSimulationRequest {
+        fn default() -> Self {
+            Self {
+                steps: 1,
+            }
+        }
+    }
+
+    impl Message for StepSimulationRequest {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "StepSimulation_Request";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/StepSimulation_Request";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::StepSimulation_Request_";
+        const RIHS01: &'static str = "RIHS01_cda33f6887815f3dce0f90e61fd8efd39bda13ae264ddede15c33fbad890630e";
+        const SCHEMA: &'static str = "uint64 steps 1\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/StepSimulation_Request", "fields": [{"name": "steps", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}, "default_value": "1"}]}"#;
+    }
+
+    /// `simulation_interfaces/srv/StepSimulation_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct StepSimulationResponse {
+        pub result: Result,
+    }
+
+    impl Message for StepSimulationResponse {
+        const PACKAGE: &'static str = "simulation_interfaces";
+        const NAME: &'static str = "StepSimulation_Response";
+        const ROS_TYPE: &'static str = "simulation_interfaces/srv/StepSimulation_Response";
+        const DDS_TYPE: &'static str = "simulation_interfaces::srv::dds_::StepSimulation_Response_";
+        const RIHS01: &'static str = "RIHS01_5b4acf2d0ce7c3fc125d0bef2acb9b5a81377e80db6b696b81beeffb9824fb5c";
+        const SCHEMA: &'static str = concat!(
+            "Result result\n",
+            "================================================================================\nMSG: simulation_interfaces/Result\n",
+            include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/msg/Result.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "simulation_interfaces/srv/StepSimulation_Response", "fields": [{"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/msg/Result"}}]}"#;
+    }
+}
+
 /// Messages of the ROS package `std_msgs`.
 pub mod std_msgs {
     use serde::{Deserialize, Serialize};
@@ -4244,6 +4737,27 @@ pub const TYPES: &[TypeInfo] = &[
     <sensor_msgs::CompressedImage as super::Message>::INFO,
     <sensor_msgs::JointState as super::Message>::INFO,
     <service_msgs::ServiceEventInfo as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsFeedback as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsFeedbackMessage as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsGetResultRequest as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsGetResultResponse as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsGoal as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsResult as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsSendGoalRequest as super::Message>::INFO,
+    <simulation_interfaces::SimulateStepsSendGoalResponse as super::Message>::INFO,
+    <simulation_interfaces::Result as super::Message>::INFO,
+    <simulation_interfaces::SimulationState as super::Message>::INFO,
+    <simulation_interfaces::SimulatorFeatures as super::Message>::INFO,
+    <simulation_interfaces::GetSimulationStateRequest as super::Message>::INFO,
+    <simulation_interfaces::GetSimulationStateResponse as super::Message>::INFO,
+    <simulation_interfaces::GetSimulatorFeaturesRequest as super::Message>::INFO,
+    <simulation_interfaces::GetSimulatorFeaturesResponse as super::Message>::INFO,
+    <simulation_interfaces::ResetSimulationRequest as super::Message>::INFO,
+    <simulation_interfaces::ResetSimulationResponse as super::Message>::INFO,
+    <simulation_interfaces::SetSimulationStateRequest as super::Message>::INFO,
+    <simulation_interfaces::SetSimulationStateResponse as super::Message>::INFO,
+    <simulation_interfaces::StepSimulationRequest as super::Message>::INFO,
+    <simulation_interfaces::StepSimulationResponse as super::Message>::INFO,
     <std_msgs::ColorRGBA as super::Message>::INFO,
     <std_msgs::Float64 as super::Message>::INFO,
     <std_msgs::Header as super::Message>::INFO,
@@ -4415,6 +4929,62 @@ pub const SERVICES: &[ServiceInfo] = &[
         event_description: r#"{"type_name": "rcl_interfaces/srv/SetParametersAtomically_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "rcl_interfaces/srv/SetParametersAtomically_Response"}}]}"#,
     },
     ServiceInfo {
+        ros_type: "simulation_interfaces/action/SimulateSteps_GetResult",
+        rihs01: "RIHS01_a1dae0516ab5c70d6d797e1bcd55c9448dfbb1966643f1ebd3e3f153d8169ae0",
+        source: "",
+        description: r#"{"type_name": "simulation_interfaces/action/SimulateSteps_GetResult", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Event"}}]}"#,
+        event_type: "simulation_interfaces/action/SimulateSteps_GetResult_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_GetResult_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "simulation_interfaces/action/SimulateSteps_SendGoal",
+        rihs01: "RIHS01_504407b9ff5617a737df8222cf581452b4f2e699e11e940d8d36590c5fb07d01",
+        source: "",
+        description: r#"{"type_name": "simulation_interfaces/action/SimulateSteps_SendGoal", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Event"}}]}"#,
+        event_type: "simulation_interfaces/action/SimulateSteps_SendGoal_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_SendGoal_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "simulation_interfaces/srv/GetSimulationState",
+        rihs01: "RIHS01_3362dcebee4b1afebbf9c4beee5c79c1455385aded62092a892d61fde8644f30",
+        source: include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/srv/GetSimulationState.srv"),
+        description: r#"{"type_name": "simulation_interfaces/srv/GetSimulationState", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulationState_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulationState_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulationState_Event"}}]}"#,
+        event_type: "simulation_interfaces/srv/GetSimulationState_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/srv/GetSimulationState_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulationState_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulationState_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "simulation_interfaces/srv/GetSimulatorFeatures",
+        rihs01: "RIHS01_abb9439c8cf196722a469fb6c68b44b484f198c2a1356ac38849a29c2a20a794",
+        source: include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/srv/GetSimulatorFeatures.srv"),
+        description: r#"{"type_name": "simulation_interfaces/srv/GetSimulatorFeatures", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Event"}}]}"#,
+        event_type: "simulation_interfaces/srv/GetSimulatorFeatures_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/GetSimulatorFeatures_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "simulation_interfaces/srv/ResetSimulation",
+        rihs01: "RIHS01_4ce285d7ff9b8ac70dcc95161f32bf54c05a6f4b13427990e41ab40c36c39646",
+        source: include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/srv/ResetSimulation.srv"),
+        description: r#"{"type_name": "simulation_interfaces/srv/ResetSimulation", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/ResetSimulation_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/ResetSimulation_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/ResetSimulation_Event"}}]}"#,
+        event_type: "simulation_interfaces/srv/ResetSimulation_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/srv/ResetSimulation_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/ResetSimulation_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/ResetSimulation_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "simulation_interfaces/srv/SetSimulationState",
+        rihs01: "RIHS01_a868b916dce49974f637ba252141258c4b07b0c06858b88af560e3eb6bfbcb30",
+        source: include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/srv/SetSimulationState.srv"),
+        description: r#"{"type_name": "simulation_interfaces/srv/SetSimulationState", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/SetSimulationState_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/SetSimulationState_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/SetSimulationState_Event"}}]}"#,
+        event_type: "simulation_interfaces/srv/SetSimulationState_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/srv/SetSimulationState_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/SetSimulationState_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/SetSimulationState_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "simulation_interfaces/srv/StepSimulation",
+        rihs01: "RIHS01_913fe0653690ce6bf8f09f316e6a626747012e9fca31e26719910d417aa8565c",
+        source: include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/srv/StepSimulation.srv"),
+        description: r#"{"type_name": "simulation_interfaces/srv/StepSimulation", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/StepSimulation_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/StepSimulation_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/StepSimulation_Event"}}]}"#,
+        event_type: "simulation_interfaces/srv/StepSimulation_Event",
+        event_description: r#"{"type_name": "simulation_interfaces/srv/StepSimulation_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/StepSimulation_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "simulation_interfaces/srv/StepSimulation_Response"}}]}"#,
+    },
+    ServiceInfo {
         ros_type: "std_srvs/srv/SetBool",
         rihs01: "RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a",
         source: include_str!("../../../crates/flexdrill-messages/external/std_srvs/srv/SetBool.srv"),
@@ -4447,5 +5017,11 @@ pub const ACTIONS: &[ActionInfo] = &[
         rihs01: "RIHS01_8046104adc59ab53605dcfd9a29dee2510e34b28fccbcf9b192362140e2ac955",
         source: include_str!("../../../msg/WhatIf.action"),
         description: r#"{"type_name": "flexdrill/action/WhatIf", "fields": [{"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Goal"}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Result"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Feedback"}}, {"name": "send_goal_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal"}}, {"name": "get_result_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult"}}, {"name": "feedback_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_FeedbackMessage"}}]}"#,
+    },
+    ActionInfo {
+        ros_type: "simulation_interfaces/action/SimulateSteps",
+        rihs01: "RIHS01_f0837c898e1219cd73bf4c041feab41e8c533e8e1057e982744dba7b093467eb",
+        source: include_str!("../../../crates/flexdrill-messages/external/simulation_interfaces/action/SimulateSteps.action"),
+        description: r#"{"type_name": "simulation_interfaces/action/SimulateSteps", "fields": [{"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_Goal"}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_Result"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_Feedback"}}, {"name": "send_goal_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_SendGoal"}}, {"name": "get_result_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_GetResult"}}, {"name": "feedback_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "simulation_interfaces/action/SimulateSteps_FeedbackMessage"}}]}"#,
     },
 ];

@@ -12,6 +12,10 @@ use flexdrill_messages::lifecycle_msgs::{
     ChangeStateResponse, GetAvailableStatesResponse, GetAvailableTransitionsResponse, GetStateResponse,
 };
 use flexdrill_messages::rcl_interfaces::{GetLoggerLevelsResponse, SetLoggerLevelsResponse, SetLoggerLevelsResult};
+use flexdrill_messages::simulation_interfaces::{
+    GetSimulationStateResponse, GetSimulatorFeaturesResponse, ResetSimulationResponse, Result as SimulationResult,
+    SetSimulationStateResponse, SimulateStepsGetResultResponse, SimulateStepsSendGoalResponse, StepSimulationResponse,
+};
 use flexdrill_messages::std_srvs::{SetBoolResponse, TriggerResponse};
 use flexdrill_messages::type_description_interfaces::GetTypeDescriptionResponse;
 use flexdrill_messages::{
@@ -113,7 +117,39 @@ macro_rules! short {
         }
     )*};
 }
-short!(GetStateResponse);
+short!(
+    GetStateResponse,
+    GetSimulatorFeaturesResponse,
+    GetSimulationStateResponse,
+    SimulateStepsGetResultResponse
+);
+
+/// Replies with a result code and a text.
+macro_rules! code_and_text {
+    ($($reply:ty),*) => {$(
+        impl Reply for $reply {
+            fn shortened(mut self, why: &str) -> Self {
+                why.clone_into(&mut self.result.error_message);
+                self
+            }
+
+            fn refused(why: &str) -> Option<Self> {
+                Some(Self {
+                    result: SimulationResult {
+                        result: SimulationResult::RESULT_OPERATION_FAILED,
+                        error_message: not_carried_out(why),
+                    },
+                })
+            }
+        }
+    )*};
+}
+
+code_and_text!(
+    SetSimulationStateResponse,
+    ResetSimulationResponse,
+    StepSimulationResponse
+);
 
 impl Reply for CancelGoalResponse {
     fn shortened(self, _why: &str) -> Self {
@@ -138,18 +174,25 @@ impl Reply for ChangeStateResponse {
     }
 }
 
-impl Reply for WhatIfSendGoalResponse {
-    fn shortened(self, _why: &str) -> Self {
-        self
-    }
+/// Replies to a goal: whether it is accepted.
+macro_rules! accepted {
+    ($($reply:ty),*) => {$(
+        impl Reply for $reply {
+            fn shortened(self, _why: &str) -> Self {
+                self
+            }
 
-    fn refused(_why: &str) -> Option<Self> {
-        Some(Self {
-            accepted: false,
-            ..Self::default()
-        })
-    }
+            fn refused(_why: &str) -> Option<Self> {
+                Some(Self {
+                    accepted: false,
+                    ..Self::default()
+                })
+            }
+        }
+    )*};
 }
+
+accepted!(WhatIfSendGoalResponse, SimulateStepsSendGoalResponse);
 
 impl Reply for ListParametersResponse {
     fn shortened(self, _why: &str) -> Self {

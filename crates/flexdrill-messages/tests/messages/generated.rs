@@ -108,6 +108,75 @@ fn an_action_has_its_published_hashes() {
     assert!(catalogue.dependencies(whole).unwrap().len() > 10);
 }
 
+/// Hashes of the standard for simulators, as a separate Python program computed them from the definitions of
+/// simulation_interfaces 1.5.0; for types with published hashes it computed those.
+#[test]
+fn types_of_the_standard_for_simulators_have_their_hashes() {
+    let of = |name: &str| {
+        let full = format!("simulation_interfaces/{name}");
+        let message = flexdrill_messages::find_type(&full).map(|info| info.rihs01);
+        let service = flexdrill_messages::find_service(&full).map(|info| info.rihs01);
+        let action = flexdrill_messages::find_action(&full).map(|info| info.rihs01);
+        message.or(service).or(action).unwrap()
+    };
+    for (name, hash) in [
+        (
+            "msg/Result",
+            "cf43a306adff3337a0a47143d8f5689933bc70a30478f13b077dc1fe3bc5ad17",
+        ),
+        (
+            "msg/SimulationState",
+            "bb9f87ccdd98fba113052a512d9801e84ce732d0a2b3c2b0cb281828de36e415",
+        ),
+        (
+            "msg/SimulatorFeatures",
+            "8b101c8529bc0ea3dcf056078254768f39832b9ef0adaf93bd5cea96c0de3305",
+        ),
+        (
+            "srv/GetSimulatorFeatures",
+            "abb9439c8cf196722a469fb6c68b44b484f198c2a1356ac38849a29c2a20a794",
+        ),
+        (
+            "srv/GetSimulationState",
+            "3362dcebee4b1afebbf9c4beee5c79c1455385aded62092a892d61fde8644f30",
+        ),
+        (
+            "srv/SetSimulationState",
+            "a868b916dce49974f637ba252141258c4b07b0c06858b88af560e3eb6bfbcb30",
+        ),
+        (
+            "srv/ResetSimulation",
+            "4ce285d7ff9b8ac70dcc95161f32bf54c05a6f4b13427990e41ab40c36c39646",
+        ),
+        (
+            "srv/StepSimulation",
+            "913fe0653690ce6bf8f09f316e6a626747012e9fca31e26719910d417aa8565c",
+        ),
+        (
+            "srv/StepSimulation_Request",
+            "cda33f6887815f3dce0f90e61fd8efd39bda13ae264ddede15c33fbad890630e",
+        ),
+        (
+            "action/SimulateSteps",
+            "f0837c898e1219cd73bf4c041feab41e8c533e8e1057e982744dba7b093467eb",
+        ),
+        (
+            "action/SimulateSteps_FeedbackMessage",
+            "a30dee7ee7380769e616406ec5067b238aa2b27e1dbd7a5957fba1d908d7754d",
+        ),
+        (
+            "action/SimulateSteps_SendGoal",
+            "504407b9ff5617a737df8222cf581452b4f2e699e11e940d8d36590c5fb07d01",
+        ),
+        (
+            "action/SimulateSteps_GetResult",
+            "a1dae0516ab5c70d6d797e1bcd55c9448dfbb1966643f1ebd3e3f153d8169ae0",
+        ),
+    ] {
+        assert_eq!(of(name), format!("RIHS01_{hash}"), "{name}");
+    }
+}
+
 /// Hashes of standard types as ROS 2 Jazzy's own packages carry them.
 #[test]
 fn standard_types_have_their_published_hashes() {
