@@ -83,6 +83,10 @@ pub enum Command {
     Pause(bool),
     /// Reset the model to the state after the start.
     Reset,
+    /// Take so many steps while the run is paused. A pause, a resumption and a reset end the order.
+    Step(u64),
+    /// Take no more of the steps that were ordered.
+    StopSteps,
     /// Fill the slot with the whole state and send it back.
     State(Box<StateSlot>),
 }
@@ -125,6 +129,69 @@ pub enum RunState {
     Failed = 3,
 }
 
+/// How an order of steps stands.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum OrderEnd {
+    /// Steps remain to be taken.
+    Open = 0,
+    /// All steps are taken.
+    #[default]
+    Done = 1,
+    /// Another command ended it.
+    Stopped = 2,
+    /// A step failed.
+    Failed = 3,
+}
+
+/// Steps that were ordered by [`Command::Step`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct StepOrder {
+    /// Number of the command.
+    pub command: u64,
+    /// Steps that have not been taken.
+    pub left: u64,
+    /// Whether it has ended, and how.
+    pub end: OrderEnd,
+}
+
+impl StepOrder {
+    pub(crate) fn new(command: u64, steps: u64) -> Self {
+        let end = if steps == 0 { OrderEnd::Done } else { OrderEnd::Open };
+        Self {
+            command,
+            left: steps,
+            end,
+        }
+    }
+
+    pub(crate) fn is_open(&self) -> bool {
+        self.end == OrderEnd::Open
+    }
+
+    pub(crate) fn step_taken(&mut self) {
+        self.left = self.left.saturating_sub(1);
+        if self.left == 0 {
+            self.end = OrderEnd::Done;
+        }
+    }
+
+    pub(crate) fn stop(&mut self) {
+        self.end_as(OrderEnd::Stopped);
+    }
+
+    pub(crate) fn fail(&mut self) {
+        self.end_as(OrderEnd::Failed);
+    }
+
+    /// What has ended keeps its end.
+    fn end_as(&mut self, end: OrderEnd) {
+        if self.is_open() {
+            self.end = end;
+        }
+    }
+}
+
 /// Numbers that the solver's thread keeps up to date and others read.
 #[derive(Debug, Default)]
 pub struct Gauges {
@@ -149,6 +216,12 @@ pub struct Gauges {
     pub frames_dropped: AtomicU64,
     /// Events that found no room: a recording of this run cannot be replayed exactly.
     pub events_lost: AtomicU64,
+    /// Commands carried out, with all that they changed in the gauges.
+    pub commands: AtomicU64,
+    /// See [`Gauges::order`].
+    order_command: AtomicU64,
+    order_left: AtomicU64,
+    order_end: AtomicU8,
     /// Time per phase of the steps taken so far (ns).
     phase_times: [AtomicU64; phases::Phase::ALL.len()],
     /// Set to end the loop.
@@ -164,6 +237,30 @@ impl Gauges {
             3 => RunState::Failed,
             _ => RunState::Starting,
         }
+    }
+
+    /// The newest order of steps.
+    pub fn order(&self) -> StepOrder {
+        // In the opposite order of `set_order`: what is read later is at least as new. Steps that remain are then never
+        // more than those at the end that was read.
+        let command = self.order_command.load(Ordering::Acquire);
+        let end = match self.order_end.load(Ordering::Acquire) {
+            0 => OrderEnd::Open,
+            2 => OrderEnd::Stopped,
+            3 => OrderEnd::Failed,
+            _ => OrderEnd::Done,
+        };
+        StepOrder {
+            command,
+            left: self.order_left.load(Ordering::Relaxed),
+            end,
+        }
+    }
+
+    pub(crate) fn set_order(&self, order: &StepOrder) {
+        self.order_left.store(order.left, Ordering::Relaxed);
+        self.order_end.store(order.end as u8, Ordering::Release);
+        self.order_command.store(order.command, Ordering::Release);
     }
 
     /// Computing time per phase of the steps so far. The phases are separate cells and may differ by a period.

@@ -4,6 +4,10 @@
 //! A period is a whole number of model steps. The loop catches up small lateness. Beyond the tolerance it skips and
 //! counts whole periods, so that model and clock stay together. The refinement of the steps is the one that the motion
 //! needs, as far as the machine has time for it ([`StepPace`]). It is an input of the run, and is published as one.
+//!
+//! While the run is paused, a client can order a number of steps ([`Command::Step`]). They are taken at the pace of the
+//! clock. Inputs and refinement are decided before each of them, and without regard to the machine's pace, so that
+//! the motion is the same however the steps are divided into orders.
 
 use std::collections::VecDeque;
 use std::sync::atomic::Ordering;
@@ -16,7 +20,7 @@ use flexdrill_core::twin::{Frame, Run, RunInputs};
 use rtrb::PushError;
 
 use crate::clock::Clock;
-use crate::link::{Command, FRAMES, LoopEnd, LoopEvent, RunState};
+use crate::link::{Command, FRAMES, LoopEnd, LoopEvent, RunState, StepOrder};
 
 /// A clock that is this far before the deadline (ns) was set back.
 const SET_BACK: u64 = 2_000_000_000;
@@ -50,6 +54,8 @@ pub struct RealTimeLoop<C: Clock> {
     pace: StepPace,
     /// Periods were skipped since the last one that was computed.
     late: bool,
+    /// The steps that were ordered last.
+    order: StepOrder,
 }
 
 impl<C: Clock> RealTimeLoop<C> {
@@ -77,6 +83,7 @@ impl<C: Clock> RealTimeLoop<C> {
             first: true,
             pace: StepPace::new(MOST_REFINEMENT),
             late: false,
+            order: StepOrder::default(),
             run,
             clock,
             end,
@@ -156,8 +163,24 @@ impl<C: Clock> RealTimeLoop<C> {
                     self.wanted.whirl = settings.whirl;
                     self.wanted.schedule = settings.schedule;
                 }
-                Command::Pause(paused) => self.paused = paused,
-                Command::Reset => self.reset_asked = true,
+                Command::Pause(paused) => {
+                    self.paused = paused;
+                    self.order.stop();
+                }
+                Command::Reset => {
+                    self.reset_asked = true;
+                    self.order.stop();
+                }
+                Command::Step(steps) => {
+                    self.order = StepOrder::new(self.commands_done, steps);
+                    if !self.paused {
+                        self.order.stop();
+                    }
+                }
+                Command::StopSteps => {
+                    self.order.stop();
+                    continue;
+                }
                 Command::State(mut slot) => {
                     slot.length = self.run.simulation().checkpoint_into(&mut slot.room);
                     (slot.applied, slot.ticks) = (Some(self.run.applied()), self.run.ticks());
@@ -171,18 +194,16 @@ impl<C: Clock> RealTimeLoop<C> {
     }
 
     fn one_period(&mut self) {
-        // Inputs are read once per period, so that all its steps have the same.
-        let (inputs, quality) = self.end.targets.get();
-        self.wanted.inputs = inputs;
-        self.wanted.input_quality = quality;
-        // The motion asks for a refinement, and the pace allows what the machine has had time for.
-        self.wanted.refinement = self.run.wanted_refinement().min(self.pace.allowed());
+        // Inputs are read once per period, so that all its steps have the same. The motion asks for a refinement, and the
+        // pace allows what the machine has had time for.
+        self.read_inputs(self.pace.allowed());
         let current = self.run.applied();
-        let new_inputs = inputs != current.inputs;
-        // A paused run takes no step. After a failure the same inputs would
-        // fail again, so it waits until something has changed.
+        let new_inputs = self.wanted.inputs != current.inputs;
+        // A paused run takes only the steps that were ordered. After a failure the same inputs would fail again, so it waits
+        // until something has changed.
         if self.paused && !self.reset_asked || self.failed && !new_inputs && !self.changed {
-            self.run.skip(self.steps_per_period);
+            let taken = self.ordered_steps();
+            self.run.skip(self.steps_per_period - taken);
             // The steps that are not taken say nothing about the machine's pace.
             self.pace.forget();
             return;
@@ -200,36 +221,15 @@ impl<C: Clock> RealTimeLoop<C> {
         let start = self.clock.machine_time();
         let mut began = Instant::now();
         for taken in 0..self.steps_per_period {
-            let outcome = self.run.advance();
-            let ended = Instant::now();
-            // A full ring only loses statistics.
-            let _ = self
-                .end
-                .step_times
-                .push((ended - began).as_nanos().min(u128::from(u32::MAX)) as u32);
-            began = ended;
-            match outcome {
-                StepOutcome::Advanced { .. } => {
-                    self.steps_taken += 1;
-                    if self.failed {
-                        self.failed = false;
-                        self.push(LoopEvent::Recovered);
-                    }
-                    self.publish_if_due();
-                    // A step is late against the whole period: within it, steps may take their time. A clock that was
-                    // set in between is no lateness.
-                    if self.clock.now() > end.saturating_add(self.clock.jump()) {
-                        self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
-                    }
-                }
-                StepOutcome::Failed(failure) => {
-                    self.failed = true;
-                    self.changed = false;
-                    self.push(LoopEvent::Failed(failure, self.run.ticks()));
-                    // The rest of the period is skipped, so that model time and clock stay together.
-                    self.run.skip(self.steps_per_period - taken);
-                    return;
-                }
+            if !self.step(&mut began) {
+                // The rest of the period is skipped, so that model time and clock stay together.
+                self.run.skip(self.steps_per_period - taken);
+                return;
+            }
+            // A step is late against the whole period: within it, steps may take their time. A clock that was
+            // set in between is no lateness.
+            if self.clock.now() > end.saturating_add(self.clock.jump()) {
+                self.end.gauges.deadline_misses.fetch_add(1, Ordering::Relaxed);
             }
         }
         // All steps of the period are taken, so the changed inputs have proved themselves.
@@ -237,6 +237,63 @@ impl<C: Clock> RealTimeLoop<C> {
         let late = std::mem::take(&mut self.late);
         self.pace
             .note((start, self.clock.machine_time()), late, self.run.applied().refinement);
+    }
+
+    /// Reads the newest targets, and the refinement that the motion asks for, `most` at most.
+    fn read_inputs(&mut self, most: u32) {
+        (self.wanted.inputs, self.wanted.input_quality) = self.end.targets.get();
+        self.wanted.refinement = self.run.wanted_refinement().min(most);
+    }
+
+    /// Takes the steps that were ordered, those of a period at most. Returns how many were taken.
+    fn ordered_steps(&mut self) -> u64 {
+        let mut began = Instant::now();
+        for taken in 0..self.steps_per_period {
+            if !self.paused || !self.order.is_open() {
+                return taken;
+            }
+            self.read_inputs(MOST_REFINEMENT);
+            let current = self.run.applied();
+            self.apply(&current);
+            self.publish_first();
+            if !self.step(&mut began) {
+                self.order.fail();
+                return taken;
+            }
+            self.order.step_taken();
+            self.changed = false;
+        }
+        self.steps_per_period
+    }
+
+    /// Takes one step that begins at `began`, publishes what is due then or that it failed, and moves `began` to its end.
+    /// Returns whether the model has moved.
+    fn step(&mut self, began: &mut Instant) -> bool {
+        let outcome = self.run.advance();
+        let ended = Instant::now();
+        // A full ring only loses statistics.
+        let _ = self
+            .end
+            .step_times
+            .push((ended - *began).as_nanos().min(u128::from(u32::MAX)) as u32);
+        *began = ended;
+        match outcome {
+            StepOutcome::Advanced { .. } => {
+                self.steps_taken += 1;
+                if self.failed {
+                    self.failed = false;
+                    self.push(LoopEvent::Recovered);
+                }
+                self.publish_if_due();
+                true
+            }
+            StepOutcome::Failed(failure) => {
+                self.failed = true;
+                self.changed = false;
+                self.push(LoopEvent::Failed(failure, self.run.ticks()));
+                false
+            }
+        }
     }
 
     /// Applies the newest inputs and settings to the run, and publishes them if one of them has changed.
@@ -310,11 +367,14 @@ impl<C: Clock> RealTimeLoop<C> {
             .store(self.run.applied().skipped, Ordering::Relaxed);
         gauges.ticks.store(self.run.ticks(), Ordering::Relaxed);
         gauges.set_phase_times(&self.run.simulation().phase_times());
+        gauges.set_order(&self.order);
         gauges.set_run_state(match (self.paused, self.failed) {
             (true, _) => RunState::Paused,
             (_, true) => RunState::Failed,
             _ => RunState::Running,
         });
+        // Last: who waits for a command finds all that it has changed.
+        gauges.commands.store(self.commands_done, Ordering::Release);
     }
 }
 
