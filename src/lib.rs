@@ -10,6 +10,7 @@
 //! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
+//! - [`hole_ahead`]: where a tool drills next, with the range of plausible tools.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
@@ -33,6 +34,8 @@ pub mod bridge;
 pub mod cli;
 pub mod ensemble;
 pub mod health;
+#[cfg(feature = "sweep")]
+pub mod hole_ahead;
 #[cfg(feature = "sweep")]
 pub mod map;
 pub mod node;

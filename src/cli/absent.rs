@@ -31,6 +31,7 @@ macro_rules! absent {
 }
 
 absent! {
+    ahead, AheadArgs, "ahead", "sweep";
     bench, BenchArgs, "bench", "bench";
     bridge, BridgeArgs, "bridge", "bridge", &[String];
     calibrate, CalibrateArgs, "calibrate", "calibrate";

@@ -2,6 +2,8 @@
 
 #[cfg(not(feature = "full"))]
 mod absent;
+#[cfg(feature = "sweep")]
+mod ahead;
 #[cfg(feature = "bench")]
 mod bench;
 #[cfg(feature = "bridge")]
@@ -66,6 +68,8 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
+#[cfg(not(feature = "sweep"))]
+use self::absent::ahead;
 #[cfg(not(feature = "bench"))]
 use self::absent::bench;
 #[cfg(not(feature = "bridge"))]
@@ -113,6 +117,7 @@ enum Command {
     Paper(Box<paper::PaperArgs>),
     Bench(bench::BenchArgs),
     Reach(reach::ReachArgs),
+    Ahead(ahead::AheadArgs),
     Calibrate(Box<calibrate::CalibrateArgs>),
     Map(Box<map::MapArgs>),
     Sweep(sweep::SweepArgs),
@@ -296,6 +301,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Paper(args) => paper::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Reach(args) => reach::run(&args),
+        Command::Ahead(args) => ahead::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Sweep(args) => sweep::run(&args),

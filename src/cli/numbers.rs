@@ -64,6 +64,21 @@ pub(super) fn advance(text: &str) -> Result<f64, NumberError> {
     number(text, 0.01, 100.0, "m/h")
 }
 
+/// Metres ahead of the bit.
+pub(super) fn metres_ahead(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.25, 20.0, "m")
+}
+
+/// Radius of an arc of a hole (m), within the bounds of a configuration.
+pub(super) fn arc_radius(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.5, 10_000.0, "m")
+}
+
+/// A distance that counts as on plan (m).
+pub(super) fn distance(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.01, 100.0, "m")
+}
+
 /// A number of threads.
 pub(super) fn jobs() -> clap::builder::RangedU64ValueParser<usize> {
     clap::builder::RangedU64ValueParser::<usize>::new().range(1..=256)
@@ -86,7 +101,7 @@ mod tests {
     #[test]
     fn implausible_numbers_are_refused_with_the_bounds() {
         type Parser = fn(&str) -> Result<f64, NumberError>;
-        let parsers: [Parser; 10] = [
+        let parsers: [Parser; 13] = [
             seconds,
             time_step,
             rpm,
@@ -97,6 +112,9 @@ mod tests {
             friction,
             drilling_rpm,
             advance,
+            metres_ahead,
+            arc_radius,
+            distance,
         ];
         for parse in parsers {
             for text in [

@@ -6,6 +6,7 @@
     reason = "helpers of tests fail by panicking"
 )]
 
+mod ahead;
 mod paper;
 mod reach;
 mod sensitivity;

@@ -160,7 +160,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 17] = [
+const WRITTEN_FILES: [&str; 18] = [
     "metadata.yaml",
     "report.md",
     "findings.csv",
@@ -178,6 +178,7 @@ const WRITTEN_FILES: [&str; 17] = [
     "calibration.json",
     "sensitivity.csv",
     "sensitivity.json",
+    "ahead.csv",
     // by `flexdrill bridge wits --look`
     "site.yaml",
 ];

@@ -1,0 +1,157 @@
+//! `flexdrill ahead`: where the tool drills in the next metres.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+
+use super::progress::Progress;
+use super::{WrongUse, built_in, numbers};
+use crate::cli::output::say;
+use crate::hole_ahead::words::{Goal, words};
+use crate::hole_ahead::{Drilling, Plan, Question, Refusal, SPACING, advice, answer, picture, plan, table, tool};
+use flexdrill_config::Config;
+use flexdrill_core::units::kn_to_n;
+use flexdrill_text::counted;
+
+/// Computes where the tool drills in the next metres, with the range of plausible tools, and writes ahead.csv and ahead.svg.
+///
+/// The hole is that of the configuration, up to the bit. With a plan, the words have the distance to it and the weight under
+/// which the bit comes nearest.
+#[derive(Debug, Args)]
+pub struct AheadArgs {
+    /// The tool in its hole (YAML).
+    config: PathBuf,
+    /// Folder for the results, created if necessary.
+    #[arg(long)]
+    out: PathBuf,
+    /// Metres ahead, in whole quarters of a metre.
+    #[arg(long, default_value_t = 5.0, value_parser = numbers::metres_ahead)]
+    metres: f64,
+    /// Weight at the bit (kN).
+    #[arg(long, default_value_t = 10.0, value_parser = numbers::kilonewton)]
+    weight: f64,
+    /// Plausible tools, drawn from what is not known.
+    #[arg(long, default_value_t = 100, value_parser = members())]
+    members: usize,
+    /// Seed of the draws: the same seed gives the same results.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Plan: a table (CSV) with the columns measured_depth_m from the kick-off, inclination_deg and azimuth_deg.
+    #[arg(long, conflicts_with = "radius")]
+    plan: Option<PathBuf>,
+    /// Plan: an arc of this radius (m) that continues the hole.
+    #[arg(long, value_parser = numbers::arc_radius)]
+    radius: Option<f64>,
+    /// Distance from the plan that counts as on plan (m).
+    #[arg(long, default_value_t = 0.5, value_parser = numbers::distance)]
+    target: f64,
+    /// Tools computed at the same time, one thread each. The results do not depend on it.
+    #[arg(long, default_value_t = 1, value_parser = numbers::jobs())]
+    jobs: usize,
+}
+
+/// A number of members.
+fn members() -> clap::builder::RangedU64ValueParser<usize> {
+    clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000)
+}
+
+/// Largest file of a plan (bytes).
+const LARGEST_PLAN: u64 = 4 << 20;
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// When configuration or plan are refused, nothing can be predicted for them, or a file cannot be written. A plausible tool
+/// without a result is part of the results.
+pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
+    let (config, name) = built_in::load(&args.config)?;
+    let in_config = |refusal: Refusal| anyhow::anyhow!("{name}: {refusal}");
+    tool::check(&config).map_err(in_config)?;
+    let rows = args.plan.as_deref().map(rows).transpose()?;
+    let bit = config.well.length();
+    if let (Some(rows), Some(path)) = (&rows, &args.plan) {
+        plan::covers(&path.display().to_string(), rows, bit)?;
+    }
+    // A configuration has no azimuth: the hole lies in the plane of the plan.
+    let azimuth = rows.as_ref().map_or(0.0, |rows| plan::azimuth(rows, bit));
+    let question = question(args, &config, azimuth)?;
+    let drilling = Drilling::of(&config, question.weight, azimuth).map_err(in_config)?;
+    let ahead = question.stations as f64 * SPACING;
+    let planned = rows
+        .map(|rows| Plan::laid(&rows, &drilling, bit, ahead))
+        .or_else(|| args.radius.map(|radius| Plan::arc(radius, &drilling, bit, ahead)));
+    std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
+    let mut progress = Progress::share();
+    let found = answer(&config, &question, |share| progress.at(share)).with_context(|| name.clone())?;
+    progress.done();
+    let goal = planned.as_ref().map(|plan| Goal {
+        plan,
+        target: args.target,
+        advice: advice::advise(&config, &question, &found, plan, args.target),
+    });
+    let svg = flexdrill_plot::svg(&picture::figure(&found, planned.as_ref(), azimuth))?;
+    write(&args.out, "ahead.csv", &table::csv(&found, planned.as_ref()))?;
+    write(&args.out, "ahead.svg", &svg)?;
+    for line in words(&config, &question, &found, goal.as_ref()) {
+        say!("{line}");
+    }
+    say!(
+        "{} in {:.1} s: {} and ahead.svg",
+        counted(found.members.len() as u64 + 1, "run"),
+        progress.elapsed(),
+        args.out.join("ahead.csv").display()
+    );
+    Ok(())
+}
+
+/// The rows of a plan's file.
+fn rows(path: &Path) -> anyhow::Result<Vec<plan::Row>> {
+    let name = path.display().to_string();
+    let file = std::fs::File::open(path).with_context(|| format!("cannot read {name}"))?;
+    let mut text = String::new();
+    // One byte more than allowed shows that the file is longer.
+    file.take(LARGEST_PLAN + 1)
+        .read_to_string(&mut text)
+        .with_context(|| format!("cannot read {name}"))?;
+    anyhow::ensure!(
+        text.len() as u64 <= LARGEST_PLAN,
+        "{name}: must be at most {} MB: give the stations of the plan around the bit",
+        LARGEST_PLAN >> 20
+    );
+    Ok(plan::read(&name, &text)?)
+}
+
+/// What is asked, SI.
+fn question(args: &AheadArgs, config: &Config, azimuth: f64) -> Result<Question, WrongUse> {
+    let allowed = &config.inputs.weight_on_bit;
+    if !(args.weight > 0.0 && (allowed.min_kn..=allowed.max_kn).contains(&args.weight)) {
+        return Err(WrongUse::new(format!(
+            "--weight {} kN: must be above 0 kN and within inputs.weight_on_bit, {} to {} kN: a bit drills under weight only; \
+             give the weight at the bit",
+            args.weight, allowed.min_kn, allowed.max_kn
+        )));
+    }
+    Ok(Question {
+        weight: kn_to_n(args.weight),
+        largest_weight: kn_to_n(allowed.max_kn),
+        stations: (args.metres / SPACING - 1e-9).ceil() as usize,
+        azimuth,
+        members: args.members,
+        seed: args.seed,
+        jobs: args.jobs,
+    })
+}
+
+/// Writes a file under a temporary name first, so that the final name never has a part of it.
+fn write(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
+    let path = folder.join(name);
+    let temporary = folder.join(format!(".{name}.{}", std::process::id()));
+    let written = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, &path));
+    if written.is_err() {
+        // The error of the write is the one to report.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written.with_context(|| format!("cannot write {}", path.display()))
+}

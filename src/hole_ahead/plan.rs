@@ -1,0 +1,435 @@
+//! A planned hole: read from a table or made as an arc, and the distance to it.
+
+use std::f64::consts::PI;
+
+use flexdrill_core::units::{deg_to_rad, rad_to_deg};
+
+use super::tool::Drilling;
+use super::{Station, across};
+
+/// Columns of a table.
+pub const COLUMNS: [&str; 3] = ["measured_depth_m", "inclination_deg", "azimuth_deg"];
+/// Most rows: a survey per metre of the deepest well has less.
+const MOST_ROWS: usize = 20_000;
+/// Distance of two points of the plan (m).
+const STEP: f64 = 0.02;
+
+/// A row of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Measured depth from the kick-off (m).
+    pub depth: f64,
+    /// Inclination (rad).
+    pub inclination: f64,
+    /// Azimuth (rad).
+    pub azimuth: f64,
+}
+
+/// Why a plan is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// The header lacks a column.
+    #[error(
+        "{file}:1: no column {column}: must have the columns measured_depth_m, inclination_deg and azimuth_deg; name them \
+         in the first line"
+    )]
+    Column {
+        /// The table.
+        file: String,
+        /// What is missing.
+        column: &'static str,
+    },
+    /// A value that is none, or out of its bounds.
+    #[error("{file}:{line}: {column} = {value}: must be {bound}; correct the line or remove it")]
+    Value {
+        /// The table.
+        file: String,
+        /// Line, from 1.
+        line: u64,
+        /// Column.
+        column: &'static str,
+        /// As in the file.
+        value: String,
+        /// What is allowed.
+        bound: String,
+    },
+    /// It is no table.
+    #[error("{file}: {reason}: must be a table with a header, separated by commas; export the plan as CSV")]
+    Table {
+        /// The file.
+        file: String,
+        /// What the reader says.
+        reason: String,
+    },
+    /// Too few or too many rows.
+    #[error("{file}: {rows} rows: must be 2 to {MOST_ROWS}: give the stations of the plan around the bit")]
+    Rows {
+        /// The table.
+        file: String,
+        /// Rows found.
+        rows: usize,
+    },
+    /// It does not begin on the hole as configured.
+    #[error(
+        "{file}: measured_depth_m of the first row = {depth} m: must be 0 to {bit:.3} m, the bit: depths count from the \
+         kick-off, where well.sections begins, and the first row is a point of that hole"
+    )]
+    Begin {
+        /// The table.
+        file: String,
+        /// Of the first row (m).
+        depth: f64,
+        /// Of the bit (m).
+        bit: f64,
+    },
+    /// It ends near the bit.
+    #[error(
+        "{file}: measured_depth_m of the last row = {depth} m: must be at least {least:.3} m, a metre below the bit; \
+         continue the plan"
+    )]
+    End {
+        /// The table.
+        file: String,
+        /// Of the last row (m).
+        depth: f64,
+        /// What is needed (m).
+        least: f64,
+    },
+}
+
+/// A planned hole in the world of the kick-off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Points in distances of at most [`STEP`], with their measured depths (m).
+    points: Vec<(f64, [f64; 3])>,
+    /// Inclination at the bit and at the end that is compared (rad).
+    inclinations: [f64; 2],
+    /// Measured depths of both (m).
+    between: [f64; 2],
+}
+
+/// Distance to a plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// To the nearest point (m).
+    pub whole: f64,
+    /// Of the bit from the plan, towards the high side (m).
+    pub high: f64,
+    /// The same to the right (m).
+    pub right: f64,
+}
+
+/// The rows of a table.
+///
+/// # Errors
+/// [`PlanError`] with file, line, column, value and bound.
+pub fn read(file: &str, text: &str) -> Result<Vec<Row>, PlanError> {
+    let table = |error: csv::Error| PlanError::Table {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    };
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let header = reader.headers().map_err(table)?.clone();
+    let mut places = [0; COLUMNS.len()];
+    for (place, column) in places.iter_mut().zip(COLUMNS) {
+        let at = header
+            .iter()
+            .position(|name| name.trim_start_matches('\u{feff}') == column);
+        *place = at.ok_or_else(|| PlanError::Column {
+            file: file.to_owned(),
+            column,
+        })?;
+    }
+    let mut rows: Vec<Row> = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(table)?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |index: usize, low: f64, high: f64, bound: String| {
+            let text = record.get(places[index]).unwrap_or_default();
+            match text.parse::<f64>() {
+                // NaN fails both comparisons.
+                Ok(value) if value >= low && value <= high => Ok(value),
+                _ => Err(PlanError::Value {
+                    file: file.to_owned(),
+                    line,
+                    column: COLUMNS[index],
+                    value: text.to_owned(),
+                    bound,
+                }),
+            }
+        };
+        let (least, bound) = match rows.last() {
+            Some(before) => (
+                before.depth.next_up(),
+                format!("above {} m, the row before", before.depth),
+            ),
+            None => (-1e5, "a depth in metres, counted from the kick-off".to_owned()),
+        };
+        let depth = number(0, least, 1e5, bound)?;
+        let inclination = number(1, 0.0, 180.0, "0 to 180 deg".to_owned())?;
+        let azimuth = number(2, -360.0, 360.0, "-360 to 360 deg".to_owned())?;
+        rows.push(Row {
+            depth,
+            inclination: deg_to_rad(inclination),
+            azimuth: deg_to_rad(azimuth),
+        });
+        if rows.len() > MOST_ROWS {
+            break;
+        }
+    }
+    if !(2..=MOST_ROWS).contains(&rows.len()) {
+        return Err(PlanError::Rows {
+            file: file.to_owned(),
+            rows: rows.len(),
+        });
+    }
+    Ok(rows)
+}
+
+/// Checks that rows begin on the hole above a bit at a depth (m), and end a metre below it.
+///
+/// # Errors
+/// [`PlanError::Begin`], [`PlanError::End`].
+pub fn covers(file: &str, rows: &[Row], bit: f64) -> Result<(), PlanError> {
+    let (first, last) = (rows.first(), rows.last());
+    let depth = first.map_or(f64::NAN, |row| row.depth);
+    if !(0.0..=bit).contains(&depth) {
+        return Err(PlanError::Begin {
+            file: file.to_owned(),
+            depth,
+            bit,
+        });
+    }
+    let depth = last.map_or(f64::NAN, |row| row.depth);
+    if depth < bit + 1.0 {
+        return Err(PlanError::End {
+            file: file.to_owned(),
+            depth,
+            least: bit + 1.0,
+        });
+    }
+    Ok(())
+}
+
+/// Unit vector of a direction.
+fn tangent(inclination: f64, azimuth: f64) -> [f64; 3] {
+    let ((sine, cosine), (east, north)) = (libm::sincos(inclination), libm::sincos(azimuth));
+    [sine * north, sine * east, cosine]
+}
+
+/// The direction at a share of the way between two, on the great circle (minimum curvature).
+fn between(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    let cosine: f64 = (0..3).map(|axis| from[axis] * to[axis]).sum();
+    let angle = libm::acos(cosine.clamp(-1.0, 1.0));
+    if angle < 1e-9 || PI - angle < 1e-6 {
+        return to;
+    }
+    let [a, b] = [libm::sin((1.0 - share) * angle), libm::sin(share * angle)].map(|part| part / libm::sin(angle));
+    std::array::from_fn(|axis| a * from[axis] + b * to[axis])
+}
+
+fn inclination(direction: [f64; 3]) -> f64 {
+    libm::atan2(libm::hypot(direction[0], direction[1]), direction[2])
+}
+
+/// The direction of rows at a depth (m).
+fn direction(rows: &[Row], depth: f64) -> [f64; 3] {
+    let of = |row: &Row| tangent(row.inclination, row.azimuth);
+    let after = rows.partition_point(|row| row.depth < depth).clamp(1, rows.len() - 1);
+    let (above, below) = (&rows[after - 1], &rows[after]);
+    let share = ((depth - above.depth) / (below.depth - above.depth)).clamp(0.0, 1.0);
+    between(of(above), of(below), share)
+}
+
+/// Azimuth of rows at a depth (rad): that of the plane in which the hole as configured lies.
+pub fn azimuth(rows: &[Row], depth: f64) -> f64 {
+    let [x, y, _] = direction(rows, depth);
+    libm::atan2(y, x)
+}
+
+/// Position of the hole as configured at a depth (m).
+fn on_hole(drilling: &Drilling, depth: f64) -> [f64; 3] {
+    let mut left = depth;
+    let points = drilling.hole.points();
+    for pair in points.windows(2) {
+        let way = pair[1] - pair[0];
+        let length = way.norm();
+        if left <= length {
+            let at = pair[0] + way * (left / length);
+            return [at.x, at.y, at.z];
+        }
+        left -= length;
+    }
+    points.last().map_or([0.0; 3], |at| [at.x, at.y, at.z])
+}
+
+impl Plan {
+    /// Rows that [`covers`] accepts, laid from the hole as configured. What is compared ends `ahead` (m) below the bit at the
+    /// latest.
+    pub fn laid(rows: &[Row], drilling: &Drilling, bit: f64, ahead: f64) -> Self {
+        let begin = rows.first().map_or(0.0, |row| row.depth);
+        let last = rows.last().map_or(0.0, |row| row.depth);
+        // A metre more than what is compared, so that the nearest point is not an end.
+        let end = last.min(bit + ahead + 1.0);
+        let compared = last.min(bit + ahead);
+        let count = ((end - begin) / STEP).ceil().max(1.0);
+        let step = (end - begin) / count;
+        let mut at = on_hole(drilling, begin);
+        let mut points = vec![(begin, at)];
+        for index in 0..count as usize {
+            let middle = direction(rows, begin + (index as f64 + 0.5) * step);
+            at = std::array::from_fn(|axis| at[axis] + step * middle[axis]);
+            points.push((begin + (index + 1) as f64 * step, at));
+        }
+        Self {
+            points,
+            inclinations: [bit, compared].map(|depth| inclination(direction(rows, depth))),
+            between: [bit, compared],
+        }
+    }
+
+    /// An arc of a radius (m) that continues the hole as configured in its plane, as rows.
+    pub fn arc(radius: f64, drilling: &Drilling, bit: f64, ahead: f64) -> Self {
+        let end = drilling.hole.end();
+        let (tangent, high) = (end.tangent, -end.low);
+        let points = drilling.hole.points();
+        let last = points.last().copied().unwrap_or_else(|| end.tangent * 0.0);
+        let count = ((ahead + 1.0) / STEP).ceil();
+        let at = |index: f64| {
+            let depth = index / count * (ahead + 1.0);
+            let (sine, cosine) = libm::sincos(depth / radius);
+            let at = last + tangent * (radius * sine) + high * (radius * (1.0 - cosine));
+            (bit + depth, [at.x, at.y, at.z])
+        };
+        let along = |depth: f64| {
+            let (sine, cosine) = libm::sincos(depth / radius);
+            let way = tangent * cosine + high * sine;
+            inclination([way.x, way.y, way.z])
+        };
+        let first = along(0.0);
+        Self {
+            points: (0..=count as usize).map(|index| at(index as f64)).collect(),
+            // An arc that passes the level builds on: its inclination is counted on beyond 180 deg.
+            inclinations: [first, first + ahead / radius],
+            between: [bit, bit + ahead],
+        }
+    }
+
+    /// How far ahead of the bit it is compared (m).
+    pub fn ahead(&self) -> f64 {
+        self.between[1] - self.between[0]
+    }
+
+    /// Its mean build curvature over what is compared (1/m).
+    pub fn curvature(&self) -> f64 {
+        (self.inclinations[1] - self.inclinations[0]) / self.ahead()
+    }
+
+    /// Inclination at the bit (deg).
+    pub fn inclination_at_bit_deg(&self) -> f64 {
+        rad_to_deg(self.inclinations[0])
+    }
+
+    /// Its points.
+    pub fn points(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        self.points.iter().map(|(_, at)| *at)
+    }
+
+    /// Distance of a bit to it.
+    pub fn distance(&self, bit: &Station) -> Distance {
+        let mut nearest = (f64::INFINITY, [0.0; 3]);
+        for pair in self.points.windows(2) {
+            let ((_, from), (_, to)) = (pair[0], pair[1]);
+            let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
+            let square: f64 = way.iter().map(|part| part * part).sum();
+            let along: f64 = (0..3).map(|axis| (bit.position[axis] - from[axis]) * way[axis]).sum();
+            let share = (along / square).clamp(0.0, 1.0);
+            let off: [f64; 3] = std::array::from_fn(|axis| bit.position[axis] - from[axis] - share * way[axis]);
+            let distance = libm::sqrt(off.iter().map(|part| part * part).sum());
+            if distance < nearest.0 {
+                nearest = (distance, off);
+            }
+        }
+        let [high, right] = across(bit).map(|unit| (0..3).map(|axis| nearest.1[axis] * unit[axis]).sum::<f64>());
+        Distance {
+            whole: nearest.0,
+            high,
+            right,
+        }
+    }
+
+    /// Whether a track stays within a radius (m) of it at the stations from the second to `last`.
+    pub fn keeps(&self, track: &[Station], last: usize, radius: f64) -> bool {
+        let mut stations = track.iter().take(last + 1).skip(1);
+        stations.all(|bit| self.distance(bit).whole <= radius)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = "measured_depth_m,inclination_deg,azimuth_deg\n0,0,30\n5.0265,90,30\n10.0265,90,30\n";
+
+    #[test]
+    fn a_table_is_read_by_its_header() {
+        let rows = read("plan.csv", GOOD).unwrap();
+        assert_eq!(rows.len(), 3);
+        assert!((rows[1].inclination - PI / 2.0).abs() < 1e-12 && (rows[2].azimuth - PI / 6.0).abs() < 1e-12);
+        let other = "azimuth_deg, note, measured_depth_m, inclination_deg\n30, a, 0, 0\n30, b, 5, 45\n";
+        assert_eq!(read("plan.csv", other).unwrap()[1].depth, 5.0);
+    }
+
+    #[test]
+    fn a_bad_table_is_refused_with_its_line() {
+        for (text, expected) in [
+            (
+                "measured_depth_m,inclination_deg,azimuth_deg\n2,0,0\n1,10,0\n",
+                "plan.csv:3: measured_depth_m = 1: must be above 2 m, the row before",
+            ),
+            (
+                "measured_depth_m,inclination_deg,azimuth_deg\n0,0,0\n1,190,0\n",
+                "plan.csv:3: inclination_deg = 190: must be 0 to 180 deg",
+            ),
+            (
+                "measured_depth_m,inclination_deg,azimuth_deg\n0,0,east\n1,10,0\n",
+                "plan.csv:2: azimuth_deg = east: must be -360 to 360 deg",
+            ),
+            ("measured_depth_m,inclination_deg\n0,0\n", "no column azimuth_deg"),
+            (
+                "measured_depth_m,inclination_deg,azimuth_deg\n0,0,0\n",
+                "1 rows: must be 2",
+            ),
+            (
+                "measured_depth_m,inclination_deg,azimuth_deg\n0,0\n",
+                "must be a table with a header",
+            ),
+            (
+                "measured_depth_m,inclination_deg,azimuth_deg\nnan,0,0\n1,0,0\n",
+                "measured_depth_m = nan: must be a depth in metres",
+            ),
+        ] {
+            let said = read("plan.csv", text).unwrap_err().to_string();
+            assert!(said.contains(expected), "{said}");
+        }
+        let rows = read("plan.csv", GOOD).unwrap();
+        assert!(covers("plan.csv", &rows, 5.0).is_ok());
+        for (bit, expected) in [
+            (9.5, "must be at least 10.500 m, a metre below the bit"),
+            (-0.5, "must be 0 to -0.500 m, the bit"),
+        ] {
+            let said = covers("plan.csv", &rows, bit).unwrap_err().to_string();
+            assert!(said.contains(expected), "{said}");
+        }
+    }
+
+    #[test]
+    fn minimum_curvature_is_a_circle() {
+        let [middle, quarter] = [0.5, 0.25].map(|share| between([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], share));
+        assert!((inclination(middle) - PI / 4.0).abs() < 1e-12);
+        assert!((inclination(quarter) - PI / 8.0).abs() < 1e-12);
+    }
+}
