@@ -128,6 +128,7 @@ pub fn read(file: &str, text: &str) -> Result<Vec<Row>, PlanError> {
         file: file.to_owned(),
         reason: error.to_string(),
     };
+    // Programs export columns in any order, with more of them, and with comments.
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
@@ -161,6 +162,7 @@ pub fn read(file: &str, text: &str) -> Result<Vec<Row>, PlanError> {
                 }),
             }
         };
+        // A depth that falls would turn the plan back on itself, and an equal one has no curvature.
         let (least, bound) = match rows.last() {
             Some(before) => (
                 before.depth.next_up(),
@@ -176,6 +178,7 @@ pub fn read(file: &str, text: &str) -> Result<Vec<Row>, PlanError> {
             inclination: deg_to_rad(inclination),
             azimuth: deg_to_rad(azimuth),
         });
+        // Reading ends one row beyond the limit, which is then refused.
         if rows.len() > MOST_ROWS {
             break;
         }
