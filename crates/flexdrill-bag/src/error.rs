@@ -141,7 +141,7 @@ pub enum BagError {
         /// Why it is none.
         problem: String,
     },
-    /// rosbag2's own compression of files or messages, which this crate does not read.
+    /// rosbag2's compression of single messages, which this crate does not read.
     #[error("{path} is compressed as {compression:?}, which is not supported: {remedy}", path = path.display())]
     Compression {
         /// The file or folder.
@@ -150,6 +150,30 @@ pub enum BagError {
         compression: String,
         /// What to do.
         remedy: &'static str,
+    },
+    /// A compressed file unpacks to more than is accepted.
+    #[error(
+        "{path} has {packed} bytes and unpacks to more than {most} bytes, which are accepted at most: no recording \
+         compresses so well; if it is one, unpack it with `unzstd` and read the result",
+        path = path.display()
+    )]
+    TooLarge {
+        /// The compressed file.
+        path: PathBuf,
+        /// Its size (bytes).
+        packed: u64,
+        /// Largest size that is accepted (bytes).
+        most: u64,
+    },
+    /// A bag of ROS 1.
+    #[error(
+        "{path} is a bag of ROS 1, and flexdrill reads those of ROS 2: convert it, for example with `rosbags-convert` of the \
+         Python package rosbags",
+        path = path.display()
+    )]
+    Ros1 {
+        /// The file.
+        path: PathBuf,
     },
     /// A metadata.yaml cannot be parsed.
     #[error("{path}: {problem}", path = path.display())]
@@ -203,8 +227,8 @@ pub enum BagError {
         /// The topics that match.
         present: String,
     },
-    /// A topic has another type than expected.
-    #[error("{topic} has the type {found}, expected {expected}")]
+    /// A topic has another type than expected, or none.
+    #[error("{topic} has {}, expected {expected}: {}", in_words(found), type_remedy(found))]
     WrongType {
         /// Absolute name of the topic.
         topic: String,
@@ -212,6 +236,17 @@ pub enum BagError {
         found: String,
         /// The expected type.
         expected: &'static str,
+    },
+    /// A topic has another encoding than that of ROS 2.
+    #[error(
+        "{topic} is encoded as {found:?}, expected \"cdr\" as ROS 2 has it: {}",
+        encoding_remedy(found)
+    )]
+    WrongEncoding {
+        /// Absolute name of the topic.
+        topic: String,
+        /// The encoding in the bag.
+        found: String,
     },
     /// A message's bytes do not match its type.
     #[error("{topic} at {log_time} ns: {source}")]
@@ -279,6 +314,27 @@ impl BagError {
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Io { action, path, source }
+    }
+}
+
+fn in_words(ros_type: &str) -> String {
+    match ros_type {
+        "" => "no type, because the file has no schema for it".to_owned(),
+        other => format!("the type {other}"),
+    }
+}
+
+fn type_remedy(found: &str) -> &'static str {
+    match found {
+        "" => "record it with a program that writes the message definitions, such as ros2 bag record",
+        _ => "have it published with the expected type, or convert the bag",
+    }
+}
+
+fn encoding_remedy(found: &str) -> &'static str {
+    match found {
+        "ros1" => "convert the bag to ROS 2, for example with rosbags-convert of the Python package rosbags",
+        _ => "record the topic of ROS 2 with ros2 bag record",
     }
 }
 

@@ -31,8 +31,8 @@
 //!   rosbag2's `metadata.yaml`.
 //! - `recorder`: a recording that the first error ends. `failover`: one that continues in another file.
 //!   `recording_thread`: the same behind a queue, with its `recording_health` and `losses`.
-//! - `reader`: [`open`], all files of a bag merged in time order. `raw`: one file, of any storage.
-//!   `mcap_file`: one of MCAP.
+//! - `reader`: [`open`], all files of a bag merged in time order. `parts`: which files these are. `packed`: files that are
+//!   compressed. `raw`: one file, of any storage. `mcap_file`: one of MCAP.
 //! - `recover`: copies what can be read into a new bag. `gaps`: finds messages that a recording lost.
 
 mod error;
@@ -42,7 +42,9 @@ mod location;
 mod losses;
 mod mcap_file;
 mod metadata;
+mod packed;
 mod part;
+mod parts;
 mod qos;
 mod raw;
 mod reader;
@@ -58,9 +60,10 @@ mod topic;
 pub use error::BagError;
 pub use gaps::{Gap, Gaps};
 pub use losses::Losses;
+pub use parts::PartFault;
 pub use qos::from_yaml as qos_from_yaml;
 pub use raw::{BagFile, OpenSqlite, RawMessage, read_sqlite_with};
-pub use reader::{Bag, BagMessage, Cut, open};
+pub use reader::{Bag, BagMessage, Cut, is_bag, open};
 pub use recorder::{Recorder, Recording};
 pub use recording_health::{Problem, RecordingHealth};
 pub use recording_thread::RecordingThread;

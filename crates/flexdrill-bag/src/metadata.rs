@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use crate::parts::PACKED;
 use crate::storage::Storage;
 use crate::tally::Tally;
 use crate::{BagError, Topic, qos};
@@ -154,7 +155,7 @@ struct Information {
 /// The files of the bag in `folder`, as its metadata.yaml lists them, each once.
 ///
 /// # Errors
-/// When the metadata cannot be read, or the bag has rosbag2's own compression.
+/// When the metadata cannot be read, or the bag has rosbag2's compression of single messages.
 pub(crate) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagError> {
     let text = std::fs::read_to_string(metadata).map_err(BagError::io("read", metadata))?;
     let document: Document = serde_saphyr::from_str(&text).map_err(|error| BagError::Metadata {
@@ -166,11 +167,12 @@ pub(crate) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagE
     })?;
     let information = document.rosbag2_bagfile_information;
     let mode = information.compression_mode.unwrap_or_default();
-    if !mode.is_empty() && !mode.eq_ignore_ascii_case("none") {
+    // Compressed files are known by their first bytes.
+    if !["", "none", "file"].contains(&mode.to_ascii_lowercase().as_str()) {
         return Err(BagError::Compression {
             path: folder.to_owned(),
             compression: format!("{} per {}", information.compression_format.unwrap_or_default(), mode),
-            remedy: "convert it with `ros2 bag convert` to a bag without rosbag2's own compression",
+            remedy: "convert it with `ros2 bag convert` to a bag without compression of single messages",
         });
     }
     // A file listed twice, under one path or two, is read once.
@@ -179,14 +181,23 @@ pub(crate) fn files(folder: &Path, metadata: &Path) -> Result<Vec<PathBuf>, BagE
         .relative_file_paths
         .iter()
         .filter(|relative| names.insert(relative.as_str()))
-        .map(|relative| {
-            // Early versions of rosbag2 put the folder's name in front.
-            let path = folder.join(relative);
-            match Path::new(relative).file_name() {
-                Some(name) if !path.exists() => folder.join(name),
-                _ => path,
-            }
-        })
+        .map(|relative| present(folder, relative))
         .filter(|path| seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone())))
         .collect())
+}
+
+/// The path of a listed file: as listed, next to the metadata, or compressed or unpacked since; as listed if there is none.
+fn present(folder: &Path, relative: &str) -> PathBuf {
+    let listed = folder.join(relative);
+    // Early versions of rosbag2 put the folder's name in front.
+    let name = Path::new(relative).file_name().map(|name| folder.join(name));
+    let name = name.unwrap_or_else(|| listed.clone());
+    let mut packed = name.clone().into_os_string();
+    packed.push(".zstd");
+    let unpacked = match name.extension() {
+        Some(extension) if PACKED.iter().any(|packed| extension == *packed) => name.with_extension(""),
+        _ => name.clone(),
+    };
+    let found = [listed, name.clone(), unpacked, PathBuf::from(packed)];
+    found.into_iter().find(|path| path.exists()).unwrap_or(name)
 }

@@ -1,18 +1,16 @@
 //! Reads bags of every supported format, all files merged in time order.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::location::METADATA;
-use crate::mcap_file::McapStream;
-use crate::raw::{BagFile, RawMessage, open_sqlite};
-use crate::{BagError, Topic, metadata};
-use flexdrill_messages::{Message, from_cdr};
+use tempfile::NamedTempFile;
 
-/// First bytes of an SQLite database.
-const SQLITE_MAGIC: &[u8] = b"SQLite format 3\0";
+use crate::mcap_file::McapStream;
+use crate::packed::{self, Format};
+use crate::parts::{self, Parts};
+use crate::raw::{BagFile, RawMessage, open_sqlite};
+use crate::{BagError, PartFault, Topic};
+use flexdrill_messages::{Message, from_cdr};
 
 /// One message of a bag.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,15 +34,9 @@ impl BagMessage {
     /// Decodes the message.
     ///
     /// # Errors
-    /// When the topic has another type, or the bytes do not match the type.
+    /// When the topic has another type or encoding, or the bytes do not match the type.
     pub fn decode<M: Message>(&self) -> Result<M, BagError> {
-        if self.topic.ros_type != M::ROS_TYPE {
-            return Err(BagError::WrongType {
-                topic: self.topic.name.clone(),
-                found: self.topic.ros_type.clone(),
-                expected: M::ROS_TYPE,
-            });
-        }
+        self.topic.check(M::ROS_TYPE)?;
         from_cdr(&self.data).map_err(|source| BagError::Decode {
             topic: self.topic.name.clone(),
             log_time: self.log_time,
@@ -64,27 +56,35 @@ pub struct Cut {
     pub reason: String,
 }
 
+/// The temporary file of a compressed one, which is removed when this is dropped.
+type Unpacked = Option<NamedTempFile>;
+
 enum Stream {
     Mcap(Box<McapStream>),
     Sqlite(Box<dyn BagFile>),
 }
 
 impl Stream {
-    fn open(path: &Path) -> Result<Self, BagError> {
-        let mut magic = Vec::new();
-        File::open(path)
-            .and_then(|file| file.take(16).read_to_end(&mut magic))
-            .map_err(BagError::io("open", path))?;
-        if magic.starts_with(mcap::MAGIC) {
-            Ok(Self::Mcap(Box::new(McapStream::open(path)?)))
-        } else if magic == SQLITE_MAGIC {
-            Ok(Self::Sqlite(open_sqlite(path)?))
+    /// Opens a file, with the fault of a compressed one that is damaged.
+    fn open(path: &Path) -> Result<(Self, Unpacked, Option<PartFault>), BagError> {
+        let (format, is_packed) = packed::format(path)?;
+        let (unpacked, fault) = if is_packed {
+            let (file, fault) = packed::unpack(path)?;
+            (Some(file), fault)
         } else {
-            Err(BagError::NotABag {
-                path: path.to_owned(),
-                problem: "its first bytes are those of neither MCAP nor SQLite".to_owned(),
-            })
-        }
+            (None, None)
+        };
+        let stream = match (format, &unpacked) {
+            (Format::Mcap, None) => Self::Mcap(Box::new(McapStream::open(path)?)),
+            (Format::Mcap, Some(file)) => {
+                let content = file.reopen().map_err(BagError::io("read the unpacked", path))?;
+                Self::Mcap(Box::new(McapStream::read(path, content)?))
+            }
+            (Format::Sqlite, unpacked) => {
+                Self::Sqlite(open_sqlite(unpacked.as_ref().map_or(path, |file| file.path()))?)
+            }
+        };
+        Ok((stream, unpacked, fault))
     }
 
     fn topics(&self) -> &[Arc<Topic>] {
@@ -117,10 +117,7 @@ impl Stream {
 
     fn bounds(&self) -> Option<(i64, i64)> {
         match self {
-            Self::Mcap(stream) => stream.bounds().map(|(start, end)| {
-                let time = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
-                (time(start), time(end))
-            }),
+            Self::Mcap(stream) => stream.bounds(),
             Self::Sqlite(stream) => stream.bounds(),
         }
     }
@@ -135,6 +132,7 @@ struct Source {
     ended: bool,
     /// Index of a topic in the bag, by its index in the file.
     topic_of: Vec<usize>,
+    _unpacked: Unpacked,
 }
 
 /// An open bag: an iterator over its messages in time order.
@@ -144,26 +142,47 @@ struct Source {
 pub struct Bag {
     sources: Vec<Source>,
     topics: Vec<Arc<Topic>>,
+    faults: Vec<PartFault>,
 }
 
-/// Opens an MCAP file, an SQLite file of rosbag2, or a folder with either.
+/// Opens an MCAP file, an SQLite file of rosbag2, or a folder with either. Files that are compressed with Zstandard are
+/// unpacked into the temporary folder (`TMPDIR`) while the bag is open.
+///
+/// Of several files those that can be read are; [`Bag::faults`] has the others.
 ///
 /// # Errors
 /// When the path is none of these, or cannot be read; [`BagError::NoSqlite`] for an SQLite file without
 /// [`read_sqlite_with`](crate::read_sqlite_with).
 pub fn open(path: &Path) -> Result<Bag, BagError> {
+    let Parts { files, faults } = parts::find(path)?;
     let mut bag = Bag {
         sources: Vec::new(),
         topics: Vec::new(),
+        faults,
     };
-    for file in files(path)? {
-        let stream = Stream::open(&file)?;
-        bag.sources.push(Source {
-            stream,
-            ahead: None,
-            ended: false,
-            topic_of: Vec::new(),
-        });
+    let mut unreadable: Vec<(PathBuf, BagError)> = Vec::new();
+    for file in files {
+        match Stream::open(&file) {
+            Ok((stream, unpacked, fault)) => {
+                bag.faults.extend(fault);
+                bag.sources.push(Source {
+                    stream,
+                    ahead: None,
+                    ended: false,
+                    topic_of: Vec::new(),
+                    _unpacked: unpacked,
+                });
+            }
+            Err(error) => unreadable.push((file, error)),
+        }
+    }
+    for (path, error) in unreadable {
+        // The first error is that of a bag without any readable file.
+        if bag.sources.is_empty() {
+            return Err(error);
+        }
+        let why = error.to_string();
+        bag.faults.push(PartFault::Unreadable { path, why });
     }
     for index in 0..bag.sources.len() {
         bag.learn_topics(index);
@@ -171,45 +190,18 @@ pub fn open(path: &Path) -> Result<Bag, BagError> {
     Ok(bag)
 }
 
-fn files(path: &Path) -> Result<Vec<PathBuf>, BagError> {
-    if !path.is_dir() {
-        return Ok(vec![path.to_owned()]);
+/// Whether a path is a bag, by its first bytes; a folder with files of a bag is one too.
+///
+/// # Errors
+/// When it cannot be read, or is a bag that is not supported.
+pub fn is_bag(path: &Path) -> Result<bool, BagError> {
+    if path.is_dir() {
+        return parts::find(path).map(|_| true);
     }
-    let described = path.join(METADATA);
-    if described.exists() {
-        let files = metadata::files(path, &described)?;
-        // The metadata of an interrupted recording may list no files.
-        if !files.is_empty() {
-            return Ok(files);
-        }
+    match packed::format(path) {
+        Err(BagError::NotABag { .. }) => Ok(false),
+        format => format.map(|_| true),
     }
-    let read = || BagError::io("read", path);
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(read())? {
-        let file = entry.map_err(read())?.path();
-        if file
-            .extension()
-            .is_some_and(|extension| extension == "mcap" || extension == "db3")
-        {
-            files.push(file);
-        }
-    }
-    files.sort_by_cached_key(|file| numeric_order(file));
-    if files.is_empty() {
-        return Err(BagError::NotABag {
-            path: path.to_owned(),
-            problem: "the folder holds neither .mcap nor .db3 files".to_owned(),
-        });
-    }
-    Ok(files)
-}
-
-/// Sort key that puts `run_10.mcap` after `run_2.mcap`: name without number, number, path.
-fn numeric_order(file: &Path) -> (String, u64, PathBuf) {
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    let name = stem.trim_end_matches(|c: char| c.is_ascii_digit());
-    let number = stem.get(name.len()..).and_then(|number| number.parse().ok());
-    (name.to_owned(), number.unwrap_or(0), file.to_owned())
 }
 
 impl Bag {
@@ -238,6 +230,28 @@ impl Bag {
                 name: name.to_owned(),
                 present: names(&found),
             }),
+        }
+    }
+
+    /// The topic with this name, as [`Bag::topic`] finds it, among those whose messages can be read as a type. Another
+    /// program may use the name for another type too.
+    ///
+    /// # Errors
+    /// When no topic or several topics match, or the one that does has another type or encoding.
+    pub fn topic_of_type(&self, name: &str, expected: &'static str) -> Result<&Arc<Topic>, BagError> {
+        let named = || self.topics.iter().filter(|topic| topic.is(name));
+        let mut fitting = named().filter(|topic| topic.check(expected).is_ok());
+        let Some(first) = fitting.next() else {
+            return match named().next() {
+                Some(other) => other.check(expected).and_then(|()| self.topic(name)),
+                None => self.topic(name),
+            };
+        };
+        // Parts may describe one topic differently, such as with other qualities of service.
+        if fitting.all(|other| other.name == first.name) {
+            Ok(first)
+        } else {
+            self.topic(name)
         }
     }
 
@@ -281,6 +295,25 @@ impl Bag {
             Stream::Mcap(stream) => stream.cut(),
             Stream::Sqlite(_) => None,
         })
+    }
+
+    /// Differences between the files of the bag and its metadata.yaml.
+    pub fn faults(&self) -> &[PartFault] {
+        &self.faults
+    }
+
+    /// Learns the topics of all files to the end, which decompresses every chunk: a file may describe more than it lists.
+    pub(crate) fn describe(&mut self) {
+        for index in 0..self.sources.len() {
+            if let Some(Source {
+                stream: Stream::Mcap(stream),
+                ..
+            }) = self.sources.get_mut(index)
+            {
+                stream.describe();
+            }
+            self.learn_topics(index);
+        }
     }
 
     /// Adds the topics of a file to the bag's topics, unless they are known.
@@ -343,7 +376,7 @@ mod tests {
     #[test]
     fn without_its_feature_an_sqlite_bag_is_refused_with_the_remedy() {
         let file = tempfile::NamedTempFile::new().unwrap();
-        std::fs::write(&file, SQLITE_MAGIC).unwrap();
+        std::fs::write(&file, b"SQLite format 3\0").unwrap();
         let error = open(file.path()).err().unwrap();
         assert!(matches!(error, BagError::NoSqlite { .. }), "{error:?}");
         let text = error.to_string();

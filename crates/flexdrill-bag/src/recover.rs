@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{BagError, Cut, Gap, Gaps, Recorder, Recording, Topic, open};
+use crate::{BagError, Cut, Gap, Gaps, PartFault, Recorder, Recording, Topic, open};
 
 /// Result of a recovery.
 #[derive(Debug)]
@@ -11,6 +11,8 @@ pub struct Recovered {
     pub recording: Recording,
     /// Topics, in the order of [`Recording::per_topic`].
     pub topics: Vec<Topic>,
+    /// Files that are missing, unreadable, or not listed.
+    pub faults: Vec<PartFault>,
     /// Truncated files.
     pub cuts: Vec<Cut>,
     /// Damaged parts, which are not in the new bag.
@@ -36,8 +38,11 @@ pub fn recover_with(
     output: &Path,
     mut progress: impl FnMut(u64, Option<u64>),
 ) -> Result<Recovered, BagError> {
-    let bag = open(input)?;
+    let mut bag = open(input)?;
+    // The new bag announces its topics at its beginning.
+    bag.describe();
     let topics: Vec<Topic> = bag.topics().iter().map(|topic| Topic::clone(topic)).collect();
+    let faults = bag.faults().to_vec();
     let cuts = bag.cuts().cloned().collect();
     let total = bag.message_count();
     let mut recorder = Recorder::create(output, &topics)?;
@@ -68,6 +73,7 @@ pub fn recover_with(
     Ok(Recovered {
         recording: recorder.finish()?,
         topics,
+        faults,
         cuts,
         damaged,
         gaps: gaps.found(),

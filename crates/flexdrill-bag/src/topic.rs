@@ -1,7 +1,11 @@
 //! A topic of a bag.
 
+use crate::BagError;
 use flexdrill_messages::TypeInfo;
 use flexdrill_messages::topics::Qos;
+
+/// Encoding of the messages of ROS 2.
+const CDR: &str = "cdr";
 
 /// A topic with its type, as recorded.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,12 +32,46 @@ impl Topic {
         Self {
             name: absolute_name.into(),
             ros_type: kind.ros_type.to_owned(),
-            encoding: "cdr".to_owned(),
+            encoding: CDR.to_owned(),
             schema: kind.schema.to_owned(),
             schema_encoding: "ros2msg".to_owned(),
             type_hash: kind.rihs01.to_owned(),
             qos: vec![qos],
         }
+    }
+
+    /// Name and type, with the encoding where it is not that of ROS 2.
+    pub(crate) fn in_words(&self) -> String {
+        let ros_type = if self.ros_type.is_empty() {
+            "no type"
+        } else {
+            &self.ros_type
+        };
+        match self.encoding.as_str() {
+            CDR => format!("{} [{ros_type}]", self.name),
+            other => format!("{} [{ros_type} as {other:?}]", self.name),
+        }
+    }
+
+    /// Whether its messages can be read as a type.
+    ///
+    /// # Errors
+    /// When it has another type, none, or another encoding than that of ROS 2.
+    pub fn check(&self, expected: &'static str) -> Result<(), BagError> {
+        if self.encoding != CDR {
+            return Err(BagError::WrongEncoding {
+                topic: self.name.clone(),
+                found: self.encoding.clone(),
+            });
+        }
+        if self.ros_type != expected {
+            return Err(BagError::WrongType {
+                topic: self.name.clone(),
+                found: self.ros_type.clone(),
+                expected,
+            });
+        }
+        Ok(())
     }
 
     /// Whether the name matches: an absolute name exactly, a relative one in any namespace.

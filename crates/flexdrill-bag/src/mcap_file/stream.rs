@@ -4,14 +4,14 @@
 //! first message is due as soon as the next chunk begins after it, so that memory holds only the overlapping chunks.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use mcap::records::op;
 
-use super::channels::Channels;
+use super::channels::{Added, Channels, NoTopic, Place};
 use super::records::{MESSAGE_HEAD, message_header, records};
 use super::scan::{self, Kind, Segment};
 use crate::raw::RawMessage;
@@ -21,13 +21,19 @@ use crate::{BagError, Cut, Topic};
 /// few megabytes.
 const MOST_WAITING: usize = 256 << 20;
 
-/// Defects of a message record.
+/// Why a message record is left out.
 #[derive(Debug, thiserror::Error)]
-enum RecordProblem {
-    #[error("a message record is damaged")]
-    Message,
-    #[error("a message is on channel {0}, which the file does not describe")]
-    UnknownChannel(u16),
+enum LeftOut {
+    #[error("damaged message records")]
+    Damaged,
+    #[error(transparent)]
+    NoTopic(#[from] NoTopic),
+    #[error(
+        "messages of {topic} with log times beyond {} ns, the first {log_time} ns: no recorder writes times after the \
+         year 2262; correct the recorder's clock or its writer",
+        i64::MAX
+    )]
+    Time { topic: String, log_time: u64 },
 }
 
 /// An open MCAP file.
@@ -42,8 +48,14 @@ pub(crate) struct McapStream {
     waiting: BinaryHeap<Reverse<RawMessage>>,
     /// Size of these messages (bytes).
     waiting_bytes: usize,
-    /// Defect of the last segment read, which is reported before its messages.
-    problem: Option<BagError>,
+    /// Defects of the file and of the last segments read, which are reported before their messages.
+    problems: VecDeque<BagError>,
+    /// The segments in the order of the file.
+    in_file: Vec<Segment>,
+    /// Number of these whose topics are known.
+    described: usize,
+    /// No channel id of the file has two topics, so that segments may be skipped unseen.
+    ours: bool,
     /// Number of messages read so far, which keeps messages of equal time in the file's order.
     order: u64,
     wanted: Vec<bool>,
@@ -59,9 +71,22 @@ impl McapStream {
     /// # Errors
     /// When the file cannot be read or is not MCAP.
     pub fn open(path: &Path) -> Result<Self, BagError> {
-        let file = File::open(path).map_err(BagError::io("open", path))?;
+        Self::read(path, File::open(path).map_err(BagError::io("open", path))?)
+    }
+
+    /// Reads `file`; errors name it `path`.
+    ///
+    /// # Errors
+    /// As [`McapStream::open`].
+    pub fn read(path: &Path, file: File) -> Result<Self, BagError> {
         let mut scan = scan::scan(path, &file)?;
+        let in_file = scan.segments.clone();
         scan.segments.sort_by_key(|segment| (segment.start, segment.offset));
+        let damaged = |(offset, problem)| BagError::Damaged {
+            path: path.to_owned(),
+            offset,
+            problem,
+        };
         Ok(Self {
             path: path.to_owned(),
             file,
@@ -71,7 +96,10 @@ impl McapStream {
             next_segment: 0,
             waiting: BinaryHeap::new(),
             waiting_bytes: 0,
-            problem: None,
+            problems: scan.problems.into_iter().map(damaged).collect(),
+            described: if scan.described { in_file.len() } else { 0 },
+            in_file,
+            ours: scan.ours,
             order: 0,
             begin: i64::MIN,
             messages: scan.messages,
@@ -99,19 +127,70 @@ impl McapStream {
         self.cut.as_ref()
     }
 
-    /// First and last log time. Chunks without messages have 0 for both and are ignored.
-    pub fn bounds(&self) -> Option<(u64, u64)> {
-        let filled = || self.segments.iter().filter(|segment| segment.end != 0);
-        let start = filled().map(|segment| segment.start).min()?;
-        let end = filled().map(|segment| segment.end).max()?;
-        Some((start, end))
+    /// First and last log time (ns). Chunks without messages have 0 for both and are ignored, as are times that no
+    /// message can have.
+    pub fn bounds(&self) -> Option<(i64, i64)> {
+        let filled = self.segments.iter().filter(|segment| segment.end != 0);
+        let possible = filled.filter_map(|segment| {
+            let start = i64::try_from(segment.start).ok()?;
+            Some((start, i64::try_from(segment.end).unwrap_or(start)))
+        });
+        possible.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    /// Learns the topics of all chunks, which it decompresses for that.
+    pub fn describe(&mut self) {
+        self.learn_before(u64::MAX);
+    }
+
+    /// Learns the topics of the segments before an offset (bytes) that were not read yet: a channel id may have got
+    /// another topic there.
+    fn learn_before(&mut self, offset: u64) {
+        while let Some(segment) = self
+            .in_file
+            .get(self.described)
+            .filter(|segment| segment.offset < offset)
+        {
+            let segment = *segment;
+            self.described += 1;
+            // The first pass has seen the records outside chunks. Defects are reported when the messages are read.
+            let content = match segment.kind {
+                Kind::Loose => continue,
+                Kind::Chunk | Kind::CutChunk => scan::load(&self.path, &self.file, &segment),
+            };
+            let content = content.map(|(content, _)| content).unwrap_or_default();
+            for (number, (opcode, body)) in records(&content).flatten().enumerate() {
+                if matches!(opcode, op::SCHEMA | op::CHANNEL) {
+                    self.learn(opcode, body, (segment.offset, number));
+                }
+            }
+        }
+    }
+
+    /// Adds a schema or channel record; returns false if it is damaged.
+    fn learn(&mut self, opcode: u8, body: &[u8], at: Place) -> bool {
+        let added = self.channels.add(opcode, body, at);
+        self.wanted.resize(self.channels.topics.len(), true);
+        let is_damaged = added == Added::Damaged;
+        if let Added::Contradicts(text) = added {
+            self.report(at.0, text);
+        }
+        !is_damaged
+    }
+
+    fn report(&mut self, offset: u64, problem: String) {
+        self.problems.push_back(BagError::Damaged {
+            path: self.path.clone(),
+            offset,
+            problem,
+        });
     }
 
     /// Continues with the first message at or after `time` (ns since the epoch).
     pub fn seek(&mut self, time: i64) {
         self.waiting.clear();
         self.waiting_bytes = 0;
-        self.problem = None;
+        self.problems.clear();
         self.next_segment = 0;
         self.begin = time;
     }
@@ -119,7 +198,7 @@ impl McapStream {
     /// The next message or the defect of a part; after a defect, the next part follows.
     pub fn next(&mut self) -> Option<Result<RawMessage, BagError>> {
         loop {
-            if let Some(problem) = self.problem.take() {
+            if let Some(problem) = self.problems.pop_front() {
                 return Some(Err(problem));
             }
             let Some(segment) = self.segments.get(self.next_segment).copied() else {
@@ -136,6 +215,9 @@ impl McapStream {
             // A chunk without messages has 0 for its end, and nothing to decompress.
             if i64::try_from(segment.end).is_ok_and(|end| end < self.begin) {
                 continue;
+            }
+            if !self.ours {
+                self.learn_before(segment.offset);
             }
             if let Err(error) = self.unpack(&segment) {
                 return Some(Err(error));
@@ -164,7 +246,12 @@ impl McapStream {
 
     fn unpack(&mut self, segment: &Segment) -> Result<(), BagError> {
         let (content, mut problem) = scan::load(&self.path, &self.file, segment)?;
-        for record in records(&content) {
+        // In the file's order this is the next segment, and its topics are learnt here.
+        if self.in_file.get(self.described).map(|next| next.offset) == Some(segment.offset) {
+            self.described += 1;
+        }
+        let mut left_out: Option<(LeftOut, u64)> = None;
+        for (number, record) in records(&content).enumerate() {
             let Some((opcode, body)) = record else {
                 // A truncated chunk ends within a record.
                 if segment.kind != Kind::CutChunk {
@@ -172,42 +259,55 @@ impl McapStream {
                 }
                 break;
             };
+            let at = (segment.offset, number);
             match opcode {
                 op::SCHEMA | op::CHANNEL => {
-                    if !self.channels.add(opcode, body) {
+                    if !self.learn(opcode, body, at) {
                         problem.get_or_insert("a schema or channel record is damaged".to_owned());
                     }
-                    self.wanted.resize(self.channels.topics.len(), true);
                 }
                 op::MESSAGE => {
-                    if let Err(wrong) = self.queue(body) {
-                        problem.get_or_insert_with(|| wrong.to_string());
+                    if let Err(why) = self.queue(body, at) {
+                        left_out.get_or_insert((why, 0)).1 += 1;
                     }
                 }
                 _ => {}
             }
         }
-        self.problem = problem.map(|problem| BagError::Damaged {
-            path: self.path.clone(),
-            offset: segment.offset,
-            problem,
-        });
+        if let Some((why, count)) = left_out {
+            // The first cause names the segment; others in it are mostly the same.
+            self.report(segment.offset, format!("left out here, {count} in number: {why}"));
+        }
+        if let Some(problem) = problem {
+            self.report(segment.offset, problem);
+        }
         Ok(())
     }
 
-    fn queue(&mut self, body: &[u8]) -> Result<(), RecordProblem> {
-        let message = message_header(body).ok_or(RecordProblem::Message)?;
-        let topic = self
-            .channels
-            .topic(message.channel_id)
-            .ok_or(RecordProblem::UnknownChannel(message.channel_id))?;
-        let log_time = i64::try_from(message.log_time).unwrap_or(i64::MAX);
-        if self.wanted.get(topic) == Some(&true) && log_time >= self.begin {
+    fn queue(&mut self, body: &[u8], at: Place) -> Result<(), LeftOut> {
+        let message = message_header(body).ok_or(LeftOut::Damaged)?;
+        let topic = self.channels.topic(message.channel_id, at)?;
+        if self.wanted.get(topic) != Some(&true) {
+            return Ok(());
+        }
+        // A time that does not fit is no time: the nearest one that fits would put all such messages at one instant.
+        let Ok(log_time) = i64::try_from(message.log_time) else {
+            return Err(LeftOut::Time {
+                topic: self
+                    .channels
+                    .topics
+                    .get(topic)
+                    .map(|topic| topic.name.clone())
+                    .unwrap_or_default(),
+                log_time: message.log_time,
+            });
+        };
+        if log_time >= self.begin {
             self.waiting_bytes += body.len() - MESSAGE_HEAD;
             self.waiting.push(Reverse(RawMessage {
                 log_time,
                 order: self.order,
-                publish_time: i64::try_from(message.publish_time).unwrap_or(i64::MAX),
+                publish_time: i64::try_from(message.publish_time).unwrap_or(log_time),
                 topic,
                 sequence: Some(message.sequence),
                 data: body[MESSAGE_HEAD..].to_vec(),
