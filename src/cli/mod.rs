@@ -137,6 +137,11 @@ impl WrongUse {
     }
 }
 
+/// A signal ended the command before its result was complete: exit code 130.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Ended(String);
+
 const WRONG_USE: u8 = 2;
 const FAILED: u8 = 1;
 
@@ -279,7 +284,13 @@ pub fn main(no_output: bool) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             tell!("error: {}", printable_lines(&one_line(&error)));
-            ExitCode::from(if error.is::<WrongUse>() { WRONG_USE } else { FAILED })
+            ExitCode::from(if error.is::<WrongUse>() {
+                WRONG_USE
+            } else if error.is::<Ended>() {
+                signals::ENDED
+            } else {
+                FAILED
+            })
         }
     }
 }

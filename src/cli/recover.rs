@@ -6,12 +6,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::bag;
 use crate::cli::output::{say, tell};
-use flexdrill_text::printable;
+use flexdrill_text::{counted, printable};
+
+/// Largest number of damaged parts listed.
+const NAMED: usize = 100;
 
 /// Write a complete bag from one that was cut short or damaged.
 #[derive(Debug, clap::Args)]
 pub struct RecoverArgs {
-    /// Bag: an .mcap or .db3 file, or a folder with such files.
+    /// Bag: an .mcap or .db3 file, which may be compressed (.zstd), or a folder with such files.
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// New bag: a file if it ends in .mcap, else a folder.
@@ -36,11 +39,17 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
     });
     bar.finish_and_clear();
     let recovered = recovered?;
+    for fault in &recovered.faults {
+        tell!("{}", printable(&fault.to_string()));
+    }
     for cut in &recovered.cuts {
         tell!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
     }
-    for damage in &recovered.damaged {
-        tell!("left out: {}", printable(&damage.to_string()));
+    for damage in recovered.damaged.iter().take(NAMED) {
+        tell!("damaged: {}", printable(&damage.to_string()));
+    }
+    if let Some(more) = recovered.damaged.len().checked_sub(NAMED).filter(|more| *more > 0) {
+        tell!("damaged: {} more", counted(more as u64, "part"));
     }
     for gap in &recovered.gaps {
         tell!("lost during the recording: {gap}");

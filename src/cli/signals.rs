@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use futures::future::select_all;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 
-/// Exit code after a forced end, as shells know it from SIGINT.
-const FORCED: i32 = 130;
+/// Exit code after an end by a signal that left a result unfinished, as shells know it from SIGINT.
+pub(super) const ENDED: u8 = 130;
 
 /// A signal this soon after the first is the same request: a supervisor signals both the process and its group.
 const SAME_REQUEST: Duration = Duration::from_secs(2);
@@ -104,7 +104,7 @@ pub(super) fn shutdown(recording: bool) -> io::Result<impl Future<Output = ()>> 
                 }
             }
             tell!("forced to end");
-            std::process::exit(FORCED);
+            std::process::exit(i32::from(ENDED));
         });
     })
 }
@@ -134,6 +134,30 @@ pub(super) fn stop_flag() -> io::Result<Arc<AtomicBool>> {
     std::thread::spawn(move || {
         runtime.block_on(signals.next());
         flag.store(true, Ordering::Relaxed);
+    });
+    Ok(stop)
+}
+
+/// As [`stop_flag`], for a command that writes a recording: another signal ends the program at once only when the end of the
+/// recording takes too long.
+///
+/// # Errors
+/// When the handlers cannot be installed.
+pub(super) fn stop_recording() -> io::Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    let requested = {
+        let _entered = runtime.enter();
+        shutdown(true)?
+    };
+    std::thread::spawn(move || {
+        runtime.block_on(async {
+            requested.await;
+            flag.store(true, Ordering::Relaxed);
+            // The runtime listens to further signals.
+            std::future::pending::<()>().await;
+        });
     });
     Ok(stop)
 }

@@ -124,6 +124,30 @@ fn mcap_file() {
     .fuzz();
 }
 
+/// Files that are compressed as a whole: of one frame or several, whole or cut.
+#[test]
+fn packed_file() {
+    let folder = folder();
+    let path = folder.path().join("bag.mcap.zstd");
+    let all = whole();
+    let pack = |content: &[u8]| zstd::encode_all(content, 1).unwrap();
+    let one = pack(&all);
+    Target {
+        name: "packed_file",
+        seeds: vec![
+            one[..one.len() * 2 / 3].to_vec(),
+            [pack(&all[..100]), pack(&all[100..])].concat(),
+            one,
+        ],
+        words: &["\u{89}MCAP0\r\n", "SQLite format 3\0", "zstd", "\0\0\0\0"],
+        run: &mut |bytes| {
+            std::fs::write(&path, bytes).unwrap();
+            read_and_recover(&path)
+        },
+    }
+    .fuzz();
+}
+
 /// The records of a chunk, in a file of that one chunk: compressed as the first byte says, cut or whole.
 fn in_a_chunk(kind: u8, records: &[u8]) -> Vec<u8> {
     let (name, packed) = match kind % 3 {
@@ -315,6 +339,8 @@ fn metadata() {
             "- ..\n",
             "- \"\"\n",
             "compression_mode: FILE\n",
+            "- run.mcap.zstd\n",
+            "- run_1.mcap\n",
             "&a ",
             "*a",
             "[",

@@ -18,3 +18,4 @@ mod following;
 mod logs;
 mod measured;
 mod report;
+mod shapes;

@@ -28,6 +28,9 @@ impl Recorded {
     /// Starts to play and to read the bag.
     pub fn start(path: &Path) -> Result<Self, DashboardError> {
         let bag = flexdrill_bag::open(path)?;
+        for fault in bag.faults() {
+            tracing::warn!("{}", printable(&fault.to_string()));
+        }
         let (start, end) = flexdrill_live::range(&bag, path)?;
         let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref));
         let namespace = bag
@@ -102,7 +105,7 @@ impl FullPass {
 
 /// The node's topic of a message, and the message's CDR body.
 fn known(message: &BagMessage) -> Option<(&'static TopicInfo, &[u8])> {
-    let is_it = |topic: &&TopicInfo| message.topic.ros_type == topic.kind.ros_type && message.topic.is(topic.name);
+    let is_it = |topic: &&TopicInfo| message.topic.is(topic.name) && message.topic.check(topic.kind.ros_type).is_ok();
     let topic = topics::ALL.iter().find(is_it)?;
     Some((topic, message.data.strip_prefix(&CDR_HEADER)?))
 }

@@ -119,7 +119,8 @@ pub fn read(path: &Path, namespace: Option<&str>, mut progress: impl FnMut(f64))
             cut.offset
         )
     });
-    let cuts: Vec<String> = cuts.collect();
+    let faults = bag.faults().iter().map(|fault| format!("{fault}."));
+    let cuts: Vec<String> = faults.chain(cuts).collect();
     Ok(reader.finish(&roles, cuts, &damaged, &gaps.found()))
 }
 

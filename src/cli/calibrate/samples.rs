@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::cli::output::tell;
 use flexdrill_bag::BagError;
 use flexdrill_calibration::windows::{Channel, Sample};
 use flexdrill_core::inputs::{InputKind, MeasuredKind};
@@ -10,6 +11,7 @@ use flexdrill_field_log::InputSequence;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::{Message, RigInputs, RigMeasured, topics};
 use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
+use flexdrill_text::printable;
 
 /// The measured quantity of a channel.
 pub(super) const fn kind(channel: Channel) -> MeasuredKind {
@@ -64,10 +66,25 @@ pub(super) fn of_log(sequence: &InputSequence) -> Vec<Sample> {
 /// unknown.
 ///
 /// # Errors
-/// When the bag cannot be read.
+/// When the bag cannot be read, or has one of these topics as another type.
 pub(super) fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
     // Topics are matched by their end, because a bag carries the namespace of its rig.
     let mut bag = flexdrill_bag::open(path)?;
+    for fault in bag.faults() {
+        tell!("{}", printable(&fault.to_string()));
+    }
+    // A fit without an input that the bag has as another type would be one to other data.
+    let plain = InputKind::ALL.map(|kind| (kind.topic(), Float64::ROS_TYPE));
+    let own = [
+        (topics::RIG_MEASURED.name, RigMeasured::ROS_TYPE),
+        (topics::RIG_INPUTS.name, RigInputs::ROS_TYPE),
+    ];
+    for (name, ros_type) in plain.into_iter().chain(own) {
+        match bag.topic_of_type(name, ros_type) {
+            Err(error @ (BagError::WrongType { .. } | BagError::WrongEncoding { .. })) => return Err(error),
+            _ => {}
+        }
+    }
     let wanted = |name: &str, known: &topics::TopicInfo| name.trim_start_matches('/').ends_with(known.name);
     bag.select(|topic| {
         wanted(&topic.name, &topics::RIG_MEASURED)
@@ -80,7 +97,10 @@ pub(super) fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
     for message in bag.by_ref() {
         let message = match message {
             // A damaged part costs its own samples.
-            Err(BagError::Damaged { .. }) => continue,
+            Err(error @ BagError::Damaged { .. }) => {
+                tell!("damaged: {}", printable(&error.to_string()));
+                continue;
+            }
             message => message?,
         };
         // Seconds since the first message keep the digits that nanoseconds since 1970 lose in an `f64`.

@@ -61,6 +61,7 @@ pub(super) fn replay(
             }
         },
     )?;
+    player.end_by_signal()?;
     player.run_ensemble(Vec::new(), posterior)?;
     // An optional input that is missing everywhere is said once; each sample that lacks it would repeat it.
     for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
@@ -76,7 +77,7 @@ pub(super) fn replay(
     let mut remaining = samples.iter().peekable();
     let mut applied: Option<RunInputs> = None;
     let mut refused = 0_u64;
-    while player.step() < steps {
+    while player.step() < steps && !player.is_stopped() {
         let now = player.time_of(player.step());
         // All samples up to now, in the order of their times: as at the rig, the newest good one is in force.
         while let Some(sample) = remaining.next_if(|sample| sample.since(first) <= now) {

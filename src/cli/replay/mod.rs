@@ -21,7 +21,7 @@ use self::player::Player;
 pub(super) use self::steady::record_case;
 use super::progress::Progress;
 use super::run::load_config;
-use super::{WrongUse, numbers, source};
+use super::{Ended, WrongUse, numbers, source};
 use crate::bag;
 use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
@@ -34,7 +34,7 @@ use flexdrill_text::{counted, printable};
 /// command states what is not exact. Of other bags and of field logs, the rig's inputs are used.
 #[derive(Debug, Args)]
 pub(super) struct ReplayArgs {
-    /// Bag (MCAP, SQLite or their folder), field log (CSV) or capture of a WITS line.
+    /// Bag (MCAP, SQLite or their folder; also compressed, .zstd), field log (CSV) or capture of a WITS line.
     input: PathBuf,
     /// The input is a capture of a WITS line, or the bytes of one alone. A capture of flexdrill bridge is known without it.
     #[arg(long)]
@@ -156,6 +156,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
 fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow::Result<()> {
     progress.done();
     let (wall, time_step) = (progress.elapsed(), player.config().solver.time_step);
+    let stopped = player.is_stopped().then(|| player.time_of(player.step()));
     let joints = episodes::Joints(player.joint_stations().to_vec());
     let (recording, mut tally) = player.finish()?;
     say!(
@@ -170,5 +171,10 @@ fn finish((player, progress): (Player, Progress), json: Option<&Path>) -> anyhow
     if let Some(path) = json {
         episodes::write_json(path, &found, &joints)?;
     }
-    Ok(())
+    let Some(time) = stopped else { return Ok(()) };
+    Err(Ended(format!(
+        "a signal ended the replay after {time:.2} s of model time since its start or last reset; {} is complete up to there",
+        recording.path.display()
+    ))
+    .into())
 }

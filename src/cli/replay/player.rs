@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context as _, bail};
 
@@ -10,6 +11,7 @@ use super::sink::BagSink;
 use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{Recorder, Recording, Topic};
+use crate::cli::signals;
 use crate::cli::source::FromRig;
 use crate::ensemble::{Ensemble, Generation, Pace, Running};
 use crate::field_log::LogRows;
@@ -47,6 +49,8 @@ pub(super) struct Player {
     frame: Frame,
     /// When the alarms' worst moments were last taken (ns since 1970).
     listed: Option<i64>,
+    /// A signal sets it.
+    stop: Option<Arc<AtomicBool>>,
 }
 
 impl Player {
@@ -105,6 +109,7 @@ impl Player {
             start,
             initial_rates,
             listed: None,
+            stop: None,
         })
     }
 
@@ -125,6 +130,20 @@ impl Player {
             self.session.run_with(Running::start(ensemble, Pace::Waits(recorded))?);
         }
         Ok(())
+    }
+
+    /// From now on a signal ends the run instead of the process, so that the bag gets its end.
+    ///
+    /// # Errors
+    /// When signals cannot be caught.
+    pub(super) fn end_by_signal(&mut self) -> anyhow::Result<()> {
+        self.stop = Some(signals::stop_recording().context("signals cannot be caught")?);
+        Ok(())
+    }
+
+    /// Whether a signal has requested the end.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     /// Compares the run at these stamps (ns since 1970), the oldest first, with what a recorded run was compared with,

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use anyhow::Context as _;
 
 use super::player::{Player, asks_for_members};
-use crate::bag::{self, Bag, BagError, Gap, Gaps};
+use crate::bag::{self, Bag, BagError, Gap, Gaps, PartFault};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
 use crate::cli::source::{FromRig, MeasuredSample};
@@ -54,6 +54,8 @@ pub(super) struct Script {
     gaps: Vec<Gap>,
     /// Damaged parts of the recording.
     damaged: Vec<String>,
+    /// Differences between its files and its metadata.
+    faults: Vec<PartFault>,
 }
 
 /// Whether a bag is a recording of the twin: it holds the session with the configuration.
@@ -173,6 +175,7 @@ impl Script {
             last_step,
             gaps: gaps.found(),
             damaged,
+            faults: bag.faults().to_vec(),
         })
     }
 
@@ -256,6 +259,15 @@ impl Script {
                 exactness.notes.push(format!("the recording has a gap ({gap})"));
             }
         }
+        for fault in &self.faults {
+            if fault.loses() {
+                exactness
+                    .departures
+                    .push(format!("a part of the recording is missing: {fault}"));
+            } else {
+                exactness.notes.push(fault.to_string());
+            }
+        }
         let damaged = self.damaged.iter();
         exactness
             .notes
@@ -299,6 +311,7 @@ impl Script {
         // those of the player from the start of the replay.
         let mut base = Base::of(&self.session, self.applied.first());
         let mut player = Player::new(config, base.start, self.from_rig.clone(), out, |topic| self.name(topic))?;
+        player.end_by_signal()?;
         player.compare_with(self.samples.iter().copied());
         let ensembles = self.ensembles.iter().map(|(begun, generation)| Generation {
             begun: ((begun - base.start) as f64 * 1e-9 / time_step).round().max(0.0) as u64,
@@ -343,11 +356,11 @@ impl Script {
             if let Some(until) = base.step(next) {
                 pace.advance(&mut player, until)?;
             }
-            if pace.taken >= pace.most {
+            if pace.taken >= pace.most || player.is_stopped() {
                 break;
             }
         }
-        if pace.taken < pace.most {
+        if pace.taken < pace.most && !player.is_stopped() {
             // What arrived after the last output.
             player.record_from_rig(i64::MAX)?;
         }
@@ -413,7 +426,7 @@ struct Pace {
 
 impl Pace {
     fn advance(&mut self, player: &mut Player, until: u64) -> anyhow::Result<()> {
-        while player.step() < until && self.taken < self.most {
+        while player.step() < until && self.taken < self.most && !player.is_stopped() {
             player.advance_or_fail()?;
             self.taken += 1;
             self.progress.at(self.taken as f64 * self.time_step);

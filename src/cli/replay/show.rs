@@ -20,6 +20,9 @@ pub(super) fn show(path: &Path, address: SocketAddr, origins: &[String]) -> anyh
     runtime.block_on(async {
         let shutdown = signals::shutdown(false)?;
         let bag = bag::open(path)?;
+        for fault in bag.faults() {
+            tracing::warn!("{}", printable(&fault.to_string()));
+        }
         let (start, end) = live::range(&bag, path)?;
         let hub = Hub::new(bag.topics().iter().map(AsRef::as_ref));
         let states = Arc::new(LatchedStates::default());

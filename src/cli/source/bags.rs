@@ -2,13 +2,16 @@
 
 use std::path::Path;
 
+use anyhow::{anyhow, ensure};
+
 use super::{MeasuredSample, Sample, Samples};
-use crate::bag;
+use crate::bag::{self, BagError};
 use crate::cli::output::tell;
 use crate::messages::std_msgs::Float64;
 use crate::messages::{Message, RigInputs, RigMeasured, topics};
 use crate::rig_inputs::stamped;
 use flexdrill_core::inputs::InputKind;
+use flexdrill_text::printable;
 
 /// Where the topics follow on those of the plain inputs.
 const STAMPED: usize = InputKind::COUNT;
@@ -28,35 +31,58 @@ pub(super) fn of_message(message: &RigInputs, time: i64) -> impl Iterator<Item =
     })
 }
 
+/// What to do with a bag of which a part cannot be read.
+fn remedy(path: &Path) -> String {
+    format!(
+        "flexdrill recover {} --out NEW writes a bag of all that can be read, and names the rest",
+        path.display()
+    )
+}
+
 /// The inputs and measured values of a bag.
 ///
 /// # Errors
-/// When it cannot be read, or lacks rotary speed or weight on bit.
+/// When it or a part of it cannot be read, it lacks rotary speed or weight on bit, or has an input as another type.
 pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
     let mut bag = bag::open(path)?;
-    let plain = InputKind::ALL.map(|kind| bag.topic(kind.topic()).map(|topic| topic.name.clone()));
-    let stamped = bag.topic(topics::RIG_INPUTS.name).map(|topic| topic.name.clone());
-    let measured = bag
-        .topic(topics::RIG_MEASURED.name)
-        .map(|topic| topic.name.clone())
-        .ok();
-    // Rotary speed and weight drive the model and must come from somewhere; all else has an assumed value.
-    let [speed, weight, advance, pressure] = plain;
-    // The optional inputs may be missing.
-    let [advance, pressure] = [advance.ok(), pressure.ok()];
-    let names: [Option<String>; InputKind::COUNT + 2] = match (speed, weight, stamped) {
-        (Ok(speed), Ok(weight), stamped) => [Some(speed), Some(weight), advance, pressure, stamped.ok(), measured],
-        // Without the plain topics, the stamped topic has the inputs.
-        (speed, weight, Ok(stamped)) => [speed.ok(), weight.ok(), advance, pressure, Some(stamped), measured],
-        (speed, weight, Err(_)) => {
-            let error = speed.and(weight).err().map(anyhow::Error::from);
-            let missing = error.unwrap_or_else(|| anyhow::anyhow!("no inputs"));
-            return Err(missing.context(format!(
-                "{}: the bag needs rotary speed and weight on bit",
-                path.display()
-            )));
+    for fault in bag.faults() {
+        // A run on half of the inputs would be taken for one on all of them.
+        ensure!(!fault.loses(), "{fault}; {}", remedy(path));
+        tell!("{}", printable(&fault.to_string()));
+    }
+    let mut unfit = Vec::new();
+    let mut named = |name: &str, ros_type| match bag.topic_of_type(name, ros_type) {
+        Ok(topic) => Some(topic.name.clone()),
+        Err(BagError::NoTopic { .. }) => None,
+        Err(error) => {
+            unfit.push(error);
+            None
         }
     };
+    let stamped = named(topics::RIG_INPUTS.name, RigInputs::ROS_TYPE);
+    let measured = named(topics::RIG_MEASURED.name, RigMeasured::ROS_TYPE);
+    let plain = InputKind::ALL.map(|kind| named(kind.topic(), Float64::ROS_TYPE));
+    for error in unfit {
+        // An input that cannot be read is not one that the rig did not send: the model would assume a value for it.
+        if stamped.is_none() {
+            let why = format!("{}: a topic of the rig's inputs cannot be read", path.display());
+            return Err(anyhow::Error::from(error).context(why));
+        }
+        tell!("not used: {}", printable(&error.to_string()));
+    }
+    // Rotary speed and weight drive the model and must come from somewhere; all else has an assumed value.
+    let [speed, weight, ..] = &plain;
+    if stamped.is_none() && (speed.is_none() || weight.is_none()) {
+        let missing = [InputKind::RotarySpeed, InputKind::WeightOnBit].map(|kind| bag.topic(kind.topic()).err());
+        let missing = missing.into_iter().flatten().next().map(anyhow::Error::from);
+        let missing = missing.unwrap_or_else(|| anyhow!("no inputs"));
+        return Err(missing.context(format!(
+            "{}: the bag needs rotary speed and weight on bit",
+            path.display()
+        )));
+    }
+    let [speed, weight, advance, pressure] = plain;
+    let names: [Option<String>; InputKind::COUNT + 2] = [speed, weight, advance, pressure, stamped, measured];
     // A topic counts by name and type: another program may use the name for another type.
     let role = |name: &str, ros_type: &str| {
         names.iter().enumerate().position(|(index, known)| {
@@ -71,7 +97,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
     bag.select(|topic| role(&topic.name, &topic.ros_type).is_some());
     let mut samples = Samples::default();
     for message in bag.by_ref() {
-        let message = message?;
+        let message = message.map_err(|error| anyhow!("{error}; {}", remedy(path)))?;
         let time = message.log_time;
         match role(&message.topic.name, &message.topic.ros_type) {
             Some(MEASURED) => samples.measured.push(MeasuredSample {

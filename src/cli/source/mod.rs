@@ -14,7 +14,7 @@ use clap::Args;
 
 use super::WrongUse;
 use super::built_in::DemoLog;
-use crate::bag::{self, BagError};
+use crate::bag;
 use crate::cli::output::{tell, tell_text};
 use crate::field_log::{self, InputSequence, Mapping, Position};
 use crate::messages::builtin_interfaces::Time;
@@ -42,7 +42,7 @@ pub(super) struct Sample {
 impl Sample {
     /// Time since another sample (s).
     pub(super) fn since(&self, first: &Self) -> f64 {
-        (self.time - first.time) as f64 * 1e-9
+        self.time.saturating_sub(first.time) as f64 * 1e-9
     }
 }
 
@@ -124,11 +124,7 @@ pub(super) fn is_bag(path: &Path) -> anyhow::Result<bool> {
     if DemoLog::at(path).is_some() {
         return Ok(false);
     }
-    match bag::open(path) {
-        Ok(_) => Ok(true),
-        Err(BagError::NotABag { .. }) if path.is_file() => Ok(false),
-        Err(error) => Err(error.into()),
-    }
+    Ok(bag::is_bag(path)?)
 }
 
 impl SourceArgs {
