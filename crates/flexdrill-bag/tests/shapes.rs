@@ -557,3 +557,43 @@ fn a_compressed_file_that_was_cut_gives_what_is_before_the_cut() {
     says(bag.faults(), &["cut.mcap.zstd is read up to byte", "damaged or cut"]);
     assert_eq!(bag.cuts().count(), 1);
 }
+
+/// Whatever bytes are damaged, a message that is read has its own value and time, and is read once.
+#[test]
+fn a_thousand_damaged_files_invent_no_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, whole) = ten();
+    let mut state = 7_u64;
+    let mut random = |below: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    let mut most_lost = 0;
+    for case in 0..1000 {
+        let mut bytes = whole.clone();
+        for _ in 0..=random(4) {
+            let (from, length) = (8 + random(bytes.len() - 8), 1 + random(12));
+            let with = random(256) as u8;
+            let to = bytes.len().min(from + length);
+            bytes[from..to].fill(with);
+        }
+        let path = write(folder.path(), "damaged.mcap", &bytes);
+        let mut seen = Vec::new();
+        for message in open(&path).unwrap().filter_map(Result::ok) {
+            if message.topic.name != RPM || message.topic.check(FLOAT64).is_err() {
+                continue;
+            }
+            let second = (message.log_time as u64 - START) / SECOND;
+            assert_eq!(message.decode::<Float64>().unwrap().data, second as f64, "case {case}");
+            assert!(!seen.contains(&second), "case {case}: {second} twice");
+            seen.push(second);
+        }
+        most_lost = most_lost.max(10 - seen.len());
+        if case % 50 == 0 {
+            recover(&path, &folder.path().join(format!("recovered_{case}"))).unwrap();
+        }
+    }
+    println!("at most {most_lost} of 10 chunks are lost");
+}

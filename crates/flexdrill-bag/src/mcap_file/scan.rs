@@ -309,8 +309,11 @@ impl Pass<'_> {
                 return Ok(Step::Broken("the file ends within a record"));
             }
         };
-        // The sum is bounded too: many chunks, each within its own bound, could otherwise expand without end.
-        self.unpacked = self.unpacked.saturating_add(unpacked);
+        // The sum is bounded too: many chunks, each within its own bound, could otherwise expand without end. A chunk beyond
+        // its own bound is damaged, and is never decompressed.
+        if unpacked <= chunk::largest_unpacked(length) {
+            self.unpacked = self.unpacked.saturating_add(unpacked);
+        }
         let most = chunk::most_in_file(self.length);
         if self.unpacked > most {
             return Err(BagError::Damaged {
