@@ -262,7 +262,8 @@ impl McapStream {
             let at = (segment.offset, number);
             match opcode {
                 op::SCHEMA | op::CHANNEL => {
-                    if !self.learn(opcode, body, at) {
+                    let is_whole = self.learn(opcode, body, at);
+                    if !is_whole {
                         problem.get_or_insert("a schema or channel record is damaged".to_owned());
                     }
                 }
