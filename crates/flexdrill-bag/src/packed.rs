@@ -102,6 +102,7 @@ fn unpack_at_most(
         .map_err(write())?;
     let mut decoder = zstd::stream::read::Decoder::with_buffer(BufReader::with_capacity(PIECE, file))
         .map_err(BagError::io("unpack", path))?;
+    // In pieces, so that memory stays small and the bound holds before the disk is full.
     let (mut bytes, mut piece) = (0_u64, vec![0; PIECE]);
     loop {
         let count = match decoder.read(&mut piece) {

@@ -80,9 +80,9 @@ pub(super) fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
         (topics::RIG_INPUTS.name, RigInputs::ROS_TYPE),
     ];
     for (name, ros_type) in plain.into_iter().chain(own) {
-        match bag.topic_of_type(name, ros_type) {
-            Err(error @ (BagError::WrongType { .. } | BagError::WrongEncoding { .. })) => return Err(error),
-            _ => {}
+        let found = bag.topic_of_type(name, ros_type);
+        if let Err(error @ (BagError::WrongType { .. } | BagError::WrongEncoding { .. })) = found {
+            return Err(error);
         }
     }
     let wanted = |name: &str, known: &topics::TopicInfo| name.trim_start_matches('/').ends_with(known.name);
