@@ -8,7 +8,7 @@
 //! - [`dds`]: the DDS process, and the [`dds::port`] to it.
 //! - [`args`]: `--ros-args`, names and remapping. [`parameters`]: declared parameters and their services.
 //! - [`service`]: service servers. [`replies`]: replies that are too long to send. [`client`]: calls of other nodes'
-//!   services. [`subscriber`]: a node that only listens.
+//!   services. [`subscriber`]: a node that only listens. [`action`] and [`goal_book`]: servers of actions.
 //! - [`logging`]: log lines on standard error and `/rosout`. [`loggers`] and [`type_description`]: the services that
 //!   every ROS 2 node has.
 
@@ -16,6 +16,7 @@ pub mod action;
 pub mod args;
 pub mod client;
 pub mod dds;
+pub mod goal_book;
 pub mod loggers;
 pub mod logging;
 pub mod parameters;

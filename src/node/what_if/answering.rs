@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::{IDLE, Next, WhatIf, publish};
+use super::{IDLE, Next, WhatIf};
 use crate::ahead::{Start, forecast, look_ahead, search};
 use crate::node::advisor::Advisor;
 use crate::node::control::Control;
@@ -20,6 +20,7 @@ use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::{WhatIfGoal, WhatIfResult};
 use flexdrill_realtime::link::{Gauges, RunState};
 use flexdrill_ros2::action::Begun;
+use flexdrill_ros2::goal_book::publish;
 use flexdrill_text::log_ending;
 
 /// Least time between two feedbacks.

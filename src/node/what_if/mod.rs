@@ -7,10 +7,8 @@
 mod answering;
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
-
-use tokio::sync::watch;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use super::NodeError;
 use super::advisor::Advisor;
@@ -21,11 +19,12 @@ use flexdrill_messages::action_msgs::CancelGoalRequest;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::{
     WhatIfGetResultRequest, WhatIfGetResultResponse, WhatIfGoal, WhatIfResult, WhatIfSendGoalRequest,
-    WhatIfSendGoalResponse, to_cdr_body,
+    WhatIfSendGoalResponse,
 };
 use flexdrill_ros2::action::{Accepted, ActionEnds, Begun, GoalId, Goals};
 use flexdrill_ros2::args::ArgsError;
 use flexdrill_ros2::dds::port::{PortBuilder, TopicPublisher};
+use flexdrill_ros2::goal_book::GoalBook;
 use flexdrill_ros2::service::{ServiceMapping, Task, asked_by, at_once};
 use flexdrill_text::log_ending;
 
@@ -35,16 +34,6 @@ pub use answering::Answering;
 const MOST_WAITING: usize = 4;
 /// Clients that may wait for results at the same time.
 const MOST_CLIENTS: usize = 32;
-
-/// Interval at which the node publishes the states of its goals again while one is open. Looking ahead is idle work: on a
-/// busy machine a client would otherwise hear nothing of the node for minutes. A client that ends before it has heard a
-/// state of its goal takes it for not running, and does not cancel it.
-const SIGN_OF_LIFE: Duration = Duration::from_secs(1);
-/// The same after a goal was accepted: a state that arrives before the reply is not taken by the client, and the reply waits
-/// until the client's reader is known.
-const FIRST_SIGNS: Duration = Duration::from_millis(200);
-/// Time for which these go on: the longest wait for a client's reader.
-const FIRST_SIGNS_FOR: Duration = Duration::from_secs(4);
 /// Longest wait for a goal before advice is looked for.
 const IDLE: Duration = Duration::from_millis(200);
 /// Reasons of refused goals that are kept for clients that ask for them.
@@ -58,42 +47,22 @@ enum Next {
     End,
 }
 
-type Book = Goals<WhatIfGoal, WhatIfResult>;
-
 /// The goals, and who waits for them.
 pub struct WhatIf {
-    goals: Mutex<Book>,
-    /// A goal was accepted, or the node ends.
-    work: Condvar,
-    /// Counts changes of the goals, for those who wait for a result.
-    changed: watch::Sender<u64>,
+    book: Arc<GoalBook<WhatIfGoal, WhatIfResult>>,
     ending: Mutex<bool>,
-    /// When the newest goal was accepted.
-    accepted: Mutex<Option<Instant>>,
     /// Why the latest refused goals were refused.
     refused: Mutex<VecDeque<(GoalId, String)>>,
     feedback: TopicPublisher,
-    status: TopicPublisher,
     clocks: Clocks,
     control: Arc<Control>,
     advisor: Arc<Advisor>,
 }
 
 impl WhatIf {
-    fn goals(&self) -> MutexGuard<'_, Book> {
-        self.goals.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Changes the goals and notifies all who wait for a change.
-    fn change<T>(&self, change: impl FnOnce(&mut Book) -> T) -> T {
-        let (result, states) = {
-            let mut goals = self.goals();
-            (change(&mut goals), goals.states())
-        };
-        publish(&self.status, &states);
-        self.changed.send_modify(|count| *count += 1);
-        self.work.notify_all();
-        result
+    fn change<T>(&self, change: impl FnOnce(&mut Goals<WhatIfGoal, WhatIfResult>) -> T) -> T {
+        self.book.change(change)
     }
 
     fn accept(&self, request: WhatIfSendGoalRequest) -> WhatIfSendGoalResponse {
@@ -127,11 +96,10 @@ impl WhatIf {
         goal(&asked)
             .check(&self.control.config())
             .map_err(|error| error.to_string())?;
-        match self.change(|goals| goals.accept(id, stamp, asked)) {
+        match self.book.accept(id, stamp, asked) {
             Accepted::Waits(before) => {
                 // A question of a person comes before the search for advice, unless that has its turn.
                 self.advisor.yield_to_goal();
-                *self.accepted.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
                 Ok(before)
             }
             Accepted::Full => Err(format!(
@@ -155,41 +123,13 @@ impl WhatIf {
         }
     }
 
-    /// Publishes the states of the goals while one is open.
-    async fn shows_life(self: Arc<Self>) {
-        let mut ticks = tokio::time::interval(FIRST_SIGNS);
-        let mut shown = tokio::time::Instant::now();
-        loop {
-            let now = ticks.tick().await;
-            let accepted = *self.accepted.lock().unwrap_or_else(PoisonError::into_inner);
-            let is_new = accepted.is_some_and(|at| at.elapsed() < FIRST_SIGNS_FOR);
-            if !is_new && now.duration_since(shown) < SIGN_OF_LIFE {
-                continue;
-            }
-            shown = now;
-            let open = {
-                let goals = self.goals();
-                goals.is_open().then(|| goals.states())
-            };
-            if let Some(states) = open {
-                publish(&self.status, &states);
-            }
-        }
-    }
-
     async fn result(self: Arc<Self>, id: GoalId) -> WhatIfGetResultResponse {
-        let mut changed = self.changed.subscribe();
-        loop {
-            let result = self.goals().result(id);
-            if let Some((status, result)) = result {
-                return WhatIfGetResultResponse {
-                    status,
-                    result: result.unwrap_or_else(|| self.no_such(id)),
-                };
-            }
-            if changed.changed().await.is_err() {
-                return WhatIfGetResultResponse::default();
-            }
+        match self.book.ended(id).await {
+            None => WhatIfGetResultResponse::default(),
+            Some((status, result)) => WhatIfGetResultResponse {
+                status,
+                result: result.unwrap_or_else(|| self.no_such(id)),
+            },
         }
     }
 
@@ -206,28 +146,20 @@ impl WhatIf {
 
     /// Whether a goal waits or the node ends.
     fn is_wanted(&self) -> bool {
-        self.goals().is_waiting() || self.is_ending()
+        self.book.is_waiting() || self.is_ending()
     }
 
     /// Whether a goal runs or waits.
     fn is_open(&self) -> bool {
-        self.goals().is_open()
+        self.book.is_open()
     }
 
     /// What is to be done next; waits a moment for it.
     fn next(&self) -> Next {
-        let mut goals = self.goals();
-        if let Some(begun) = goals.begin() {
-            return Next::Goal(begun);
-        }
         if self.is_ending() {
-            return Next::End;
+            return self.book.begin().map_or(Next::End, Next::Goal);
         }
-        let (mut goals, _) = self
-            .work
-            .wait_timeout(goals, IDLE)
-            .unwrap_or_else(PoisonError::into_inner);
-        goals.begin().map_or(Next::Nothing, Next::Goal)
+        self.book.begin_within(IDLE).map_or(Next::Nothing, Next::Goal)
     }
 }
 
@@ -236,17 +168,6 @@ fn unbegun() -> WhatIfResult {
     WhatIfResult {
         message: "cancelled before it began".to_owned(),
         ..WhatIfResult::default()
-    }
-}
-
-fn publish(to: &TopicPublisher, message: &impl serde::Serialize) {
-    match to_cdr_body(message) {
-        Ok(body) => to.publish(body),
-        Err(error) => {
-            if let Some(more) = log_ending("goal not encoded") {
-                tracing::error!("what if: a message could not be encoded: {error}{more}");
-            }
-        }
     }
 }
 
@@ -264,21 +185,17 @@ pub fn serve(
 ) -> Result<(Arc<WhatIf>, Vec<Task>), NodeError> {
     let ends = ActionEnds::new(port, &name("~/what_if")?, "flexdrill/action/WhatIf", mapping);
     let what_if = Arc::new(WhatIf {
-        goals: Mutex::new(Goals::new(MOST_WAITING)),
-        work: Condvar::new(),
-        changed: watch::Sender::new(0),
+        book: GoalBook::new(MOST_WAITING, ends.status),
         ending: Mutex::new(false),
-        accepted: Mutex::default(),
         refused: Mutex::default(),
         feedback: ends.feedback,
-        status: ends.status,
         clocks: clocks.clone(),
         control: Arc::clone(control),
         advisor: Arc::clone(advisor),
     });
     let (accepting, cancelling, asking) = (Arc::clone(&what_if), Arc::clone(&what_if), Arc::clone(&what_if));
     let tasks: Vec<Task> = vec![
-        Box::pin(Arc::clone(&what_if).shows_life()),
+        Box::pin(Arc::clone(&what_if.book).shows_life()),
         Box::pin(
             ends.send_goal
                 .serve(at_once(move |request: WhatIfSendGoalRequest| accepting.accept(request))),
@@ -287,7 +204,7 @@ pub fn serve(
             if let Some(more) = log_ending("goals cancelled") {
                 tracing::info!("what if: goals are cancelled{}{more}", asked_by());
             }
-            cancelling.change(|goals| goals.cancel(&request, unbegun))
+            cancelling.book.cancel(&request, unbegun)
         }))),
         Box::pin(
             ends.get_result
