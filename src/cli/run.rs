@@ -250,6 +250,13 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
         "action",
         format!("{} [flexdrill/action/WhatIf]", setup.service_name("~/what_if")?),
     );
+    row(
+        "action",
+        format!(
+            "{} [simulation_interfaces/action/SimulateSteps]",
+            setup.service_name("~/simulate_steps")?
+        ),
+    );
     match &setup.alarm_state {
         Some(path) => row("alarm state", path.display().to_string()),
         None => row(

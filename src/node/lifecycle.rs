@@ -35,15 +35,18 @@ const STATES: [(u8, &str); 4] = [
     (State::PRIMARY_STATE_FINALIZED, "finalized"),
 ];
 
+/// The transition that ends the node.
+const SHUTDOWN: &str = "shutdown";
+
 /// The transitions that a client can request: number, label, from, to.
 const TRANSITIONS: [(u8, &str, u8, u8); 7] = [
     (Transition::TRANSITION_CONFIGURE, "configure", 1, 2),
     (Transition::TRANSITION_CLEANUP, "cleanup", 2, 1),
     (Transition::TRANSITION_ACTIVATE, "activate", 2, 3),
     (Transition::TRANSITION_DEACTIVATE, "deactivate", 3, 2),
-    (Transition::TRANSITION_UNCONFIGURED_SHUTDOWN, "shutdown", 1, 4),
-    (Transition::TRANSITION_INACTIVE_SHUTDOWN, "shutdown", 2, 4),
-    (Transition::TRANSITION_ACTIVE_SHUTDOWN, "shutdown", 3, 4),
+    (Transition::TRANSITION_UNCONFIGURED_SHUTDOWN, SHUTDOWN, 1, 4),
+    (Transition::TRANSITION_INACTIVE_SHUTDOWN, SHUTDOWN, 2, 4),
+    (Transition::TRANSITION_ACTIVE_SHUTDOWN, SHUTDOWN, 3, 4),
 ];
 
 /// The state machine of a managed node.
@@ -57,6 +60,14 @@ pub struct Lifecycle {
 impl Lifecycle {
     fn state(&self) -> u8 {
         *self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Ends the node by the transition `shutdown` of the present state. Returns whether there was one.
+    pub(super) fn shut_down(&self) -> bool {
+        self.change(&Transition {
+            id: 0,
+            label: SHUTDOWN.to_owned(),
+        })
     }
 
     /// Carries out a transition, requested by number or by label. Returns whether it was carried out.
@@ -103,9 +114,9 @@ impl Lifecycle {
             "configure" | "deactivate" => self.control.set_inactive(Some(label(to))),
             "cleanup" => {
                 self.control.set_inactive(Some(label(to)))?;
-                self.control.reset()
+                self.control.reset().map(drop)
             }
-            "shutdown" => {
+            SHUTDOWN => {
                 self.shut_down.notify_one();
                 Ok(())
             }
@@ -153,8 +164,8 @@ fn find(state: u8, requested: &Transition) -> Option<&'static (u8, &'static str,
         })
 }
 
-/// Makes a node managed, and returns its services as tasks. The node begins unconfigured, with model time standing still.
-/// The transition `shutdown` notifies `shut_down`. `name` makes a private name absolute.
+/// Makes a node managed, and returns its states, and its services as tasks. The node begins unconfigured, with model time
+/// standing still. The transition `shutdown` notifies `shut_down`. `name` makes a private name absolute.
 ///
 /// # Errors
 /// When a remapped name is not allowed.
@@ -164,7 +175,7 @@ pub fn serve(
     control: &Arc<Control>,
     shut_down: &Arc<Notify>,
     name: impl Fn(&str) -> Result<String, ArgsError>,
-) -> Result<Vec<Task>, NodeError> {
+) -> Result<(Arc<Lifecycle>, Vec<Task>), NodeError> {
     // Transition events are not latched: a tool that joins later asks for the state, as `ros2 lifecycle` does.
     let offer = Offer {
         reliable: true,
@@ -189,8 +200,8 @@ pub fn serve(
         Ok(ServiceServer::new(port, &name(private)?, &kind, mapping))
     };
     // Three closures need the state for as long as the node runs.
-    let (change, state, possible) = (Arc::clone(&lifecycle), Arc::clone(&lifecycle), lifecycle);
-    Ok(vec![
+    let (change, state, possible) = (Arc::clone(&lifecycle), Arc::clone(&lifecycle), Arc::clone(&lifecycle));
+    let tasks: Vec<Task> = vec![
         Box::pin(
             server("~/change_state", "ChangeState")?.serve(at_once(move |request: ChangeStateRequest| {
                 ChangeStateResponse {
@@ -227,7 +238,8 @@ pub fn serve(
                 },
             )),
         ),
-    ])
+    ];
+    Ok((lifecycle, tasks))
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ pub mod received;
 mod running;
 mod set_point;
 mod setup;
+mod simulator;
 mod states;
 mod thinned;
 mod turns;

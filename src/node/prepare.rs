@@ -20,6 +20,7 @@ use super::receive::{self, SampleReceiver};
 use super::received::{self, ReceivedQueue, ReceivedSender};
 use super::running::RunningNode;
 use super::set_point::SharedSetPoint;
+use super::simulator::{self, Simulator};
 use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
@@ -59,6 +60,7 @@ pub(super) struct PreparedNode {
     moves: Moves,
     alarm_requests: Receiver<AlarmRequest>,
     answering: Answering,
+    simulator: Arc<Simulator>,
     /// Services and `/clock`.
     tasks: Vec<Task>,
     plain_samples: Vec<(InputKind, Arc<Inbox<Sample>>)>,
@@ -152,15 +154,21 @@ impl PreparedNode {
         };
         let shut_down = Arc::new(Notify::new());
         // Without `--lifecycle` the services do not exist, and a supervisor sees at once that the node is not managed.
+        let mut managed = None;
         if setup.lifecycle {
-            tasks.extend(lifecycle::serve(
-                &mut port,
-                mapping,
-                &control,
-                &shut_down,
-                service_name,
-            )?);
+            let (lifecycle, transitions) = lifecycle::serve(&mut port, mapping, &control, &shut_down, service_name)?;
+            tasks.extend(transitions);
+            managed = Some(lifecycle);
         }
+        let simulator = Simulator::new(&control, &gauges, &clocks, managed);
+        tasks.extend(simulator::serve(&mut port, mapping, &simulator, service_name)?);
+        tasks.extend(simulator::serve_steps(
+            &mut port,
+            mapping,
+            &clocks,
+            &simulator,
+            service_name,
+        )?);
 
         let mut subscribe = |topic: &TopicInfo| -> Result<(String, Arc<Inbox<Sample>>), NodeError> {
             let name = setup.topic_name(topic)?;
@@ -203,6 +211,7 @@ impl PreparedNode {
             moves,
             alarm_requests,
             answering,
+            simulator,
             tasks,
             plain_samples: plain.into_iter().map(|(kind, _, samples)| (kind, samples)).collect(),
             stamped_samples: stamped,
@@ -320,6 +329,7 @@ impl PreparedNode {
         let look_ahead_thread = spawn("look-ahead", move || answering.run())?;
         Ok(RunningNode {
             what_if,
+            simulator: self.simulator,
             look_ahead_thread,
             port,
             tasks,

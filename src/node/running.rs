@@ -10,6 +10,7 @@ use tokio::sync::{Notify, oneshot};
 use tokio::task::JoinSet;
 
 use super::duration::{DurationWatch, Ended};
+use super::simulator::Simulator;
 use super::what_if::WhatIf;
 use super::{NodeError, RunSummary};
 use crate::bag::RecordingThread;
@@ -41,6 +42,7 @@ pub(super) struct RunningNode {
     pub(super) publisher_thread: JoinHandle<(Option<RecordingThread>, TwinStatus)>,
     pub(super) solver_thread: JoinHandle<()>,
     pub(super) what_if: Arc<WhatIf>,
+    pub(super) simulator: Arc<Simulator>,
     pub(super) look_ahead_thread: JoinHandle<()>,
     /// None once it was received.
     pub(super) built: Option<Built>,
@@ -110,6 +112,8 @@ impl RunningNode {
     /// When a thread ended badly or the recording could not be finished.
     pub(super) async fn end(mut self) -> Result<RunSummary, NodeError> {
         self.what_if.end();
+        // Clients that wait for steps have their answers before the solver ends.
+        self.simulator.end();
         if !joined(self.look_ahead_thread, LOOK_AHEAD_END).await {
             tracing::warn!(
                 "the look-ahead did not end within {} s; the node ends without it",

@@ -19,3 +19,4 @@ mod latency;
 mod messages;
 mod node;
 mod security;
+mod simulator;

@@ -106,15 +106,20 @@ fn who_has_the_token_sets_parameters_calls_services_and_drives() {
         ),
         ("/flexdrill/what_if/_action/cancel_goal", "action_msgs/srv/CancelGoal"),
         (
+            "/flexdrill/get_simulator_features",
+            "simulation_interfaces/srv/GetSimulatorFeatures",
+        ),
+        ("/flexdrill/step_simulation", "simulation_interfaces/srv/StepSimulation"),
+        (
             "/flexdrill/what_if/_action/get_result",
             "flexdrill/action/WhatIf_GetResult",
         ),
     ] {
         assert_eq!(services[name], kind);
     }
-    // Six of parameters, two of loggers, one of types, three of the run, three of alarms, three of the action: all that
-    // DDS offers.
-    assert_eq!(services.len(), 18, "{services:?}");
+    // Six of parameters, two of loggers, one of types, three of the run, three of alarms, five of simulators, three of
+    // each of two actions: all that DDS offers.
+    assert_eq!(services.len(), 26, "{services:?}");
     assert_eq!(seen["paused"], json!({"success": true, "message": "paused"}));
     assert_eq!(seen["resumed"], json!({"success": true, "message": "running"}));
     assert_eq!(seen["alarm"]["success"], false);

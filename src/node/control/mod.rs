@@ -3,6 +3,7 @@
 mod services;
 
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -21,6 +22,10 @@ pub use services::serve;
 
 /// Least time between two checkpoints: each one delays the solver for a moment.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(1);
+/// Longest wait for a command to be carried out: a step that is split to its limit takes this long on a slow machine.
+const CARRIED_OUT_WITHIN: Duration = Duration::from_secs(2);
+/// Between two looks at what the solver has done; it carries out commands every few milliseconds.
+const LOOK: Duration = Duration::from_millis(1);
 
 /// Parameters that changed together, on their way to the publisher.
 #[derive(Debug)]
@@ -235,11 +240,12 @@ impl Control {
         let _ = self.restore.set(restore);
     }
 
-    /// Resets the model to its state after the start, with the configured values of what follows the rig.
+    /// Resets the model to its state after the start, with the configured values of what follows the rig. Returns the
+    /// number of the command, as [`Control::pause`] does.
     ///
     /// # Errors
     /// When the solver's queue of commands is full.
-    pub fn reset(&self) -> Result<(), ControlError> {
+    pub fn reset(&self) -> Result<u64, ControlError> {
         if let Some(restore) = self.restore.get() {
             restore()?;
         }
@@ -248,15 +254,15 @@ impl Control {
             Some(more) => tracing::info!("{text}{}{more}", asked_by()),
             None => tracing::debug!("{text}{}", asked_by()),
         }
-        self.send(Command::Reset).map(drop)
+        self.send(Command::Reset)
     }
 
-    /// Pauses or resumes model time.
+    /// Pauses or resumes model time. Returns the number of the command, for [`Control::carried_out`].
     ///
     /// # Errors
     /// As [`Control::reset`]; [`ControlError::NotActive`] where a managed node that is not active is to resume, and
     /// [`ControlError::Active`] where one that is active is to pause: its state would say that it computes.
-    pub fn pause(&self, pause: bool) -> Result<(), ControlError> {
+    pub fn pause(&self, pause: bool) -> Result<u64, ControlError> {
         // The lock is held until the command is sent, so that no transition comes in between.
         let managed = self.managed.lock().unwrap_or_else(PoisonError::into_inner);
         match (*managed, pause) {
@@ -264,10 +270,46 @@ impl Control {
             (Managed::Active, true) => return Err(ControlError::Active),
             _ => {}
         }
-        self.send(Command::Pause(pause))?;
+        let command = self.send(Command::Pause(pause))?;
         let done = if pause { "paused" } else { "resumed" };
         if let Some(more) = log_ending(done) {
             tracing::info!("{done}{}{more}", asked_by());
+        }
+        Ok(command)
+    }
+
+    /// Orders steps of a model that is paused. [`Gauges::order`] says how many are left of the command whose number this
+    /// returns. A pause, a resumption and a reset end the order.
+    ///
+    /// # Errors
+    /// As [`Control::pause`]; in a managed node, where model time runs in the state active only.
+    pub fn step(&self, steps: u64) -> Result<u64, ControlError> {
+        let managed = self.managed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Managed::Inactive(state) = *managed {
+            return Err(ControlError::NotActive { state });
+        }
+        self.send(Command::Step(steps))
+    }
+
+    /// Ends the order of steps that is being carried out.
+    ///
+    /// # Errors
+    /// When the solver's queue of commands is full.
+    pub fn stop_steps(&self) -> Result<u64, ControlError> {
+        self.send(Command::StopSteps)
+    }
+
+    /// Waits until a command has been carried out; 2 s at most.
+    ///
+    /// # Errors
+    /// When the solver does not answer in time: a step takes very long, or `/clock` stands still.
+    pub async fn carried_out(&self, command: u64) -> Result<(), ControlError> {
+        let until = tokio::time::Instant::now() + CARRIED_OUT_WITHIN;
+        while self.gauges.commands.load(Ordering::Acquire) < command {
+            if tokio::time::Instant::now() >= until {
+                return Err(ControlError::NoAnswer);
+            }
+            tokio::time::sleep(LOOK).await;
         }
         Ok(())
     }

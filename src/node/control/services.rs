@@ -19,12 +19,12 @@ use flexdrill_text::log_ending;
 impl Control {
     pub(super) fn answer_reset(&self) -> TriggerResponse {
         let done = self.reset();
-        answer(done.map(|()| "the model returns to its state after the start".to_owned()))
+        answer(done.map(|_| "the model returns to its state after the start".to_owned()))
     }
 
     pub(super) fn answer_pause(&self, pause: bool) -> SetBoolResponse {
         let state = if pause { "paused" } else { "running" };
-        let TriggerResponse { success, message } = answer(self.pause(pause).map(|()| state.to_owned()));
+        let TriggerResponse { success, message } = answer(self.pause(pause).map(|_| state.to_owned()));
         SetBoolResponse { success, message }
     }
 
