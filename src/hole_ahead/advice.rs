@@ -40,15 +40,21 @@ pub struct Tried {
     pub high: f64,
 }
 
-/// The range of weights that may be advised (kN): those of the inputs under which the bit cuts.
-pub fn allowed(config: &Config) -> Tried {
+/// Part of the present weight by which advice may change it. The hole alone is looked at, and a weight far from the present
+/// one is another drilling programme: it brings whirl, stick-slip or buckling that nothing here sees.
+const MOST_CHANGE: f64 = 0.5;
+
+/// The range of weights that may be advised from the present one (kN): within [`MOST_CHANGE`] of it and the limits of the
+/// inputs, and where the bit cuts.
+pub fn allowed(config: &Config, now: f64) -> Tried {
     let weight = &config.inputs.weight_on_bit;
     let flats = n_to_kn(wear_flats(config));
+    let high = weight.max_kn.min((1.0 + MOST_CHANGE) * now);
     // Near the force of the wear flats next to nothing cuts, and nothing there is known.
-    let low = weight.min_kn.max(0.05 * weight.max_kn).max(1.1 * flats);
+    let low = weight.min_kn.max((1.0 - MOST_CHANGE) * now).max(1.1 * flats);
     Tried {
-        low: low.min(weight.max_kn),
-        high: weight.max_kn,
+        low: low.min(high),
+        high,
     }
 }
 
@@ -69,7 +75,7 @@ pub fn advise(config: &Config, question: &Question, answer: &Answer, plan: &Plan
     if plan.keeps(&answer.nominal, last, target) {
         return Advice::Nothing;
     }
-    let Tried { low, high } = allowed(config);
+    let Tried { low, high } = allowed(config, n_to_kn(question.weight));
     let distance = |weight: f64| {
         let drilling = Drilling::of(config, kn_to_n(weight), question.azimuth).ok()?;
         let track = drill(&drilling, last).ok()?;

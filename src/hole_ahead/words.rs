@@ -256,8 +256,8 @@ fn side(high: f64, right: f64) -> String {
 }
 
 fn what_to_do(config: &Config, question: &Question, target: f64, advice: Advice, last: usize) -> String {
-    let Tried { low, high } = allowed(config);
     let now = n_to_kn(question.weight);
+    let Tried { low, high } = allowed(config, now);
     match advice {
         Advice::ChangeGuide => {
             "This guide cannot drill the plan at any weight: the plan's radius is outside the range above. Change the guide."
@@ -265,7 +265,8 @@ fn what_to_do(config: &Config, question: &Question, target: f64, advice: Advice,
         }
         Advice::Nothing => format!("At {now:.1} kN the bit stays within {target} m of the plan: keep the weight."),
         Advice::Weight { weight, distance } if distance <= target => format!(
-            "Set {weight:.1} kN instead of {now:.1} kN: after {} m the bit is then {distance:.2} m from the plan.",
+            "{weight:.1} kN instead of {now:.1} kN bring the bit to {distance:.2} m from the plan after {} m. This is the hole \
+             alone: look at whirl and stick-slip at that weight with ~/what_if or `flexdrill map` before you set it.",
             metres(last)
         ),
         Advice::Weight { weight, distance } => format!(

@@ -220,7 +220,18 @@ fn a_plan_has_its_distance_its_chance_and_its_weight() {
         &out,
         &["--members=1", "--metres=3", "--radius=3.1", "--target=0.02"],
     );
-    assert!(words.contains("Set ") || words.contains("comes nearest"), "{words}");
+    assert!(
+        words.contains("bring the bit to") || words.contains("comes nearest"),
+        "{words}"
+    );
+    // From 5 to 15 kN its radius changes by a tenth of a metre: a plan half a metre away is out of reach, and no larger
+    // weight is proposed for it.
+    let (words, _) = ahead(
+        &config,
+        &out,
+        &["--members=1", "--metres=3", "--radius=2.6", "--target=0.02"],
+    );
+    assert!(words.contains("No weight from 5.0 to 15.0 kN brings"), "{words}");
 }
 
 #[test]
