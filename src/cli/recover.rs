@@ -39,21 +39,7 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
     });
     bar.finish_and_clear();
     let recovered = recovered?;
-    for fault in &recovered.faults {
-        tell!("{}", printable(&fault.to_string()));
-    }
-    for cut in &recovered.cuts {
-        tell!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
-    }
-    for damage in recovered.damaged.iter().take(NAMED) {
-        tell!("damaged: {}", printable(&damage.to_string()));
-    }
-    if let Some(more) = recovered.damaged.len().checked_sub(NAMED).filter(|more| *more > 0) {
-        tell!("damaged: {} more", counted(more as u64, "part"));
-    }
-    for gap in &recovered.gaps {
-        tell!("lost during the recording: {gap}");
-    }
+    name_losses(&recovered);
     for (topic, count) in recovered.topics.iter().zip(&recovered.recording.per_topic) {
         say!(
             "{count:>10}  {}  {}",
@@ -70,4 +56,23 @@ pub fn run(args: &RecoverArgs) -> anyhow::Result<()> {
         anyhow::bail!("{} has no readable message", args.input.display());
     }
     Ok(())
+}
+
+/// Names on standard error what the new bag lacks of the old one, and why.
+fn name_losses(recovered: &bag::Recovered) {
+    for fault in &recovered.faults {
+        tell!("{}", printable(&fault.to_string()));
+    }
+    for cut in &recovered.cuts {
+        tell!("{}: {} (byte {})", cut.path.display(), cut.reason, cut.offset);
+    }
+    for damage in recovered.damaged.iter().take(NAMED) {
+        tell!("damaged: {}", printable(&damage.to_string()));
+    }
+    if let Some(more) = recovered.damaged.len().checked_sub(NAMED).filter(|more| *more > 0) {
+        tell!("damaged: {} more", counted(more as u64, "part"));
+    }
+    for gap in &recovered.gaps {
+        tell!("lost during the recording: {gap}");
+    }
 }

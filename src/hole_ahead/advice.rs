@@ -44,7 +44,7 @@ pub struct Tried {
 /// one is another drilling programme: it brings whirl, stick-slip or buckling that nothing here sees.
 const MOST_CHANGE: f64 = 0.5;
 
-/// The range of weights that may be advised from the present one (kN): within [`MOST_CHANGE`] of it and the limits of the
+/// The range of weights that may be advised from the present one (kN): within a half of it and the limits of the
 /// inputs, and where the bit cuts.
 pub fn allowed(config: &Config, now: f64) -> Tried {
     let weight = &config.inputs.weight_on_bit;

@@ -311,6 +311,8 @@ fn a_managed_twin_and_one_on_a_clock_offer_less() {
         let request = json!({"transition": {"id": 0, "label": label}});
         peer.call("/flexdrill/change_state", "lifecycle_msgs/srv/ChangeState", request);
     }
+    // The transition is answered before the solver runs on.
+    peer.status_with(STATUS.0, |status| status["state"] == 1);
     let (refused, why) = set(&mut peer, PAUSED);
     assert!(refused == TRANSITION_ERROR && why.contains("deactivate"), "{why}");
     assert_eq!(set(&mut peer, QUITTING), (OK, String::new()));

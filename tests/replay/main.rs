@@ -17,5 +17,6 @@ mod field_log;
 mod following;
 mod logs;
 mod measured;
+mod posterior;
 mod report;
 mod shapes;

@@ -49,6 +49,26 @@ const ALLOWED: &[(&str, &str, &str)] = &[
     ("src/cli/", "{note}", "notes on the environment, once, at the start"),
     ("src/cli/bridge/", "password", "configuration, once, at the start"),
     (
+        "src/cli/bridge/mqtt.rs",
+        "Sparkplug session is not kept",
+        "once, at the start",
+    ),
+    (
+        "src/cli/bridge/mqtt.rs",
+        "{error}",
+        "a file of this machine, once, at the start",
+    ),
+    (
+        "src/cli/replay/show.rs",
+        "fault.to_string()",
+        "files of a folder, once per bag",
+    ),
+    (
+        "crates/flexdrill-dashboard/src/recorded.rs",
+        "fault.to_string()",
+        "files of a folder, once per bag",
+    ),
+    (
         "src/bridge/wits.rs",
         "the capture ends",
         "once: the capture ends with it",

@@ -26,7 +26,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The bytes of a text or map, after its 32-bit length.
-    fn counted(&mut self) -> Option<&'a [u8]> {
+    pub fn counted(&mut self) -> Option<&'a [u8]> {
         let length = self.u32()?;
         self.bytes(usize::try_from(length).ok()?)
     }

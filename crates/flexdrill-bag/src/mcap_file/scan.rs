@@ -366,12 +366,14 @@ impl Pass<'_> {
     }
 }
 
-/// Whether the header record of a file names flexdrill as its library.
+/// Whether the header record of a file names flexdrill as its library. `mcap` would allocate the claimed length of a text
+/// before it looks how many bytes the record has.
 fn is_ours(header: &[u8]) -> bool {
-    match parse_record(op::HEADER, header) {
-        Ok(Record::Header(header)) => header.library.starts_with("flexdrill "),
-        _ => false,
-    }
+    let mut fields = Fields(header);
+    let _profile = fields.counted();
+    fields
+        .counted()
+        .is_some_and(|library| library.starts_with(b"flexdrill "))
 }
 
 /// Whether a record can begin at an offset, or the file ends there.
