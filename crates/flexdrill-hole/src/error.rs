@@ -10,7 +10,7 @@ pub enum HoleError {
     #[error(transparent)]
     Invalid(#[from] ValidationError),
     /// The hole as found is shorter than the guide that lies in it.
-    #[error("the hole is {hole_length} m long, and the guide {guide_length} m: add the hole above")]
+    #[error("the hole is {hole_length:.3} m long, and the guide {guide_length:.3} m: add the hole above")]
     HoleTooShort {
         /// Length of the hole (m).
         hole_length: f64,
@@ -19,7 +19,7 @@ pub enum HoleError {
     },
     /// Newton's method ended without an equilibrium.
     #[error(
-        "no equilibrium of the guide {depth} m down the hole under a thrust of {weight} N after {iterations} iterations"
+        "no equilibrium of the guide {depth:.2} m down the hole under a thrust of {weight:.0} N after {iterations} iterations"
     )]
     NoEquilibrium {
         /// Depth of the bit along the hole (m).
@@ -30,7 +30,7 @@ pub enum HoleError {
         iterations: usize,
     },
     /// The closed form has no solution between its bounds.
-    #[error("no steady curvature: a thrust of {weight} N bends this guide without limit")]
+    #[error("no steady curvature: a thrust of {weight:.0} N bends this guide without limit")]
     NoSteadyCurvature {
         /// Thrust at the bit (N).
         weight: f64,
