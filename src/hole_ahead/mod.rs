@@ -68,12 +68,19 @@ pub struct Band {
 }
 
 impl Band {
-    /// Of known values; none without values.
+    /// Fewest values of a band. Quantile q of n values is their number q (n + 1), so that the next value is below it with
+    /// the chance q: 5 % of fewer would be below the first of them.
+    pub const LEAST: usize = 19;
+
+    /// Of known values; none of fewer than [`Band::LEAST`].
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
+        if values.len() < Self::LEAST {
+            return None;
+        }
         values.sort_by(f64::total_cmp);
-        let last = values.len().checked_sub(1)?;
+        let last = values.len() - 1;
         let quantile = |share: f64| {
-            let at = share * last as f64;
+            let at = (share * (values.len() + 1) as f64 - 1.0).clamp(0.0, last as f64);
             let below = (at.floor() as usize).min(last);
             let above = (below + 1).min(last);
             values[below] + (at - below as f64) * (values[above] - values[below])
@@ -317,11 +324,21 @@ mod tests {
 
     #[test]
     fn a_band_has_ninety_per_cent_between_its_ends() {
-        let band = Band::of((0..=100).rev().map(f64::from).collect()).unwrap();
-        assert_eq!((band.low, band.median, band.high), (5.0, 50.0, 95.0));
-        assert_eq!(band.half(), 45.0);
-        assert_eq!(Band::of(vec![]), None);
-        assert_eq!(Band::of(vec![2.0]).unwrap().half(), 0.0);
+        // The next of 19 equally likely values is below the first, or above the last, once in twenty times.
+        let of = |count: u32| Band::of((1..=count).rev().map(f64::from).collect());
+        let band = of(19).unwrap();
+        let near = |value: f64, expected: f64| (value - expected).abs() < 1e-9;
+        assert!(
+            near(band.low, 1.0) && near(band.median, 10.0) && near(band.high, 19.0),
+            "{band:?}"
+        );
+        let band = of(99).unwrap();
+        assert!(
+            near(band.low, 5.0) && near(band.median, 50.0) && near(band.high, 95.0),
+            "{band:?}"
+        );
+        assert!(near(band.half(), 45.0));
+        assert_eq!(of(18), None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The results as a table (CSV).
 
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_text::fixed;
 
 use super::{Answer, Band, Plan, SPACING, advice};
 
@@ -12,7 +13,7 @@ const COLUMNS: &str = "ahead_m,measured_depth_m,inclination_deg,inclination_low_
 /// as is the distance to a plan where there is none.
 pub fn csv(answer: &Answer, plan: Option<&Plan>) -> String {
     let mut out = COLUMNS.to_owned();
-    let number = |value: f64| format!("{value:.4}");
+    let number = |value: f64| fixed(value, 4);
     let cells = |band: Option<Band>| match band {
         Some(band) => [band.low, band.median, band.high].map(|angle| number(rad_to_deg(angle))),
         None => [const { String::new() }; 3],

@@ -2,7 +2,7 @@
 
 use flexdrill_config::{Config, FreeBend};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
-use flexdrill_text::counted;
+use flexdrill_text::{counted, fixed};
 
 use super::advice::{Tried, allowed, last_station};
 use super::tool::wear_flats;
@@ -88,16 +88,21 @@ pub fn words(config: &Config, question: &Question, answer: &Answer, goal: Option
 
 fn beginning(question: &Question, answer: &Answer) -> String {
     let known = answer.members.iter().flatten().count();
+    let tools = if known == answer.members.len() {
+        counted(known as u64, "plausible tool")
+    } else {
+        format!("{known} known of {} plausible tools", answer.members.len())
+    };
+    let ranges = if known < Band::LEAST {
+        format!("no ranges, which need {} plausible tools: {tools}", Band::LEAST)
+    } else {
+        format!("in brackets 90 % of {tools}")
+    };
     format!(
-        "At {:.2} kN on the bit, from a measured depth of {:.2} m, inclination {:.1} deg; in brackets 90 % of {}:",
+        "At {:.2} kN on the bit, from a measured depth of {:.2} m, inclination {:.1} deg; {ranges}:",
         n_to_kn(question.weight),
         answer.depth,
-        answer.nominal.first().map_or(f64::NAN, |at| rad_to_deg(at.inclination)),
-        if known == answer.members.len() {
-            counted(known as u64, "plausible tool")
-        } else {
-            format!("{known} known of {} plausible tools", answer.members.len())
-        }
+        answer.nominal.first().map_or(f64::NAN, |at| rad_to_deg(at.inclination))
     )
 }
 
@@ -107,13 +112,10 @@ fn first_metre(answer: &Answer) -> String {
     let nominal = build(&answer.nominal, stations);
     let known = answer.members.iter().flatten();
     let band = Band::of(known.map(|track: &Track| build(track, stations)).collect());
-    let range = band.map_or_else(
-        || " (range unknown)".to_owned(),
-        |band| {
-            let [low, high] = [band.low, band.high].map(rad_to_deg);
-            format!(" ({low:.1} to {high:.1} deg/m, {})", radii(band.low, band.high))
-        },
-    );
+    let range = band.map_or_else(String::new, |band| {
+        let [low, high] = [band.low, band.high].map(rad_to_deg);
+        format!(" ({low:.1} to {high:.1} deg/m, {})", radii(band.low, band.high))
+    });
     let length = stations as f64 * SPACING;
     let of = if stations as f64 * SPACING == 1.0 {
         "metre".to_owned()
@@ -129,15 +131,15 @@ fn ahead(answer: &Answer) -> Vec<String> {
         let at = answer.nominal.get(station)?;
         let Some(spread) = answer.spread.get(station) else {
             return Some(format!(
-                "After {} m: inclination {:.1} deg, azimuth {:.1} deg; ranges unknown.",
+                "After {} m: inclination {:.1} deg, azimuth {} deg.",
                 metres(station),
                 rad_to_deg(at.inclination),
-                rad_to_deg(at.azimuth)
+                fixed(rad_to_deg(at.azimuth), 1)
             ));
         };
         let angle = |value: f64, band: Band| {
-            let [value, low, high] = [value, band.low, band.high].map(rad_to_deg);
-            format!("{value:.1} deg ({low:.1} to {high:.1})")
+            let [value, low, high] = [value, band.low, band.high].map(|angle| fixed(rad_to_deg(angle), 1));
+            format!("{value} deg ({low} to {high})")
         };
         // Near the vertical a millimetre turns the azimuth by degrees.
         let azimuth = if libm::sin(at.inclination) < STEEP {

@@ -137,7 +137,7 @@ fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let config = configuration(folder.path(), &[]);
     let outs = ["a", "b", "c"].map(|name| folder.path().join(name));
-    let fixed = ["--members=6", "--metres=1", "--radius=3.2"];
+    let fixed = ["--members=19", "--metres=1", "--radius=3.2"];
     let mut said = Vec::new();
     for (out, more) in outs.iter().zip([
         ["--seed=3", "--jobs=1"],
@@ -177,7 +177,7 @@ fn a_plan_has_its_distance_its_chance_and_its_weight() {
     let table = format!("measured_depth_m,inclination_deg,azimuth_deg\n{}\n", rows.join("\n"));
     std::fs::write(&plan, table).unwrap();
     let more = [
-        "--members=4",
+        "--members=19",
         "--metres=3",
         "--plan",
         plan.to_str().unwrap(),
@@ -192,7 +192,7 @@ fn a_plan_has_its_distance_its_chance_and_its_weight() {
     for part in [
         "The plan needs a radius of 3.20 m on the mean",
         "After 3 m the bit is",
-        "of 4 known tools stay within",
+        "of 19 known tools stay within",
     ] {
         assert!(words.contains(part), "{part}: {words}");
     }
@@ -209,6 +209,10 @@ fn a_plan_has_its_distance_its_chance_and_its_weight() {
     }
     // At 60 kN the guide drills 2.4 m at best: no bit makes it drill 1.5 m.
     let (words, _) = ahead(&config, &out, &["--members=1", "--metres=1", "--radius=1.5"]);
+    assert!(
+        words.contains("no ranges, which need 19 plausible tools: 1 plausible tool"),
+        "{words}"
+    );
     assert!(
         words.contains("This guide cannot drill the plan at any weight"),
         "{words}"

@@ -22,6 +22,11 @@ def main():
     store = get_typestore(Stores.ROS2_JAZZY)
     for path in sorted((ROOT / "msg").glob("*.msg")):
         store.register(get_types_from_msg(path.read_text(), f"flexdrill/msg/{path.stem}"))
+    # Packages that rosbags has keep its own definitions.
+    for path in sorted((ROOT / "crates/flexdrill-messages/external").glob("*/msg/*.msg")):
+        name = f"{path.parts[-3]}/msg/{path.stem}"
+        if name not in store.fielddefs:
+            store.register(get_types_from_msg(path.read_text(), name))
     for line in sys.stdin:
         name, digest, *text = line.split()
         expected = store.hash_rihs01(name)
