@@ -388,6 +388,15 @@ fn with_an_ensemble(folder: &Path) -> PathBuf {
 
 #[test]
 fn a_live_recording_replayed_gives_the_same_bytes() {
+    a_recording_is_repeated(false);
+}
+
+#[test]
+fn a_live_recording_with_plausible_tools_replayed_gives_the_same_bytes() {
+    a_recording_is_repeated(true);
+}
+
+fn a_recording_is_repeated(with_plausible_tools: bool) {
     let Some(network) = Network::new() else { return };
     let Some(mut peer) = network.peer() else { return };
     let folder = tempfile::tempdir().unwrap();
@@ -395,11 +404,16 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     let live_text = live.to_str().unwrap();
     let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
     command.args(["run", "--record", live_text, "--namespace", "rig_7", "--config"]);
-    command.arg(with_an_ensemble(folder.path()));
+    command.arg(match with_plausible_tools {
+        true => with_an_ensemble(folder.path()),
+        false => crate::common::small_config(),
+    });
     command.args(["--ros-args", "-p", "inputs.weight_on_bit.initial_kn:=5"]);
     let mut twin = Program::start(command);
     twin.wait_for("model time runs");
-    peer.subscribe(BANDS, "flexdrill/msg/Bands", "reliable");
+    if with_plausible_tools {
+        peer.subscribe(BANDS, "flexdrill/msg/Bands", "reliable");
+    }
     let double = |name: &str, value: f64| json!({"name": name, "value": {"type": 3, "double_value": value}});
     for round in 0..4 {
         peer.send("/rig_7/rig/rotary_speed_rpm", json!(30.0 + 10.0 * f64::from(round)));
@@ -429,9 +443,11 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
             peer.call("/rig_7/flexdrill/reset", "std_srvs/srv/Trigger", json!({}));
         }
     }
-    // Plausible tools run in the time that all else leaves, so that their first second may come late.
-    let heard = peer.take(BANDS, 1, 60.0);
-    assert_eq!(heard[0]["members"], 8, "{heard:?}");
+    if with_plausible_tools {
+        // They run in the time that all else leaves, so that their first second may come late.
+        let heard = peer.take(BANDS, 1, 60.0);
+        assert_eq!(heard[0]["members"], 8, "{heard:?}");
+    }
     // The alarms are judged ten times per second: the last change is in the journal before the end.
     std::thread::sleep(Duration::from_millis(500));
     twin.signal("TERM");
@@ -448,7 +464,10 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
     let printed = String::from_utf8_lossy(&replay.stdout);
     assert!(printed.contains("time per step"), "{printed}");
     assert!(printed.contains("  exact: "), "{printed}");
-    others_bags_are_replayed(&live, folder.path());
+    // Inputs and rates have changed up to the end here, so that the second half has changes too.
+    if !with_plausible_tools {
+        others_bags_are_replayed(&live, folder.path());
+    }
     assert_eq!(
         changes_of_parameters(&again),
         changes_of_parameters(&live),
@@ -478,6 +497,8 @@ fn a_live_recording_replayed_gives_the_same_bytes() {
             assert_eq!(recorded.len(), replayed.len(), "{topic}");
         }
     }
-    let newest: Bands = from_cdr(again[BANDS].last().unwrap()).unwrap();
-    assert_eq!((newest.members, newest.failed, newest.no_bands.as_str()), (8, 0, ""));
+    if with_plausible_tools {
+        let newest: Bands = from_cdr(again[BANDS].last().unwrap()).unwrap();
+        assert_eq!((newest.members, newest.failed, newest.no_bands.as_str()), (8, 0, ""));
+    }
 }
