@@ -7,7 +7,7 @@ use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use super::{WrongUse, built_in, numbers};
+use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
 use crate::hole_ahead::words::{Goal, words};
 use crate::hole_ahead::{Drilling, Plan, Question, Refusal, SPACING, advice, answer, picture, plan, table, tool};
@@ -92,8 +92,8 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         advice: advice::advise(&config, &question, &found, plan, args.target),
     });
     let svg = flexdrill_plot::svg(&picture::figure(&found, planned.as_ref(), azimuth))?;
-    write(&args.out, "ahead.csv", &table::csv(&found, planned.as_ref()))?;
-    write(&args.out, "ahead.svg", &svg)?;
+    whole_file::write(&args.out, "ahead.csv", &table::csv(&found, planned.as_ref()))?;
+    whole_file::write(&args.out, "ahead.svg", &svg)?;
     for line in words(&config, &question, &found, goal.as_ref()) {
         say!("{line}");
     }
@@ -142,16 +142,4 @@ fn question(args: &AheadArgs, config: &Config, azimuth: f64) -> Result<Question,
         seed: args.seed,
         jobs: args.jobs,
     })
-}
-
-/// Writes a file under a temporary name first, so that the final name never has a part of it.
-fn write(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
-    let path = folder.join(name);
-    let temporary = folder.join(format!(".{name}.{}", std::process::id()));
-    let written = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, &path));
-    if written.is_err() {
-        // The error of the write is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
 }

@@ -61,6 +61,8 @@ mod source;
 mod sweep;
 mod verify;
 mod watch;
+#[cfg(any(feature = "calibrate", feature = "sweep"))]
+mod whole_file;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -1,12 +1,12 @@
 //! `flexdrill reach`: torque and weight at the bit against the length of the hole.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use super::{WrongUse, built_in, numbers};
+use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::{say, tell};
 use crate::reach::{Load, Plan, picture, study, table};
 use crate::runs::Kept;
@@ -75,8 +75,8 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
     let kept = args.resume.then(|| Kept::open(&args.out.join("points"))).transpose()?;
     let rows = study(&config, &plan, kept.as_ref(), |share| progress.at(share))?;
     progress.done();
-    write(&args.out, "reach.csv", &table::csv(&rows))?;
-    write(
+    whole_file::write(&args.out, "reach.csv", &table::csv(&rows))?;
+    whole_file::write(
         &args.out,
         "reach.svg",
         &flexdrill_plot::svg(&picture::figure(&plan, &rows))?,
@@ -154,16 +154,4 @@ fn plan(args: &ReachArgs, config: &Config) -> anyhow::Result<Plan> {
         },
         jobs: args.jobs,
     })
-}
-
-/// Writes a file under a temporary name first, so that the final name never has a part of it.
-fn write(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
-    let path = folder.join(name);
-    let temporary = folder.join(format!(".{name}.{}", std::process::id()));
-    let written = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, &path));
-    if written.is_err() {
-        // The error of the write is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
 }

@@ -1,12 +1,12 @@
 //! `flexdrill sensitivity`: what each uncertain key of a configuration moves, one at a time.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use super::{WrongUse, built_in, numbers, priors};
+use super::{WrongUse, built_in, numbers, priors, whole_file};
 use crate::cli::output::say;
 use crate::runs::Kept;
 use crate::sensitivity::{Load, picture, study, table};
@@ -68,9 +68,9 @@ pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
     })?;
     progress.done();
     let svg = flexdrill_plot::svg(&picture::figure(&effects))?;
-    write(&out, "sensitivity.csv", &table::csv(&effects))?;
-    write(&out, "sensitivity.svg", &svg)?;
-    write(&out, FILE, &effects.to_json()?)?;
+    whole_file::write(&out, "sensitivity.csv", &table::csv(&effects))?;
+    whole_file::write(&out, "sensitivity.svg", &svg)?;
+    whole_file::write(&out, FILE, &effects.to_json()?)?;
     for line in table::words(&effects) {
         say!("{line}");
     }
@@ -115,16 +115,4 @@ fn load(args: &SensitivityArgs, config: &Config) -> Result<Load, WrongUse> {
         weight: kn_to_n(args.wob),
         seconds: args.seconds,
     })
-}
-
-/// Writes a file under a temporary name first, so that the final name never has a part of it.
-fn write(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
-    let path = folder.join(name);
-    let temporary = folder.join(format!(".{name}.{}", std::process::id()));
-    let written = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, &path));
-    if written.is_err() {
-        // The error of the write is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
 }

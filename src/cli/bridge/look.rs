@@ -106,7 +106,7 @@ pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> a
 /// Writes the mapping of what was seen, and says how it is used.
 ///
 /// # Errors
-/// When the file cannot be written, unless it exists: a mapping on which somebody has worked stays.
+/// When the file cannot be written. A file that exists is left as it is: it may have a person's corrections.
 fn write_site(file: &Path, text: &str) -> anyhow::Result<()> {
     let name = printable(&file.display().to_string()).into_owned();
     let written = File::create_new(file).and_then(|mut created| created.write_all(text.as_bytes()));

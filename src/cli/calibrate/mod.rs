@@ -12,6 +12,7 @@ use super::built_in;
 use super::numbers;
 use super::progress::Progress;
 use super::source::{SourceArgs, is_bag};
+use super::whole_file;
 use crate::cli::output::{say, tell};
 use crate::report::calibration as page;
 use flexdrill_calibration::CalibrationError;
@@ -224,7 +225,7 @@ fn run_points(
     let mut problem = None;
     let found = points::run(config, unknowns, all, args.jobs, |points, left| {
         let text = points::to_csv(config, unknowns, args.seed, points);
-        problem = problem.take().or(write_file(&args.out, POINTS, &text).err());
+        problem = problem.take().or(whole_file::write(&args.out, POINTS, &text).err());
         progress.at((total - left) as f64 / total as f64);
     });
     progress.done();
@@ -237,9 +238,9 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
     let whole = overlay::header(provenance) + &overlay::warnings(study) + &calibrated.to_yaml()?;
     let json = serde_json::to_string_pretty(&overlay::json(study, provenance))?;
     write_posterior(&args.out, config, study, provenance)?;
-    write_file(&args.out, "overlay.yaml", &overlay::yaml(study, provenance))?;
-    write_file(&args.out, "calibrated.yaml", &whole)?;
-    write_file(&args.out, "calibration.json", &(json + "\n"))?;
+    whole_file::write(&args.out, "overlay.yaml", &overlay::yaml(study, provenance))?;
+    whole_file::write(&args.out, "calibrated.yaml", &whole)?;
+    whole_file::write(&args.out, "calibration.json", &(json + "\n"))?;
     // The page needs plain data: the report knows neither the study nor its runs.
     let about = page::About {
         log: provenance.log.clone(),
@@ -275,7 +276,7 @@ fn write(args: &CalibrateArgs, config: &Config, study: &Study, provenance: &Prov
         objections: study.objections().iter().map(ToString::to_string).collect(),
     };
     let html = page::html(&about, &study.windows, &study.problem, &study.outcome)?;
-    write_file(&args.out, crate::report::FILE, &html)?;
+    whole_file::write(&args.out, crate::report::FILE, &html)?;
     for name in [
         "overlay.yaml",
         "calibrated.yaml",
@@ -313,7 +314,7 @@ fn write_posterior(folder: &Path, config: &Config, study: &Study, provenance: &P
     };
     let rows = sampled.members.iter().map(|values| (1.0, values.as_slice()));
     let text = flexdrill_uncertainty::posterior::to_csv(&from, &sampled.keys, rows);
-    write_file(folder, POSTERIOR, &text)?;
+    whole_file::write(folder, POSTERIOR, &text)?;
     if sampled.beyond_limits > 0 {
         say!(
             "{POSTERIOR} leaves out {} with a value beyond the limits of its key",
@@ -357,16 +358,4 @@ fn tell_result(study: &Study) {
     for problem in study.failed.iter().take(3) {
         tell!("a run of the twin gave no figure: {}", printable(problem));
     }
-}
-
-/// Writes a file under a temporary name first, so that the final name never has a part of it.
-fn write_file(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
-    let path = folder.join(name);
-    let temporary = folder.join(format!(".{name}.{}", std::process::id()));
-    let written = std::fs::write(&temporary, text).and_then(|()| std::fs::rename(&temporary, &path));
-    if written.is_err() {
-        // The error of the write is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
 }
