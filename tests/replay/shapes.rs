@@ -176,8 +176,9 @@ fn a_signal_ends_the_bag_of_a_replay_properly() {
     let folder = tempfile::tempdir().unwrap();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut input = root.join("config/field_logs/demo.csv");
-    // First a log; then the recording that it has left, by its own inputs.
-    for (number, signal, least) in [(0, "TERM", 600_000), (1, "INT", 100_000)] {
+    // First a log; then the recording that it has left, by its own inputs: thirty times as long as what is awaited of its
+    // replay, which is not at its end by then on a machine that is busy.
+    for (number, signal, least) in [(0, "TERM", 3_000_000), (1, "INT", 100_000)] {
         let out = folder.path().join(format!("run_{number}/run.mcap"));
         let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
         command.arg("replay").arg(&input).arg("--out").arg(&out);
@@ -212,7 +213,8 @@ fn a_signal_ends_the_bag_of_a_replay_properly() {
         let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
         let messages = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap).count() as u64;
         assert_eq!(summary.stats.unwrap().message_count, messages);
-        assert!(messages > 100 && !summary.chunk_indexes.is_empty());
+        // How many there are depends on the machine's speed.
+        assert!(messages > 0 && !summary.chunk_indexes.is_empty(), "{messages}");
         let metadata = std::fs::read_to_string(out.with_file_name("metadata.yaml")).unwrap();
         says(&metadata, &[&format!("message_count: {messages}")]);
         input = out;
