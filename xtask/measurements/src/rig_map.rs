@@ -32,11 +32,11 @@ struct Guide {
 
 const GUIDES: [Guide; 3] = [
     Guide {
-        name: "slotted, made with half of the arc's curvature",
+        name: "as shipped: two spines, made with a radius of 3.45 m",
         changes: Vec::new,
     },
     Guide {
-        name: "slotted, made straight",
+        name: "two spines, made straight",
         changes: || vec![("tool.guide.free_curvature", json!(0.0))],
     },
     Guide {
