@@ -7,7 +7,7 @@ use std::sync::mpsc::{Sender, channel};
 
 use super::chance::{Band, Chance};
 use super::goal::{Candidate, Goal, MOST_RUN_UP};
-use super::member::{DISTURBANCE, Ended, Figure, Member, Watched};
+use super::member::{DISTURBANCE, Ended, Figure, Horizon, Member, Watched};
 use super::set_point::{SetPoint, Wavering};
 use crate::alarms::AlarmId;
 use flexdrill_alarms::Priority;
@@ -303,7 +303,7 @@ fn work(
         let wavering = start.wavering(goal.seed, candidate, member);
         let result = member_run.and_then(|run| {
             let watched = Watched::new(run, &start.config, stop).wavering(wavering);
-            watched.judge(goal.horizon, |_| false)
+            watched.judge(Horizon::Of(goal.horizon), |_| false)
         });
         let report = Report {
             candidate,

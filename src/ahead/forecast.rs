@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::chance::{Band, Chance};
 use super::engine::{AlarmChance, Start, alarm_chances, any_alarm, disturbed, on_threads, sentence};
-use super::member::{Ended, Member, Watched};
+use super::member::{Ended, Horizon, Member, Watched};
 use super::trace::{SIGNALS, Signal};
 
 /// Length of a forecast (s).
@@ -58,7 +58,7 @@ pub fn forecast(start: &Start, members: u32, seed: u64, threads: usize, stop: &A
     let results: Vec<Result<Member, Ended>> = on_threads(&numbers, threads, |member| {
         let watched = Watched::new(disturbed(&run, seed, 0, *member), start.config(), stop);
         let watched = watched.wavering(start.wavering(seed, 0, *member));
-        watched.traced().judge(horizon, |_| false)
+        watched.traced().judge(Horizon::Of(horizon), |_| false)
     });
     if stop.load(Ordering::Relaxed) {
         return None;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::measured::Measured;
 use super::set_point::Wavering;
 use super::trace::Trace;
-use crate::alarms::{AlarmBook, AlarmId};
+use crate::alarms::{AlarmBook, AlarmId, AlarmSet};
 use crate::session::Session;
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
@@ -77,7 +77,7 @@ impl Figure {
 /// What one alarm did in a member.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Called {
-    /// Highest priority with which it was raised, or stood beyond half of the horizon; none where it did neither.
+    /// Highest priority with which it was raised, or stood while it must have ended; none where it did neither.
     pub worst: Option<Priority>,
     /// Time from the beginning of the horizon to the first of it (s).
     pub first: f64,
@@ -94,8 +94,29 @@ pub(super) struct Member {
     pub quality: QualityLevel,
     /// Its seconds; none unless it was traced.
     pub trace: Trace,
-    /// Its motion in the second half of the horizon, unless it ended early; none unless it was measured.
+    /// Its motion while every alarm must have ended, unless it ended early; none unless it was measured.
     pub measured: Option<Measured>,
+    /// Model time that it was judged over (s).
+    pub judged: f64,
+}
+
+/// How long a member is judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Horizon {
+    /// So long (s): what lasts into its second half has not ended.
+    Of(f64),
+    /// Until none of the alarms stands, and for `within` (s) at most; what stands within `lasting` (s) from then on, or before
+    /// `least` (s), has not ended.
+    Settling {
+        /// The alarms that are to end, and those that may come with the change for a moment.
+        alarms: AlarmSet,
+        /// Time that they have to end (s).
+        within: f64,
+        /// Time for which they must stay away (s); 0: the member ends with them.
+        lasting: f64,
+        /// Least time of the member (s).
+        least: f64,
+    },
 }
 
 /// Why a member ended early.
@@ -150,7 +171,7 @@ impl<'a> Watched<'a> {
         self
     }
 
-    /// Measures the motion in the second half of the horizon.
+    /// Measures the motion while every alarm must have ended.
     pub(super) fn measured(mut self, measured: Measured) -> Self {
         self.measured = Some(measured);
         self
@@ -205,8 +226,8 @@ impl<'a> Watched<'a> {
         }
     }
 
-    /// Runs for `horizon` (s) and judges it; ends early once `enough` says so of the alarms so far ([`AlarmId::ALL`]).
-    pub(super) fn judge(mut self, horizon: f64, enough: impl Fn(&[Called]) -> bool) -> Result<Member, Ended> {
+    /// Runs over a horizon and judges it; ends early once `enough` says so of the alarms so far ([`AlarmId::ALL`]).
+    pub(super) fn judge(mut self, horizon: Horizon, enough: impl Fn(&[Called]) -> bool) -> Result<Member, Ended> {
         // Alarms caused by the earlier state appear within `SETTLING`. They count only if they last or return.
         self.run.look(&mut self.snapshot);
         let begun = self.snapshot.time;
@@ -219,9 +240,29 @@ impl<'a> Watched<'a> {
         let mut stood = vec![true; AlarmId::ALL.len()];
         let mut tally = Tally::default();
         let mut quality = QualityLevel::Good;
-        let looks = (horizon / (self.periods as f64 * self.period as f64 * self.config.solver.time_step)).ceil() as u64;
+        let looks = |time: f64| {
+            (time / (self.periods as f64 * self.period as f64 * self.config.solver.time_step)).ceil() as u64
+        };
+        // Looks at which the alarms must have ended at the latest, and for which they must stay away from then on.
+        let (all, early) = match horizon {
+            Horizon::Of(horizon) => (looks(horizon), None),
+            Horizon::Settling {
+                alarms,
+                within,
+                lasting,
+                least,
+            } => {
+                let lasting = looks(lasting);
+                (looks(within) + lasting, Some((alarms, lasting, looks(least))))
+            }
+        };
+        let latest = early.map_or(all.div_ceil(2), |(_, lasting, _)| all - lasting);
+        let mut end = all;
+        let mut lasts = false;
         let set = self.run.applied().inputs;
-        for look in 0..looks {
+        let mut look = 0;
+        while look < end {
+            look += 1;
             if let Some(inputs) = self.wavering.next(&set) {
                 let applied = self.run.applied();
                 self.run.apply(&RunInputs { inputs, ..applied });
@@ -231,25 +272,35 @@ impl<'a> Watched<'a> {
             session.observe(snapshot, stamp(snapshot));
             // The journal of a fork has no reader, and would grow with the horizon.
             session.alarms_mut().forget_events();
-            // Only the second half decides on what lasts: the first half belongs to the transition.
-            let lasts = 2 * (look + 1) >= looks;
+            // What stands before belongs to the transition. Where all has ended early, the rest of the transition says
+            // nothing more.
+            let gone = snapshot.time - begun;
+            if let Some((alarms, lasting, least)) = early
+                && !lasts
+                && gone >= SETTLING
+                && alarms.iter().all(|id| session.alarms().active(id).is_none())
+            {
+                lasts = true;
+                end = (look + lasting).max(least).min(all);
+            }
+            lasts |= look >= latest;
             for ((id, called), stood) in AlarmId::ALL.into_iter().zip(&mut alarms).zip(&mut stood) {
                 let active = session.alarms().active(id);
                 // An alarm needs its delay before it stands; what the beginning brought is up by then.
-                if snapshot.time - begun < SETTLING {
+                if gone < SETTLING {
                     *stood = active.is_some();
                 } else if let Some(priority) = active
                     && (!*stood || lasts)
                 {
                     if called.worst.is_none() {
-                        called.first = snapshot.time - begun;
+                        called.first = gone;
                     }
                     called.worst = called.worst.max(Some(priority));
                 } else if active.is_none() {
                     *stood = false;
                 }
             }
-            // Only the half in which every alarm must have ended is measured: a
+            // Only the time in which every alarm must have ended is measured: a
             // motion of the transition would count as one that lasts.
             match &mut self.measured {
                 Some(measured) if lasts => measured.look(snapshot),
@@ -271,14 +322,15 @@ impl<'a> Watched<'a> {
         }
         // The time that was run, not the horizon: a member that ended early
         // would otherwise show too little damage per hour.
-        let hours = (self.snapshot.time - begun) / 3600.0;
-        let figures = tally.figures((damage(&self.snapshot) - damage_before) / hours);
+        let judged = self.snapshot.time - begun;
+        let figures = tally.figures((damage(&self.snapshot) - damage_before) / (judged / 3600.0));
         Ok(Member {
             alarms,
             figures,
             quality,
             trace: self.trace.unwrap_or_default(),
             measured: self.measured,
+            judged,
         })
     }
 }

@@ -31,7 +31,7 @@ mod member;
 mod set_point;
 mod trace;
 
-pub use advice::search;
+pub use advice::{SearchProgress, Searched, search};
 pub use chance::{Band, Chance};
 pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, keep_priority, look_ahead};
 pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, forecast, widened};

@@ -30,6 +30,7 @@ mod tool;
 mod window;
 mod worst_moment;
 
+pub(crate) use advice::TRIED;
 pub use advice::{Change, Knob, Leading, Tested, Trial, Unknown};
 pub use catalogue::AlarmId;
 pub(crate) use fill::priority as priority_code;

@@ -355,11 +355,17 @@ fn followed(
     let leading = book.leading().unwrap();
     let begin = start(&config, &run);
     let began = Instant::now();
-    let tested = search(&begin, &leading, 1, 2, &AtomicBool::new(false));
-    let searched = began.elapsed().as_secs_f64();
-    let Some(tested) = tested else {
+    let found = search(&begin, &leading, 1, 2, &AtomicBool::new(false), |_| ()).unwrap();
+    let searched = format!(
+        "{:.0} s, {:.0} s of model time until the first answer and {:.0} s for {} changes",
+        began.elapsed().as_secs_f64(),
+        found.until_first,
+        found.seconds,
+        found.changes
+    );
+    let Some(tested) = found.tested else {
         return (
-            format!("no change ends {}; searched for {searched:.0} s.", leading.standing),
+            format!("no change ends {}; searched for {searched}.", leading.standing),
             None,
         );
     };
@@ -403,7 +409,7 @@ fn followed(
             !tested.ends.iter().any(|id| goes_on(id, &last))
         })
         .count();
-    (format!("{tested} Found after {searched:.0} s."), Some(ended))
+    (format!("{tested} Found after {searched}."), Some(ended))
 }
 
 /// The destructive cases with ten seeds each, as `docs/measurements.md` lists them: some minutes on two cores. Advice that is

@@ -16,10 +16,9 @@ pub struct LookAhead {
     /// not depend on their number. Default 1.
     #[schemars(transform = THREADS.in_schema())]
     pub threads: u32,
-    /// Whether the advice of an alarm of the tool's motion comes from look-aheads: the smallest change of speed or
-    /// weight that ends all alarms of the motion that stand, over 40 s, in at least 9 of 10 runs that took no part in
-    /// choosing it, and raises no other. Until one is found the rule of `alarms.advice` stands and says that it is a
-    /// rule. Default false.
+    /// Whether the advice of an alarm of the tool's motion comes from look-aheads: a small change of speed or weight
+    /// that ends all alarms of the motion that stand in at least 9 of 10 runs that took no part in choosing it, and
+    /// raises no other. Until one is found the rule of `alarms.advice` stands and says that it is a rule. Default false.
     pub advice: bool,
     /// Whether the node forecasts the next minute at the present speed and weight, every half minute, on `twin/forecast`.
     /// Default false.

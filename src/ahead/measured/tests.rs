@@ -2,7 +2,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::*;
-use crate::ahead::member::{LOOK, Watched};
+use crate::ahead::member::{Horizon, LOOK, Watched};
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{Run, RunInputs, Simulation};
@@ -220,7 +220,7 @@ fn less_speed_than_the_gate_ends_the_alarm_and_not_the_motion() {
     let point = [10.0, 40.0];
     let watched = Watched::new(slow, &config, &stop).measured(Measured::new(config.simulation(), point, LOOK));
     // The second half holds the window of stick-slip once.
-    let member = watched.judge(24.0, |_| false).unwrap();
+    let member = watched.judge(Horizon::Of(24.0), |_| false).unwrap();
     assert_eq!(
         member.alarms[AlarmId::StickSlip as usize].worst,
         None,

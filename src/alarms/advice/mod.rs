@@ -220,10 +220,10 @@ pub enum Trial {
     Waits,
     /// They try changes.
     Runs {
-        /// The time that the last search took, rounded up (min); 0 before the first has ended.
-        minutes: u64,
+        /// Time until an answer (s), in tens; none before that is known, and where a search takes longer than others.
+        seconds: Option<u64>,
     },
-    /// They tried changes, and none ended the leading alarm.
+    /// They tried changes within the limits, and none ended the leading alarm.
     NothingFound,
 }
 
@@ -232,17 +232,23 @@ impl Trial {
     fn words(self) -> String {
         let now = match self {
             Self::Waits => "the twin has not tried it out.".to_owned(),
-            Self::Runs { minutes: 0 } => "the twin is trying settings out now, which takes a few minutes.".to_owned(),
-            Self::Runs { minutes } => {
-                format!("the twin is trying settings out now, which takes about {minutes} min.")
+            Self::Runs { seconds: None } => "the twin is searching for a change that ends the alarm.".to_owned(),
+            Self::Runs { seconds: Some(seconds) } => {
+                format!("the twin is searching for a change that ends the alarm, about {seconds} s.")
             }
+            // A rule that was tried is not shown any more.
             Self::NothingFound => {
-                "the twin has tried other settings out, and none ended the alarm reliably.".to_owned()
+                "the twin has tried smaller changes, and none ended the alarm.".to_owned()
             }
         };
         format!(" This is a rule of thumb: {now}")
     }
 }
+
+/// What is said where look-aheads have refuted the rule of the leading alarm.
+const NOTHING: &str = "Nothing within the limits ends it: the twin has tried other speeds and weights. ";
+/// Least and most of speed or weight that look-aheads try, as parts of the present value.
+pub(crate) const TRIED: [f64; 2] = [0.3, 1.5];
 
 impl Knob {
     fn name(self) -> &'static str {
@@ -325,7 +331,11 @@ pub(super) fn what_to_do(demands: &[Demand], now: &Operating, inputs: &InputsCon
             .iter()
             .enumerate()
             .filter(|(_, demand)| may_lead(demand))
-            .find_map(|(rank, demand)| Some((*demand, lead(demand, &order[..rank], &order, now, inputs)?)))
+            .find_map(|(rank, demand)| {
+                // The search is for the alarm that leads, at the twin's own speed and weight.
+                let is_searched = ahead.trial == Some(Trial::NothingFound) && rank == 0 && !now.unknown.any();
+                Some((*demand, lead(demand, &order[..rank], &order, now, inputs, is_searched)?))
+            })
     });
     let note = ahead.trial.map_or(String::new(), Trial::words);
     demands
@@ -357,21 +367,31 @@ enum Lead {
     Own(&'static str),
     /// What look-aheads have tried.
     Tested(Tested),
+    /// Look-aheads have tried what the rule asks for, and it does not end the alarm.
+    Refuted,
     Stop,
 }
 
 /// The action of an alarm if it leads: the first step that respects the limits of all other rules, else the first that
-/// respects those of the alarms before it, else, for a high alarm, the last resort. None where no step is allowed.
-fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, inputs: &InputsConfig) -> Option<Lead> {
+/// respects those of the alarms before it, else, for a high alarm, the last resort. None where no step is allowed. Where a
+/// search has found nothing, a step that it has tried is none.
+fn lead(
+    demand: &Demand,
+    before: &[&Demand],
+    all: &[&Demand],
+    now: &Operating,
+    inputs: &InputsConfig,
+    is_searched: bool,
+) -> Option<Lead> {
     let free_of = |step: &Step, others: &[&Demand]| {
         others
             .iter()
             .filter(|other| other.id != demand.id)
             .all(|other| !step.is_against(&other.rule))
     };
-    let steps: Vec<Step> = Step::of(&demand.rule)
+    let (refuted, steps): (Vec<Step>, Vec<Step>) = Step::of(&demand.rule)
         .filter(|step| step.applies(now, inputs, true))
-        .collect();
+        .partition(|step| is_searched && step.was_tried(now));
     let step = steps
         .iter()
         .find(|step| free_of(step, all))
@@ -379,6 +399,7 @@ fn lead(demand: &Demand, before: &[&Demand], all: &[&Demand], now: &Operating, i
     match (step, demand.priority) {
         (Some(step), _) => Some(Lead::Step(*step)),
         (None, _) if own_action(demand.id).is_some() => own_action(demand.id).map(Lead::Own),
+        (None, _) if !refuted.is_empty() => Some(Lead::Refuted),
         (None, Some(Priority::High)) => Some(Lead::Stop),
         (None, _) => None,
     }
@@ -403,6 +424,8 @@ fn sentence(
         Some((leading, lead)) if leading.id == demand.id => match (lead, priority) {
             (Lead::Stop, _) => format!("{unknown}{}.", capitalized(STOP)),
             (Lead::Own(action), _) => format!("{unknown}{action}"),
+            (Lead::Refuted, Priority::High) => format!("{NOTHING}{}.", capitalized(STOP)),
+            (Lead::Refuted, _) => format!("{NOTHING}Call the engineer. If it gets worse, pick up off bottom."),
             // A tested change was run ahead by the twin; its text holds the
             // evidence, and the remark on rules would be wrong for it.
             (Lead::Tested(tested), Priority::High) => {

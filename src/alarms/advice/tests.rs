@@ -172,16 +172,12 @@ fn a_rule_says_what_the_twin_does_about_it() {
     for (trial, end) in [
         (Trial::Waits, "the twin has not tried it out."),
         (
-            Trial::Runs { minutes: 0 },
-            "the twin is trying settings out now, which takes a few minutes.",
+            Trial::Runs { seconds: None },
+            "the twin is searching for a change that ends the alarm.",
         ),
         (
-            Trial::Runs { minutes: 2 },
-            "the twin is trying settings out now, which takes about 2 min.",
-        ),
-        (
-            Trial::NothingFound,
-            "the twin has tried other settings out, and none ended the alarm reliably.",
+            Trial::Runs { seconds: Some(40) },
+            "the twin is searching for a change that ends the alarm, about 40 s.",
         ),
     ] {
         let expected = format!(
@@ -189,6 +185,47 @@ fn a_rule_says_what_the_twin_does_about_it() {
         );
         assert_eq!(text(trial), expected);
     }
+}
+
+/// What a search has refuted leaves the screen. A limit that lies beyond what it tried (below 0.3 or above 1.5 of the present
+/// value) is not refuted, and neither is one at inputs that the twin does not know.
+#[test]
+fn a_rule_that_the_search_has_refuted_is_not_shown() {
+    let slower = Advice {
+        lower_rotary_speed_rpm: Some(50.0),
+        ..Advice::default()
+    };
+    let found = Ahead {
+        trial: Some(Trial::NothingFound),
+        tested: None,
+    };
+    let text = |priority, now: &Operating| {
+        told(&[demand(AlarmId::ChaoticWhirl, priority, slower)], now, &found).remove(0)
+    };
+    assert_eq!(
+        text(MEDIUM, &at(95.0, 20.0)),
+        "Nothing within the limits ends it: the twin has tried other speeds and weights. Call the engineer. If it gets \
+         worse, pick up off bottom."
+    );
+    assert_eq!(
+        text(HIGH, &at(95.0, 20.0)),
+        "Nothing within the limits ends it: the twin has tried other speeds and weights. Pick up off bottom and stop the \
+         drive."
+    );
+    // 50 of 200 r/min is a quarter.
+    assert_eq!(
+        text(MEDIUM, &at(200.0, 20.0)),
+        "Lower the speed below 50 r/min (200 r/min now) and keep the weight on bit. This is a rule of thumb: the twin has \
+         tried smaller changes, and none ended the alarm."
+    );
+    let unknown = Operating {
+        unknown: Unknown {
+            speed: true,
+            weight: false,
+        },
+        ..at(95.0, 20.0)
+    };
+    assert!(text(MEDIUM, &unknown).contains("lower it below"));
 }
 
 /// The change that shock would ask for is put aside with it.

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use crate::ahead::SearchProgress;
 use crate::alarms::{Leading, Tested, Trial};
 use crate::rig_inputs::Fluctuation;
 use flexdrill_config::Config;
@@ -14,6 +15,13 @@ use flexdrill_motion::WhirlSettings;
 
 /// Time for which the same alarm leads at the same speed and weight before a search begins.
 const SETTLED: Duration = Duration::from_secs(2);
+/// Time for which what is set must count as another, where it is near. Of a weight of 18 kN that scatters by 1.2 kN, medians
+/// of ten seconds differ by a deviation of 0.7 kN: one pair in forty by the 1.5 kN that count as another weight, and a
+/// search that ends with each of them has no answer for minutes. Ten seconds later none of the samples is the same.
+const AWAY: Duration = Duration::from_secs(10);
+/// Model time (s) that a search takes until its first answer, where one direction of change helps: two changes that show
+/// which, two that show how much, and four members that confirm it.
+const USUAL: f64 = 220.0;
 /// Part of a coefficient of friction by which it may change: a torque follows it by as much, and a torque gauge shows
 /// no less.
 const SAME_FRICTION: f64 = 0.05;
@@ -102,8 +110,20 @@ impl Acting {
 
     /// Whether all of it is the same.
     fn is(&self, now: &Self) -> bool {
+        self.is_within(now, 1.0)
+    }
+
+    /// Whether all of it may be the same on a rig that wavers: speed and weight differ by twice what counts as the same.
+    fn may_be(&self, now: &Self) -> bool {
+        self.is_within(now, 2.0)
+    }
+
+    /// Whether speed and weight differ by `times` what counts as the same, and all else has stayed.
+    fn is_within(&self, now: &Self, times: f64) -> bool {
         let at = |set: &Inputs| [set.rotary_speed, set.weight_on_bit];
-        self.parameters.fluctuation.covers(at(&self.set), at(&now.set)) && self.has_stayed(now)
+        let (then, now_at) = (at(&self.set), at(&now.set));
+        let part = [0, 1].map(|of| then[of] + (now_at[of] - then[of]) / times);
+        self.parameters.fluctuation.covers(then, part) && self.has_stayed(now)
     }
 }
 
@@ -135,15 +155,40 @@ impl Asked {
     }
 }
 
+/// How far a search is.
+#[derive(Debug, Clone, Copy)]
+struct Course {
+    began: Instant,
+    /// Model time of its members (s).
+    seconds: f64,
+    /// Model time of members per second, of this search or of the one before; none before the first members.
+    speed: Option<f64>,
+    /// Whether its first answer is out.
+    has_said: bool,
+}
+
+impl Course {
+    /// Seconds until an answer, in tens; none before that is known, and once the search takes longer than others.
+    fn remaining(&self) -> Option<u64> {
+        let since = self.began.elapsed().as_secs_f64();
+        let whole = USUAL / self.speed.filter(|speed| *speed > 0.0)?;
+        (whole > since).then(|| 10 * ((whole - since) / 10.0).ceil() as u64)
+    }
+}
+
 #[derive(Debug, Default)]
 struct Exchange {
     asked: Option<Asked>,
     /// The last search that came to its end, and what it found.
     answered: Option<(Asked, Option<Tested>)>,
+    /// What a search has found that more of its members are to confirm.
+    first: Option<(Asked, Tested)>,
     /// Whether that search tried anything: the state of the run may not be had.
     tried: bool,
-    /// How long the last search took that tried something.
-    took: Duration,
+    /// When the last search began, how much model time its members have taken (s), and whether it has said something.
+    course: Option<Course>,
+    /// Since when what is set counts as another one that is near.
+    away: Option<Instant>,
     /// Ends the running search.
     stop: Option<Arc<AtomicBool>>,
     /// Ends the running forecast, which yields to goals and searches.
@@ -167,9 +212,14 @@ impl Advisor {
         let mut exchange = self.lock();
         let Some(leading) = leading else {
             exchange.interrupt();
-            (exchange.asked, exchange.answered) = (None, None);
+            (exchange.asked, exchange.answered, exchange.first) = (None, None, None);
             return None;
         };
+        let set = [
+            rad_per_s_to_rpm(acting.set.rotary_speed),
+            n_to_kn(acting.set.weight_on_bit),
+        ];
+        let acting = &exchange.settled(acting);
         if !exchange
             .asked
             .as_ref()
@@ -192,12 +242,11 @@ impl Advisor {
         if exchange.stop.is_none() && exchange.search().is_some() {
             stop(&mut exchange.forecast);
         }
-        let (asked, tested) = exchange.answered.as_ref()?;
-        let now = [
-            rad_per_s_to_rpm(acting.set.rotary_speed),
-            n_to_kn(acting.set.weight_on_bit),
-        ];
-        tested.filter(|tested| asked.is_for(&leading, acting) && tested.lies_ahead(now))
+        let answered = exchange.answered.iter().filter_map(|(asked, tested)| Some((asked, (*tested)?)));
+        let first = exchange.first.iter().map(|(asked, tested)| (asked, *tested));
+        let mut found = answered.chain(first);
+        let holds = found.find(|(asked, tested)| asked.is_for(&leading, acting) && tested.lies_ahead(set));
+        holds.map(|(_, tested)| tested)
     }
 
     /// What is to be searched now, with the flag that stops the search.
@@ -206,15 +255,39 @@ impl Advisor {
         let asked = exchange.search()?.clone();
         let stop = Arc::new(AtomicBool::new(false));
         exchange.stop = Some(Arc::clone(&stop));
+        exchange.course = Some(Course {
+            began: Instant::now(),
+            seconds: 0.0,
+            speed: exchange.course.and_then(|before| before.speed),
+            has_said: false,
+        });
         Some((asked, stop))
     }
 
-    /// Takes what a search found that was not stopped, and how long it took.
-    pub fn answer(&self, asked: Asked, tested: Option<Tested>, took: Duration) {
+    /// Takes how far a search is that was not stopped. Its first answer holds until its last one is there, unless more of
+    /// its members refute it.
+    pub fn hear(&self, asked: &Asked, progress: &SearchProgress) {
+        let mut exchange = self.lock();
+        let Some(course) = &mut exchange.course else { return };
+        let took = course.began.elapsed().as_secs_f64();
+        course.seconds = progress.seconds;
+        course.speed = (took > 0.0).then(|| progress.seconds / took);
+        let is_refuted = course.has_said && progress.first.is_none();
+        course.has_said = progress.first.is_some();
+        if is_refuted {
+            exchange.first = None;
+        }
+        if let Some(tested) = progress.first {
+            exchange.first = Some((asked.clone(), tested));
+        }
+    }
+
+    /// Takes what a search found that was not stopped.
+    pub fn answer(&self, asked: Asked, tested: Option<Tested>) {
         let mut exchange = self.lock();
         exchange.stop = None;
         exchange.answered = Some((asked, tested));
-        (exchange.tried, exchange.took) = (true, took);
+        (exchange.first, exchange.tried) = (None, true);
     }
 
     /// Ends a search that could not try anything.
@@ -234,7 +307,7 @@ impl Advisor {
         };
         match (&exchange.stop, is_answered()) {
             (Some(_), _) => Trial::Runs {
-                minutes: exchange.took.as_secs().div_ceil(60),
+                seconds: exchange.course.and_then(|course| course.remaining()),
             },
             (None, Some(None)) if exchange.tried => Trial::NothingFound,
             (None, _) => Trial::Waits,
@@ -290,6 +363,18 @@ impl Exchange {
         let known = |(answered, _): &(Asked, _)| answered.is_for(&asked.leading, &asked.acting);
         let is_known = self.answered.as_ref().is_some_and(known);
         (!is_known && asked.since.elapsed() >= SETTLED).then_some(asked)
+    }
+
+    /// What acts, where a rig that wavers makes it seem another for a moment: what the search is for.
+    fn settled(&mut self, acting: &Acting) -> Acting {
+        let near = self.asked.as_ref().map(|asked| asked.acting);
+        let near = near.filter(|asked| !asked.is(acting) && asked.may_be(acting));
+        let Some(asked) = near else {
+            self.away = None;
+            return *acting;
+        };
+        let since = *self.away.get_or_insert_with(Instant::now);
+        if since.elapsed() < AWAY { asked } else { *acting }
     }
 
     fn interrupt(&mut self) {

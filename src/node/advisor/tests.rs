@@ -84,7 +84,7 @@ fn wait(advisor: &Advisor, ago: Duration) {
 fn answered() -> Advisor {
     let advisor = asked(SETTLED);
     let (what, _) = advisor.due().unwrap();
-    advisor.answer(what, Some(tested()), Duration::from_secs(70));
+    advisor.answer(what, Some(tested()));
     advisor
 }
 
@@ -218,7 +218,7 @@ fn an_alarm_that_comes_is_asked_for_too_and_one_that_goes_is_not_asked_for_anew(
         assert_eq!(advisor.follow(leading, &acting(AT)), expected);
         assert!(!stop.load(Ordering::Relaxed));
     }
-    advisor.answer(what, Some(tested()), Duration::from_secs(70));
+    advisor.answer(what, Some(tested()));
     for leading in [both, leads()] {
         assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
     }
@@ -237,7 +237,7 @@ fn another_alarm_that_leads_ends_neither_search_nor_advice() {
     assert_eq!(advisor.follow(by_shock, &acting(AT)), None);
     assert_eq!(advisor.follow(shock(), &acting(AT)), None);
     assert!(!stop.load(Ordering::Relaxed));
-    advisor.answer(what, Some(tested()), Duration::from_secs(70));
+    advisor.answer(what, Some(tested()));
     for leading in [by_shock, shock(), leads()] {
         assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
     }
@@ -259,24 +259,96 @@ fn a_turn_that_is_kept_does_not_give_way_to_goals_and_ends_with_the_node() {
     assert!(search.load(Ordering::Relaxed) && forecast.load(Ordering::Relaxed));
 }
 
+/// Moves the beginning of the search that runs back.
+fn ran_for(advisor: &Advisor, ago: Duration) {
+    if let Some(course) = &mut advisor.lock().course {
+        course.began -= ago;
+    }
+}
+
 #[test]
-fn what_is_done_is_told_from_the_first_alarm_to_the_answer() {
+fn what_is_done_is_said_from_the_first_alarm_to_the_answer() {
     let advisor = asked(Duration::ZERO);
     assert_eq!(advisor.trial(), Trial::Waits);
     wait(&advisor, SETTLED);
     let (what, _) = advisor.due().unwrap();
-    assert_eq!(advisor.trial(), Trial::Runs { minutes: 0 });
-    advisor.answer(what, None, Duration::from_secs(70));
+    assert_eq!(advisor.trial(), Trial::Runs { seconds: None });
+    // A quarter of what a search usually takes, in 15 s: three quarters in 45 s.
+    ran_for(&advisor, Duration::from_secs(15));
+    let quarter = SearchProgress {
+        seconds: 0.25 * USUAL,
+        first: None,
+    };
+    advisor.hear(&what, &quarter);
+    assert_eq!(advisor.trial(), Trial::Runs { seconds: Some(50) });
+    // One that takes longer has no number.
+    ran_for(&advisor, Duration::from_secs(60));
+    assert_eq!(advisor.trial(), Trial::Runs { seconds: None });
+    advisor.answer(what, None);
     assert_eq!(advisor.trial(), Trial::NothingFound);
-    // At another speed the next search takes about as long.
+    // At another speed the next search is as fast.
     let _ = advisor.follow(leads(), &acting([90.0, 10.0]));
     assert_eq!(advisor.trial(), Trial::Waits);
     wait(&advisor, SETTLED);
     let (what, _) = advisor.due().unwrap();
-    assert_eq!(advisor.trial(), Trial::Runs { minutes: 2 });
+    assert_eq!(advisor.trial(), Trial::Runs { seconds: Some(60) });
     // Nothing was tried where the state of the run could not be had.
     advisor.give_up(what);
     assert_eq!(advisor.trial(), Trial::Waits);
+}
+
+#[test]
+fn a_first_answer_holds_until_more_members_refute_it() {
+    let advisor = asked(SETTLED);
+    let (what, stop) = advisor.due().unwrap();
+    let progress = |first| SearchProgress { seconds: 200.0, first };
+    let four = Tested {
+        ended: 4,
+        of: 4,
+        ..tested()
+    };
+    advisor.hear(&what, &progress(None));
+    assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+    advisor.hear(&what, &progress(Some(four)));
+    assert_eq!(advisor.follow(leads(), &acting(AT)), Some(four));
+    assert!(!stop.load(Ordering::Relaxed), "more members confirm it");
+    // It is held against the set point as the last answer is.
+    assert_eq!(advisor.follow(leads(), &acting([90.0, 10.0])), None);
+    assert!(stop.load(Ordering::Relaxed));
+    let (what, _) = {
+        let _ = advisor.follow(leads(), &acting(AT));
+        wait(&advisor, SETTLED);
+        advisor.due().unwrap()
+    };
+    advisor.hear(&what, &progress(Some(four)));
+    advisor.hear(&what, &progress(None));
+    assert_eq!(advisor.follow(leads(), &acting(AT)), None, "it is refuted");
+    advisor.answer(what, Some(tested()));
+    assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
+}
+
+/// The fluctuation counts 5 % and 2.5 % of the range as the same: 6 r/min of 120, and 1.5 kN of a range of 60.
+#[test]
+fn what_a_rig_that_wavers_seems_to_have_set_for_a_moment_ends_no_search() {
+    let advisor = asked(SETTLED);
+    let (_, stop) = advisor.due().unwrap();
+    for _ in 0..3 {
+        let _ = advisor.follow(leads(), &acting([120.0, 12.0]));
+        let _ = advisor.follow(leads(), &acting(AT));
+    }
+    assert!(!stop.load(Ordering::Relaxed));
+    // It stays there.
+    let _ = advisor.follow(leads(), &acting([120.0, 12.0]));
+    if let Some(away) = &mut advisor.lock().away {
+        *away -= AWAY;
+    }
+    let _ = advisor.follow(leads(), &acting([120.0, 12.0]));
+    assert!(stop.load(Ordering::Relaxed));
+    // A change of twice as much is one at once.
+    let advisor = asked(SETTLED);
+    let (_, stop) = advisor.due().unwrap();
+    let _ = advisor.follow(leads(), &acting([120.0, 13.5]));
+    assert!(stop.load(Ordering::Relaxed));
 }
 
 #[test]
@@ -290,7 +362,7 @@ fn a_forecast_gives_way_to_goals_and_searches() {
     let _ = advisor.follow(leads(), &acting(AT));
     assert!(forecast.load(Ordering::Relaxed));
     let (asked, _) = advisor.due().unwrap();
-    advisor.answer(asked, Some(tested()), Duration::from_secs(70));
+    advisor.answer(asked, Some(tested()));
     let forecast = advisor.forecasts();
     let _ = advisor.follow(leads(), &acting(AT));
     assert!(!forecast.load(Ordering::Relaxed), "the search has its answer");

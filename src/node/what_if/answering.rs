@@ -21,7 +21,7 @@ use flexdrill_messages::{WhatIfGoal, WhatIfResult};
 use flexdrill_realtime::link::{Gauges, RunState};
 use flexdrill_ros2::action::Begun;
 use flexdrill_ros2::goal_book::publish;
-use flexdrill_text::log_ending;
+use flexdrill_text::{counted, log_ending};
 
 /// Least time between two feedbacks.
 const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
@@ -203,22 +203,28 @@ impl Answering {
             }
         };
         let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
-        let tested = search(&start, &asked.leading, ADVICE_SEED, threads, &stop);
-        if stop.load(Ordering::Relaxed) {
+        let searched = search(&start, &asked.leading, ADVICE_SEED, threads, &stop, |progress| {
+            if !stop.load(Ordering::Relaxed) {
+                self.advisor.hear(&asked, &progress);
+            }
+        });
+        let Some(searched) = searched.filter(|_| !stop.load(Ordering::Relaxed)) else {
             return;
-        }
+        };
         let alarm = asked.leading.alarm.name();
         if let Some(more) = log_ending(format!("advice on {alarm}")) {
             tracing::info!(
-                "advice on {alarm} after {:.1} s: {}{more}",
+                "advice on {alarm} after {:.1} s, {} and {:.0} s of model time: {}{more}",
                 began.elapsed().as_secs_f64(),
-                tested.map_or_else(
-                    || "no change of speed or weight within the limits ends it in 9 of 10 runs".to_owned(),
+                counted(searched.changes as u64, "change"),
+                searched.seconds,
+                searched.tested.map_or_else(
+                    || "nothing within the limits of speed and weight ends it in 9 of 10 runs".to_owned(),
                     |tested| tested.to_string()
                 )
             );
         }
-        self.advisor.answer(asked, tested, began.elapsed());
+        self.advisor.answer(asked, searched.tested);
     }
 
     /// Forecasts the next minute, once that is due at `at`. A forecast that a goal or a search stops is made later.
