@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 
 use super::catalogue::AlarmId;
 use super::finding::Finding;
+use super::plausible::Plausible;
 use super::worst_moment::WorstMoment;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
@@ -11,8 +12,15 @@ use crate::messages::{Alarm, AlarmEvent, AlarmList};
 use flexdrill_alarms::{AlarmSystem, Change, Event, Priority, State, Unshelving};
 use flexdrill_core::tool::Body;
 
-/// All alarms, the worst first. `restored` says per alarm whether its state began in an earlier run.
-pub(super) fn list(system: &AlarmSystem, moments: &[WorstMoment], restored: &[bool], header: Header) -> AlarmList {
+/// All alarms, the worst first. `restored` says per alarm whether its state began in an earlier run, `tools` what plausible
+/// tools say of it.
+pub(super) fn list(
+    system: &AlarmSystem,
+    moments: &[WorstMoment],
+    restored: &[bool],
+    tools: &Plausible,
+    header: Header,
+) -> AlarmList {
     let mut order: Vec<usize> = (0..AlarmId::ALL.len().min(moments.len())).collect();
     order.sort_by_key(|index| {
         let (standing, moment) = (system.alarm(*index).standing, &moments[*index]);
@@ -26,7 +34,12 @@ pub(super) fn list(system: &AlarmSystem, moments: &[WorstMoment], restored: &[bo
     let alarms: Vec<Alarm> = order
         .into_iter()
         .filter_map(|index| {
-            let mut alarm = alarm(system, AlarmId::ALL[index], moments.get(index)?);
+            let (id, moment) = (AlarmId::ALL[index], moments.get(index)?);
+            let mut alarm = alarm(system, id, moment);
+            // An alarm whose condition has ended says nothing that tools could differ in.
+            if !alarm.evidence.is_empty() {
+                alarm.evidence += &tools.sentence(id, moment, header.stamp.to_nanoseconds());
+            }
             alarm.from_earlier_run = restored.get(index) == Some(&true);
             Some(alarm)
         })

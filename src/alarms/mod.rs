@@ -8,8 +8,8 @@
 //!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
 //!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes;
 //!   `adjusted`: what followed from it. `changed`: what clients have changed of the configuration.
-//!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `sentence`: parts
-//!   of sentences. `set`: sets of alarms.
+//!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `plausible`: in how
+//!   many plausible tools an alarm stands. `sentence`: parts of sentences. `set`: sets of alarms.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
 //!
 //! `docs/alarms.md` is for operators.
@@ -21,6 +21,7 @@ mod changed;
 mod fill;
 mod finding;
 mod node;
+mod plausible;
 mod request;
 mod rig;
 mod sentence;
@@ -46,7 +47,7 @@ use std::sync::Arc;
 
 use crate::messages::std_msgs::Header;
 use crate::messages::topics;
-use crate::messages::{AlarmEvent, AlarmList, CdrError, Residuals, to_cdr_into};
+use crate::messages::{AlarmEvent, AlarmList, Bands, CdrError, Residuals, to_cdr_into};
 use flexdrill_alarms::{
     AlarmSystem, Event, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time,
 };
@@ -60,6 +61,7 @@ use crate::safe_window::SafeWindow;
 use adjusted::Adjusted;
 use advice::{Ahead, Demand, Operating};
 use changed::Changed;
+use plausible::Plausible;
 use worst_moment::WorstMoment;
 
 /// Step back of the clock beyond which the journal's stamps follow it (ns).
@@ -83,6 +85,8 @@ pub struct AlarmBook {
     /// What look-aheads have found for the present state, and what they do.
     tested: Option<Tested>,
     trial: Trial,
+    /// What plausible tools did.
+    tools: Plausible,
     /// The alarm that leads the advice.
     lead: Option<AlarmId>,
     /// Which of the rig's values the twin does not know.
@@ -148,6 +152,7 @@ impl AlarmBook {
             window: None,
             tested: None,
             trial: Trial::default(),
+            tools: Plausible::default(),
             lead: None,
             unknown: Unknown::default(),
             rig_judged: Time::MIN,
@@ -267,6 +272,11 @@ impl AlarmBook {
     /// Takes what look-aheads have found, for as long as it holds at what is asked for, and what they do.
     pub fn set_tested(&mut self, tested: Option<Tested>, trial: Trial) {
         (self.tested, self.trial) = (tested, trial);
+    }
+
+    /// Takes what plausible tools did in a second, at its stamp: lists say where they differ.
+    pub fn observe_tools(&mut self, bands: &Bands) {
+        self.tools.take(bands);
     }
 
     /// Takes which of the rig's values the twin does not know. [`AlarmBook::observe_node`] does so too.
@@ -422,7 +432,7 @@ impl AlarmBook {
 
     /// The present state of all alarms, the worst first.
     pub fn list(&self, header: Header) -> AlarmList {
-        fill::list(&self.system, &self.moments, &self.restored, header)
+        fill::list(&self.system, &self.moments, &self.restored, &self.tools, header)
     }
 
     /// Events so far.

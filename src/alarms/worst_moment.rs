@@ -72,6 +72,11 @@ impl WorstMoment {
         priority.map(|priority| active.filter(|_| holds).map_or(priority, |active| priority.max(active)))
     }
 
+    /// Whether the condition stands and had come by an instant (ns).
+    pub fn stood_at(&self, time: Time) -> bool {
+        self.counts.is_some() && self.first <= time
+    }
+
     /// Whether the condition has been observed, which after a restart takes a first observation.
     pub fn is_known(&self) -> bool {
         self.finding.priority.is_some()

@@ -280,6 +280,7 @@ impl Session {
             let known = self.begun.filter(|(of, _)| *of == from);
             let (_, begun) = *self.begun.insert(known.unwrap_or((from, begun)));
             bands.begun = Time::from_nanoseconds(begun);
+            self.alarms.observe_tools(&bands);
             host.send(Encoded {
                 topic: &topics::BANDS,
                 stamp,
