@@ -131,11 +131,11 @@ mod tests {
         ));
         let moment = since(50);
         let at = |id, second: i64| tools.sentence(id, &moment, second * SECOND);
-        assert_eq!(at(WHIRL, 111), " At 00:01:40 UTC it stood in 7 of 12 plausible tools.");
-        assert_eq!(at(AlarmId::JointLoad, 111), " At 00:01:40 UTC it stood in none of 12 plausible tools.");
+        assert_eq!(at(WHIRL, 111), " At model time 100 s it stood in 7 of 12 plausible tools.");
+        assert_eq!(at(AlarmId::JointLoad, 111), " At model time 100 s it stood in none of 12 plausible tools.");
         assert_eq!(
             at(AlarmId::StickSlip, 111),
-            " At 00:01:40 UTC it stood in 3 of 12 plausible tools (60 % by what the rig measures)."
+            " At model time 100 s it stood in 3 of 12 plausible tools (60 % by what the rig measures)."
         );
         // All agree, and what the computation is worth is no question of the tool.
         assert_eq!([at(AlarmId::Shock, 111), at(AlarmId::ModelQuality, 111)], ["", ""]);
@@ -154,7 +154,7 @@ mod tests {
         };
         tools.take(&few);
         let at = |second: i64| tools.sentence(WHIRL, &since(50), second * SECOND);
-        assert_eq!(at(111), " At 00:01:40 UTC it stood in 7 of 10 plausible tools.");
+        assert_eq!(at(111), " At model time 100 s it stood in 7 of 10 plausible tools.");
         assert_eq!(at(112), "");
     }
 

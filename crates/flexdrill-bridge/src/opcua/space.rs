@@ -3,7 +3,8 @@
 use ::opcua::types::{DataTypeId, Variant};
 use flexdrill_core::inputs::{InputKind, Unit};
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{Residual, SafeWindow, TwinStatus};
+use flexdrill_messages::{Bands, FigureBand, Residual, SafeWindow, TwinStatus};
+use flexdrill_outputs::figures::OverTools;
 
 use super::state::{Meaning, TwinState};
 use crate::Figure;
@@ -95,6 +96,7 @@ impl Variable {
             name if name == topics::STATUS.name => &twin.status()?.header,
             name if name == topics::RESIDUALS.name => &twin.residuals()?.header,
             name if name == topics::SAFE_WINDOW.name => &twin.window()?.header,
+            name if name == topics::BANDS.name => &twin.bands()?.header,
             _ => return None,
         };
         Some(header.stamp.to_nanoseconds())
@@ -138,6 +140,7 @@ pub fn variables() -> Vec<Variable> {
     all.extend(InputKind::ALL.into_iter().flat_map(of_input));
     all.extend(of_residuals());
     all.extend(of_window());
+    all.extend(of_bands());
     all
 }
 
@@ -412,9 +415,77 @@ fn of_window() -> Vec<Variable> {
     ]
 }
 
+/// The ends and the median of a band.
+type Quantile = fn(&FigureBand) -> f64;
+const QUANTILES: [(&str, &str, Quantile); 3] = [
+    ("p5", "5 % of the plausible tools lie below", |band| band.p5),
+    ("p50", "half of the plausible tools lie below", |band| band.p50),
+    ("p95", "95 % of the plausible tools lie below", |band| band.p95),
+];
+
+/// Plausible tools: a variable for each quantile of each figure that is compared over them, and what they are.
+fn of_bands() -> Vec<Variable> {
+    let new = |name: String, description: String, kind, read: Read| {
+        Variable::new("bands", name, description, kind, &topics::BANDS, read).meaning(Meaning::Computed)
+    };
+    let mut all = Vec::new();
+    for figure in OverTools::known() {
+        // A power has no unit of an input; powers are not compared.
+        let Some(dimension) = figure.dimension else { continue };
+        for (quantile, words, of) in QUANTILES {
+            let name = figure.name.clone();
+            let read: Read = Box::new(move |twin| {
+                // By name: a later twin may compare others.
+                let band = twin.bands()?.bands.iter().find(|band| band.name == name)?;
+                number(of(band))
+            });
+            all.push(new(
+                format!("{}/{quantile}", figure.name.replace('/', "_")),
+                format!("{} Over the last second, {words}", figure.text),
+                Kind::Number(dimension.si()),
+                read,
+            ));
+        }
+    }
+    let mut add = |name: &str, description: &str, kind, read: fn(&Bands) -> Option<Variant>| {
+        let read: Read = Box::new(move |twin| read(twin.bands()?));
+        all.push(new(name.to_owned(), description.to_owned(), kind, read));
+    };
+    add("members", "Plausible tools that run", Kind::Count, |bands| {
+        Some(Variant::from(u64::from(bands.members)))
+    });
+    add("failed", "Those that could not be computed", Kind::Count, |bands| {
+        Some(Variant::from(u64::from(bands.failed)))
+    });
+    let one = Kind::Number(Unit::One);
+    add("effective", "Number of members alike that they amount to", one, |bands| {
+        number(bands.effective)
+    });
+    add(
+        "any_alarm",
+        "Share of them in which any alarm of the tool stands",
+        one,
+        |bands| number(bands.any_alarm),
+    );
+    add("any_alarm_lower", "Lower end of its 95 % interval", one, |bands| {
+        number(bands.any_alarm_lower)
+    });
+    add("any_alarm_upper", "Upper end of its 95 % interval", one, |bands| {
+        number(bands.any_alarm_upper)
+    });
+    add(
+        "no_bands",
+        "Why there are no bands; empty where there are",
+        Kind::Text,
+        |bands| Some(Variant::from(bands.no_bands.clone())),
+    );
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use flexdrill_messages::to_cdr_body;
     use std::collections::BTreeSet;
 
     #[test]
@@ -432,5 +503,51 @@ mod tests {
             assert!(variable.value(&empty).is_none() && variable.stamp(&empty).is_none());
         }
         assert!(all.len() > 80, "{}", all.len());
+    }
+
+    #[test]
+    fn every_figure_over_plausible_tools_has_its_quantiles_and_no_value_without_bands() {
+        let variables = of_bands();
+        let known = OverTools::known();
+        let name = |figure: &str, quantile: &str| format!("{}/{quantile}", figure.replace('/', "_"));
+        let of = |wanted: &str| variables.iter().find(|variable| variable.name == wanted).unwrap();
+        // In one message: the quantiles of the k-th figure are k, k + 0.5 and k + 1.
+        let bands = Bands {
+            members: 12,
+            effective: 11.5,
+            any_alarm: f64::NAN,
+            bands: (0..).zip(&known).map(|(index, figure)| FigureBand {
+                name: figure.name.clone(),
+                unit: figure.unit.to_owned(),
+                p5: f64::from(index),
+                p50: f64::from(index) + 0.5,
+                p95: f64::from(index) + 1.0,
+            })
+            .collect(),
+            ..Bands::default()
+        };
+        let mut twin = TwinState::default();
+        twin.take(&topics::BANDS, &to_cdr_body(&bands).unwrap(), 0).unwrap();
+        for (index, figure) in (0..).zip(&known) {
+            for (quantile, more) in [("p5", 0.0), ("p50", 0.5), ("p95", 1.0)] {
+                let variable = of(&name(&figure.name, quantile));
+                assert_eq!(variable.value(&twin), Some(Variant::from(f64::from(index) + more)), "{}", figure.name);
+                let unit = variable.kind.unit().unwrap();
+                let in_message = if unit == Unit::One { "" } else { unit.name() };
+                assert_eq!(in_message.replace('.', " "), figure.unit, "{}", figure.name);
+            }
+        }
+        assert_eq!(of("members").value(&twin), Some(Variant::from(12_u64)));
+        assert_eq!(of("effective").value(&twin), Some(Variant::from(11.5)));
+        assert_eq!(of("any_alarm").value(&twin), None, "no number");
+        // Without bands their variables have no value, and say why.
+        let none = Bands {
+            no_bands: "7 plausible tools amount to 7.0 alike".into(),
+            bands: Vec::new(),
+            ..bands
+        };
+        twin.take(&topics::BANDS, &to_cdr_body(&none).unwrap(), 0).unwrap();
+        assert_eq!(of(&name(&known[0].name, "p50")).value(&twin), None);
+        assert_eq!(of("no_bands").value(&twin), Some(Variant::from(none.no_bands)));
     }
 }

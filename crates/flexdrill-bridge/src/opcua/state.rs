@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ::opcua::types::StatusCode;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{AlarmList, Message, Residuals, SafeWindow, TwinStatus, message_from_cdr_body};
+use flexdrill_messages::{AlarmList, Bands, Message, Residuals, SafeWindow, TwinStatus, message_from_cdr_body};
 
 use crate::TwinFigures;
 use crate::figures::FiguresError;
@@ -20,6 +20,7 @@ pub struct TwinState {
     figures: TwinFigures,
     residuals: Option<Residuals>,
     window: Option<SafeWindow>,
+    bands: Option<Bands>,
     /// When the newest message of each topic came (ns since 1970).
     arrived: BTreeMap<&'static str, i64>,
 }
@@ -42,7 +43,7 @@ impl TwinState {
     pub fn topics() -> impl Iterator<Item = &'static TopicInfo> {
         TwinFigures::TOPICS
             .into_iter()
-            .chain([&topics::RESIDUALS, &topics::SAFE_WINDOW])
+            .chain([&topics::RESIDUALS, &topics::SAFE_WINDOW, &topics::BANDS])
     }
 
     /// Takes the body (CDR without its header) of a message on one of [`Self::topics`] that came at `now` (ns since 1970).
@@ -54,6 +55,8 @@ impl TwinState {
             self.residuals = Some(read(topic, body)?);
         } else if topic.name == topics::SAFE_WINDOW.name {
             self.window = Some(read(topic, body)?);
+        } else if topic.name == topics::BANDS.name {
+            self.bands = Some(read(topic, body)?);
         } else {
             self.figures.take(topic.name, body)?;
         }
@@ -84,6 +87,11 @@ impl TwinState {
     /// The map of speed and weight.
     pub fn window(&self) -> Option<&SafeWindow> {
         self.window.as_ref()
+    }
+
+    /// What plausible tools did in the newest second that is known of them.
+    pub fn bands(&self) -> Option<&Bands> {
+        self.bands.as_ref()
     }
 
     /// How far a value of a topic can be used at `now` (ns since 1970).

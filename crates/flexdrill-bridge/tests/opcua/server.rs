@@ -62,6 +62,7 @@ async fn interop_asyncua_browses_and_reads_values_with_units_and_status_and_may_
         folders,
         [
             "alarms",
+            "bands",
             "figures",
             "inputs",
             "residuals",

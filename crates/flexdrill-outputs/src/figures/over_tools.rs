@@ -5,8 +5,9 @@ use super::tables::{
     BIT_STATE, CONTACT_FORCES, JOINT_DEFLECTIONS, TRANSFER, fill_bit_state, fill_contact_forces,
     fill_joint_deflections, fill_transfer,
 };
+use flexdrill_core::inputs::Dimension;
 use flexdrill_core::twin::Snapshot;
-use flexdrill_messages::{BitState, ContactForces, JointDeflections, Transfer, topics};
+use flexdrill_messages::{BitState, ContactForces, JointDeflections, Message, Transfer, topics};
 
 /// What a value over several snapshots is formed from, by the time that a figure covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +59,10 @@ impl Sum {
 pub struct Known {
     /// Topic below `twin` and field, such as `transfer/bit_torque`.
     pub name: String,
+    /// What it is, from the definition of its message.
+    pub text: String,
+    /// What it measures; `None` for a power.
+    pub dimension: Option<Dimension>,
     /// SI unit as in messages; empty for a ratio.
     pub unit: &'static str,
 }
@@ -102,10 +107,12 @@ impl Default for OverTools {
 impl OverTools {
     /// Names and units, in the order of the values.
     pub fn known() -> Vec<Known> {
-        fn of<M>(topic: &str, table: &'static [Figure<M>]) -> impl Iterator<Item = Known> {
+        fn of<M: Message>(topic: &str, table: &'static [Figure<M>]) -> impl Iterator<Item = Known> {
             let topic = topic.trim_start_matches("twin/").to_owned();
             compared(table).map(move |figure| Known {
                 name: format!("{topic}/{}", figure.field),
+                text: figure.text(),
+                dimension: figure.kind.dimension(),
                 unit: figure.kind.si(),
             })
         }
