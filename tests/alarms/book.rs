@@ -13,7 +13,7 @@ use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::DiagnosticStatus;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
-    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr, topics,
+    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, Bands, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr, topics,
 };
 use flexdrill::rig_inputs::Measured;
 use flexdrill::rig_inputs::{Driver, DriverId, Drivers, Rule};
@@ -36,6 +36,46 @@ fn root() -> PathBuf {
 
 fn config() -> Arc<Config> {
     Arc::new(Config::load(root().join("config/default.yaml")).unwrap())
+}
+
+/// Plausible tools that all say otherwise, as where a sensor lies to them, silence no alarm of the twin: the list is the
+/// same but for a sentence of its evidence, and without bands to the letter.
+#[test]
+fn plausible_tools_say_what_they_do_and_silence_nothing() {
+    let config = config();
+    const BEGUN: i64 = 1_700_000_000 * SECOND;
+    let stood = |bands: &dyn Fn() -> Bands| {
+        let mut book = AlarmBook::fresh(Arc::clone(&config), BEGUN);
+        for second in 0..60 {
+            let now = BEGUN + second * SECOND;
+            book.observe_tool(&snapshot(&[rolling()]), now);
+            let mut bands = bands();
+            bands.header.stamp = Time::from_nanoseconds(now);
+            book.observe_tools(&bands);
+        }
+        let header = Header {
+            stamp: Time::from_nanoseconds(BEGUN + 59 * SECOND),
+            ..Header::default()
+        };
+        book.list(header)
+    };
+    let without = stood(&|| Bands {
+        members: 7,
+        no_bands: "7 plausible tools".to_owned(),
+        ..Bands::default()
+    });
+    let mut with = stood(&|| Bands {
+        members: 12,
+        ..Bands::default()
+    });
+    let whirl = with.alarms.iter_mut().find(|alarm| alarm.id == "backward_whirl").unwrap();
+    assert!(whirl.active && whirl.priority == Alarm::HIGH);
+    // 1,700,000,000 s are 22:13:20; the second that is spoken of is 11 s old.
+    let words = " At 22:14:08 UTC it stood in none of 12 plausible tools.";
+    let evidence = whirl.evidence.strip_suffix(words).unwrap_or_else(|| panic!("{}", whirl.evidence));
+    whirl.evidence = evidence.to_owned();
+    // By their words: values that are not known are not equal to themselves.
+    assert_eq!(format!("{with:?}"), format!("{without:?}"));
 }
 
 /// A tool that turns at 120 r/min under 10 kN with these hazards.

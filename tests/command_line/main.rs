@@ -8,6 +8,7 @@
 
 mod ahead;
 mod paper;
+mod posterior;
 mod reach;
 mod sensitivity;
 mod sweep;

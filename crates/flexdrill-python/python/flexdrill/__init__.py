@@ -12,7 +12,7 @@
 Inside everything is SI; names carry the unit: `_nm` is N m, `_rad_per_s` is rad/s. Inputs have the driller's units.
 """
 
-from ._bag import Bag, Messages, read_bag
+from ._bag import Bag, Band, Bands, Messages, read_bag
 from ._errors import (
     ConfigError,
     FlexdrillError,
@@ -66,6 +66,8 @@ __all__ = [
     "Ageing",
     "Applied",
     "Bag",
+    "Band",
+    "Bands",
     "Bit",
     "CodeArray",
     "Config",

@@ -65,6 +65,39 @@ class Messages:
         return xarray.Dataset(variables, {"time": ("time", self.time_s, {"units": "s"})}, {"topic": self.topic})
 
 
+@dataclass(frozen=True)
+class Band:
+    """A figure over plausible tools, in the SI unit of its message. NaN where the twin had no band."""
+
+    unit: str
+    """SI unit; empty for a ratio."""
+    p5: FloatArray
+    """5 % of the plausible tools lie below, over time."""
+    p50: FloatArray
+    """Half of them lie below."""
+    p95: FloatArray
+    """95 % of them lie below."""
+
+
+@dataclass(frozen=True)
+class Bands:
+    """What plausible tools did: `twin/bands` by figure instead of by second."""
+
+    time_s: FloatArray
+    """End of each second since the first message of the bag."""
+    members: npt.NDArray[np.int64]
+    """Plausible tools that ran."""
+    effective: FloatArray
+    """Number of members alike that they amount to by their weights; there are bands from 8 on."""
+    figures: Mapping[str, Band]
+    """Bands by topic and field, such as `bit_state/torque`."""
+    chances: Mapping[str, FloatArray]
+    """Share of the tools in which an alarm stands, by its id; 0 where no tool has it."""
+
+    def __getitem__(self, name: str) -> Band:
+        return self.figures[name]
+
+
 class Bag(Mapping[str, Messages]):
     """The topics of a bag by name. A name may leave out what stands before: `bag["twin/bit_state"]`."""
 
@@ -83,6 +116,35 @@ class Bag(Mapping[str, Messages]):
 
     def __len__(self) -> int:
         return len(self._topics)
+
+    def bands(self, topic: str = "twin/bands") -> Bands:
+        """The bands of plausible tools, of a run with `ensemble` in its configuration.
+
+        Raises `KeyError` where the bag has none.
+        """
+        messages = self[topic]
+        count = len(messages)
+        figures: dict[str, Band] = {}
+        chances: dict[str, FloatArray] = {}
+        # By name in each second: a later version may have more figures, and a second without bands has none.
+        for index, found in enumerate(messages.fields.get("bands", [])):
+            for band in found:
+                if band.name not in figures:
+                    figures[band.name] = Band(band.unit, *(np.full(count, np.nan) for _ in range(3)))
+                of = figures[band.name]
+                of.p5[index], of.p50[index], of.p95[index] = band.p5, band.p50, band.p95
+        for index, seen in enumerate(messages.fields.get("alarms", [])):
+            for chance in seen:
+                of_alarm = chances.setdefault(chance.id, np.zeros(count))
+                # An alarm has a row for each priority, of this one or a higher one: the largest is that of any.
+                of_alarm[index] = max(of_alarm[index], chance.probability)
+        return Bands(
+            messages.time_s,
+            np.asarray(messages.fields.get("members", []), dtype=np.int64),
+            np.asarray(messages.fields.get("effective", []), dtype=np.float64),
+            figures,
+            chances,
+        )
 
     def __repr__(self) -> str:
         return f"<Bag: {', '.join(f'{name} ({len(of)})' for name, of in self._topics.items())}>"
