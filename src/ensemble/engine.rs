@@ -4,16 +4,18 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::evidence::{Compared, Errors, WINDOW};
+use super::evidence::{Compared, Errors, WINDOW, channel, unexplained};
 use super::member::{Member, Second};
 use super::message::message;
 use super::place::{Place, State, Threads, in_parallel};
 use crate::residuals::predicted;
+use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_config::{Config, Members};
 use flexdrill_core::twin::RunInputs;
 use flexdrill_ensemble::{LEAST_MEMBERS, effective_number, renewal, weights};
 use flexdrill_messages::Bands;
 use flexdrill_realtime::monotonic;
+use flexdrill_text::log_ending;
 use flexdrill_uncertainty::{Posterior, Priors, UncertaintyError};
 
 /// Model time of a slice (s).
@@ -276,7 +278,7 @@ impl Ensemble {
         self.weigh(to);
         let since = to - self.generation.begun;
         if since.is_multiple_of(self.ticks_of(WINDOW)) {
-            self.members(|member| member.windows.end());
+            self.end_window();
         }
         if since.is_multiple_of(self.ticks_of(PREPARED)) {
             self.replace();
@@ -349,6 +351,24 @@ impl Ensemble {
                 member.windows.add(&errors, &compared, &computed);
             });
         }
+    }
+
+    /// Ends the window of all members. A sensor that shows what none of them does is not believed in it.
+    fn end_window(&mut self) {
+        let mut residuals = Vec::new();
+        self.members(|member| residuals.push(member.windows.residuals()));
+        let unexplained = unexplained(&residuals);
+        let lies = RigQuantity::ALL.into_iter().filter(|quantity| unexplained[*quantity as usize]);
+        for quantity in lies {
+            let name = channel(quantity).name();
+            if let Some(more) = log_ending(format!("the plausible tools do not believe the {name}")) {
+                tracing::warn!(
+                    "the plausible tools do not believe the {name} within the last {WINDOW:.0} s: it is further from what \
+                     each of them does than the stated errors of twin and sensor explain. Check the sensor{more}"
+                );
+            }
+        }
+        self.members(|member| member.windows.end(&unexplained));
     }
 
     /// Logarithms of the members' weights; NaN for those that failed.

@@ -20,6 +20,10 @@ const LASTING: f64 = 7200.0;
 const LEAST_SECONDS: f64 = 5.0;
 /// Least noise of a window's mean, as a share of the discrepancy.
 const LEAST_NOISE: f64 = 0.1;
+/// Stated errors of twin and offset by which a window's mean must be beyond what every plausible tool does, to one side of
+/// all, for its sensor to count as one that lies. Of a normal error one in 30,000 is beyond four to one side. Weighed, such a
+/// mean would choose the tools that are the least wrong, and narrow the bands about what no tool does.
+const BEYOND: f64 = 4.0;
 /// A range that holds 90 % of a normal distribution, in standard deviations.
 const RANGE: f64 = 1.645;
 
@@ -53,8 +57,18 @@ struct OneError {
     drift: f64,
 }
 
+/// Which quantities no plausible tool explains, from the residuals of all members in a window ([`Windows::residuals`]).
+pub(super) fn unexplained(members: &[[Option<f64>; RigQuantity::COUNT]]) -> [bool; RigQuantity::COUNT] {
+    std::array::from_fn(|index| {
+        let mut residuals = members.iter().filter_map(|member| member[index]).peekable();
+        // A window without a measurement says nothing of its sensor.
+        let Some(first) = residuals.peek().copied() else { return false };
+        residuals.all(|residual| residual * first.signum() > BEYOND)
+    })
+}
+
 /// The sensor of a quantity.
-const fn channel(quantity: RigQuantity) -> Channel {
+pub(super) const fn channel(quantity: RigQuantity) -> Channel {
     match quantity {
         RigQuantity::SurfaceTorque => Channel::SurfaceTorque,
         RigQuantity::HookLoad => Channel::HookLoad,
@@ -152,11 +166,17 @@ impl Windows {
         }
     }
 
-    /// Ends the window.
-    pub(super) fn end(&mut self) {
+    /// Mean residuals of the present window, over the stated errors of twin and offset; none where too little was measured.
+    pub(super) fn residuals(&self) -> [Option<f64>; RigQuantity::COUNT] {
+        self.sums
+            .map(|sums| (sums.seconds >= LEAST_SECONDS).then(|| sums.residuals / sums.seconds))
+    }
+
+    /// Ends the window. What no tool explains (`unexplained`) says nothing of which tool it is.
+    pub(super) fn end(&mut self, unexplained: &[bool; RigQuantity::COUNT]) {
         for (index, sums) in self.sums.into_iter().enumerate() {
             let n = sums.seconds;
-            if n < LEAST_SECONDS {
+            if n < LEAST_SECONDS || unexplained[index] {
                 continue;
             }
             // Noise falls with the number of seconds; the drift of the sensor within a window does not.

@@ -322,6 +322,46 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
     assert!(before[1] - after[1] > 0.3 * (before[1] - truth), "{said}");
 }
 
+/// Sensors that lie: a torque of no plausible tool, one at the limit of its gauge, and one whose sign is swapped. The
+/// ensemble keeps the bands that it has without a measurement, to the byte.
+#[test]
+fn a_sensor_that_shows_what_no_plausible_tool_does_is_not_believed() {
+    let config = &*WIDE;
+    let plan = [acts(config, 0, 60.0, 10.0)];
+    let seconds = 70;
+    let twin = run(config, &plan, seconds);
+    let with = |lie: &dyn Fn(f64) -> f64| {
+        let mut ensemble = ensemble(config);
+        ensemble.hear(told(config, plan[0]));
+        ensemble.hear(Told::Reached(1));
+        ensemble.begin(generation(12));
+        let mut all = Vec::new();
+        for (second, (_, values)) in twin.iter().enumerate() {
+            let ticks = SECOND * (second as u64 + 1);
+            let mut compared = Compared {
+                steady: second >= 10,
+                measured: [f64::NAN; RigQuantity::COUNT],
+                predicted: *values,
+            };
+            let torque = RigQuantity::SurfaceTorque as usize;
+            compared.measured[torque] = lie(values[torque]);
+            ensemble.hear(Told::Compared(ticks, compared));
+            ensemble.hear(Told::Reached(ticks));
+            all.extend(found(&mut ensemble, 2));
+        }
+        bytes(&all)
+    };
+    let without = with(&|_| f64::NAN);
+    for (name, lie) in [
+        ("three times as much", (&|torque| 3.0 * torque) as &dyn Fn(f64) -> f64),
+        ("at its limit", &|_| 50e3),
+        ("swapped", &|torque| -torque),
+    ] {
+        assert!(with(lie) == without, "{name}");
+    }
+    assert!(with(&|torque| 0.9 * torque) != without, "what a tool does is believed");
+}
+
 /// A tool that cannot be computed is unknown: it is counted, in no band, and others take its place.
 #[test]
 fn a_member_that_fails_is_counted_and_replaced() {
