@@ -37,7 +37,8 @@ impl Plausible {
     pub fn take(&mut self, bands: &Bands) {
         let at = bands.header.stamp.to_nanoseconds();
         // A clock that was set back begins again.
-        self.0.retain(|stood| (0..2 * AGE).contains(&at.saturating_sub(stood.at)));
+        self.0
+            .retain(|stood| (0..2 * AGE).contains(&at.saturating_sub(stood.at)));
         if bands.no_bands.is_empty() {
             let of_any_priority = bands.alarms.iter().filter(|chance| chance.priority == Alarm::LOW);
             self.0.push_back(Stood {
@@ -53,7 +54,11 @@ impl Plausible {
     pub fn sentence(&self, id: AlarmId, moment: &WorstMoment, time: Time) -> String {
         let age = |stood: &&Stood| (AGE..AGE + SECOND).contains(&time.saturating_sub(stood.at));
         let is_of_motion = HazardKind::ALL.into_iter().any(|kind| AlarmId::of_hazard(kind) == id);
-        let stood = self.0.iter().find(age).filter(|stood| is_of_motion && moment.stood_at(stood.at));
+        let stood = self
+            .0
+            .iter()
+            .find(age)
+            .filter(|stood| is_of_motion && moment.stood_at(stood.at));
         let Some(stood) = stood else { return String::new() };
         let chance = stood.alarms.iter().find(|chance| chance.id == id.id());
         let (seen, of) = (chance.map_or(0, |chance| chance.seen), stood.of);
@@ -70,7 +75,10 @@ impl Plausible {
             true => format!(" ({:.0} % by what the rig measures)", 100.0 * share),
             false => String::new(),
         };
-        format!(" At {} it stood in {number} of {of} plausible tools{weighed}.", time_of_day(stood.at))
+        format!(
+            " At {} it stood in {number} of {of} plausible tools{weighed}.",
+            time_of_day(stood.at)
+        )
     }
 }
 
@@ -131,8 +139,14 @@ mod tests {
         ));
         let moment = since(50);
         let at = |id, second: i64| tools.sentence(id, &moment, second * SECOND);
-        assert_eq!(at(WHIRL, 111), " At model time 100 s it stood in 7 of 12 plausible tools.");
-        assert_eq!(at(AlarmId::JointLoad, 111), " At model time 100 s it stood in none of 12 plausible tools.");
+        assert_eq!(
+            at(WHIRL, 111),
+            " At model time 100 s it stood in 7 of 12 plausible tools."
+        );
+        assert_eq!(
+            at(AlarmId::JointLoad, 111),
+            " At model time 100 s it stood in none of 12 plausible tools."
+        );
         assert_eq!(
             at(AlarmId::StickSlip, 111),
             " At model time 100 s it stood in 3 of 12 plausible tools (60 % by what the rig measures)."

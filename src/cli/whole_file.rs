@@ -96,7 +96,11 @@ mod tests {
             match std::fs::read(folder.path().join(FILE)) {
                 Ok(bytes) => {
                     whole += 1;
-                    assert!(samples.iter().any(|text| text.as_bytes() == bytes), "{} bytes", bytes.len());
+                    assert!(
+                        samples.iter().any(|text| text.as_bytes() == bytes),
+                        "{} bytes",
+                        bytes.len()
+                    );
                     let posterior = Posterior::from_csv(FILE, &bytes).unwrap();
                     assert_eq!(posterior.members().len(), 100_000);
                 }
@@ -104,6 +108,9 @@ mod tests {
             }
         }
         // Otherwise nothing was tested: the writer does little else than write.
-        assert!(in_the_middle > 0 && whole > 0, "{in_the_middle} in the middle, {whole} whole");
+        assert!(
+            in_the_middle > 0 && whole > 0,
+            "{in_the_middle} in the middle, {whole} whole"
+        );
     }
 }

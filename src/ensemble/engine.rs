@@ -358,7 +358,9 @@ impl Ensemble {
         let mut residuals = Vec::new();
         self.members(|member| residuals.push(member.windows.residuals()));
         let unexplained = unexplained(&residuals);
-        let lies = RigQuantity::ALL.into_iter().filter(|quantity| unexplained[*quantity as usize]);
+        let lies = RigQuantity::ALL
+            .into_iter()
+            .filter(|quantity| unexplained[*quantity as usize]);
         for quantity in lies {
             let name = channel(quantity).name();
             if let Some(more) = log_ending(format!("the plausible tools do not believe the {name}")) {

@@ -62,7 +62,9 @@ pub(super) fn unexplained(members: &[[Option<f64>; RigQuantity::COUNT]]) -> [boo
     std::array::from_fn(|index| {
         let mut residuals = members.iter().filter_map(|member| member[index]).peekable();
         // A window without a measurement says nothing of its sensor.
-        let Some(first) = residuals.peek().copied() else { return false };
+        let Some(first) = residuals.peek().copied() else {
+            return false;
+        };
         residuals.all(|residual| residual * first.signum() > BEYOND)
     })
 }

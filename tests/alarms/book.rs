@@ -13,7 +13,8 @@ use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::diagnostic_msgs::DiagnosticStatus;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{
-    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, Bands, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr, topics,
+    AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, Bands, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr,
+    topics,
 };
 use flexdrill::rig_inputs::Measured;
 use flexdrill::rig_inputs::{Driver, DriverId, Drivers, Rule};
@@ -68,11 +69,18 @@ fn plausible_tools_say_what_they_do_and_silence_nothing() {
         members: 12,
         ..Bands::default()
     });
-    let whirl = with.alarms.iter_mut().find(|alarm| alarm.id == "backward_whirl").unwrap();
+    let whirl = with
+        .alarms
+        .iter_mut()
+        .find(|alarm| alarm.id == "backward_whirl")
+        .unwrap();
     assert!(whirl.active && whirl.priority == Alarm::HIGH);
     // 1,700,000,000 s are 22:13:20; the second that is spoken of is 11 s old.
     let words = " At 22:14:08 UTC it stood in none of 12 plausible tools.";
-    let evidence = whirl.evidence.strip_suffix(words).unwrap_or_else(|| panic!("{}", whirl.evidence));
+    let evidence = whirl
+        .evidence
+        .strip_suffix(words)
+        .unwrap_or_else(|| panic!("{}", whirl.evidence));
     whirl.evidence = evidence.to_owned();
     // By their words: values that are not known are not equal to themselves.
     assert_eq!(format!("{with:?}"), format!("{without:?}"));

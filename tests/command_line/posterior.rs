@@ -11,7 +11,8 @@ const KEY: &str = "contact.outer.friction_tangential";
 
 /// A tool whose plausible tools are drawn from `sample.csv` next to it.
 fn configuration(folder: &Path, more: &str) -> std::path::PathBuf {
-    let mut text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/small.yaml")).unwrap();
+    let mut text =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/small.yaml")).unwrap();
     text += &format!(
         "uncertainty:\n  keys:\n    - {{key: {KEY}, distribution: {{log_normal: {{low: 0.2, high: 0.4}}}}, source: a \
          test}}\nensemble: {{members: 8, from: {{posterior: sample.csv}}{more}}}\n"
@@ -46,7 +47,11 @@ fn check(config: &Path) -> (Option<i32>, String) {
         .arg(config)
         .output()
         .unwrap();
-    let said = if output.status.success() { output.stdout } else { output.stderr };
+    let said = if output.status.success() {
+        output.stdout
+    } else {
+        output.stderr
+    };
     (output.status.code(), String::from_utf8_lossy(&said).into_owned())
 }
 
@@ -76,7 +81,10 @@ fn check_refuses_the_sample_that_a_node_would_refuse() {
     let config = configuration(folder.path(), "");
     let refused = |words: &str| {
         let (code, said) = check(&config);
-        assert!(code == Some(1) && said.contains(words) && said.contains("sample.csv"), "{said}");
+        assert!(
+            code == Some(1) && said.contains(words) && said.contains("sample.csv"),
+            "{said}"
+        );
     };
     refused("cannot be read");
     write_sample(&config, 0.3, |from| from.tool = "cd".repeat(32));

@@ -69,7 +69,11 @@ impl Runs<'_> {
     /// fails speaks against the change, because what would have followed is unknown.
     fn member(&self, trial: &Trial, seed: u64, number: usize, member: u32, span: Span) -> Option<Outcome> {
         let config = self.start.config();
-        let Leading { alarm, standing, shelved } = self.leading;
+        let Leading {
+            alarm,
+            standing,
+            shelved,
+        } = self.leading;
         let run = disturbed(&self.start.run(), seed, number, member);
         let at = point(self.from, trial.change);
         let target = self.start.target(&Candidate {

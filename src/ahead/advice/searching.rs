@@ -329,7 +329,9 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
             let Course { tried, spent, .. } = &*course;
             let this = &tried[index];
             let span = Span::confirming(this.within);
-            let numbers: Vec<u32> = (0..until).filter(|number| this.fresh[*number as usize].is_none()).collect();
+            let numbers: Vec<u32> = (0..until)
+                .filter(|number| this.fresh[*number as usize].is_none())
+                .collect();
             let against = AtomicU32::new(this.against(goal));
             // Members run until so many are against that the change is out; the others need not run then, whichever they
             // are.

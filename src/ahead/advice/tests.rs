@@ -209,10 +209,16 @@ fn a_first_answer_is_one_that_helps_more_often_than_not() {
     assert_eq!(counts(&[9]), [(4, 4), (8, 8), (9, 10)]);
     // All changes are refuted by the last two members, after a first answer each. None stays.
     let (last, heard) = searched(&[WHIRL], from, &trials, |_, number, span| {
-        if span.lasting > 0.0 && number >= 8 { open(&[WHIRL]) } else { DONE }
+        if span.lasting > 0.0 && number >= 8 {
+            open(&[WHIRL])
+        } else {
+            DONE
+        }
     });
     assert!(last.tested.is_none() && last.until_first.is_nan());
-    let refuted = heard.windows(2).filter(|two| two[0].first.is_some() && two[1].first.is_none());
+    let refuted = heard
+        .windows(2)
+        .filter(|two| two[0].first.is_some() && two[1].first.is_none());
     assert_eq!(refuted.count(), trials.len());
     assert_eq!(last.changes, trials.len());
 }
@@ -246,15 +252,26 @@ fn what_ends_the_alarm_is_found_wherever_it_is() {
     let from = [120.0, 10.0];
     let trials = trials(&config(), &Advice::default(), from[0], from[1]);
     for ends in (1_u32..1 << trials.len()).step_by(13) {
-        let helps = |trial: &Trial| trials.iter().position(|other| other == trial).is_some_and(|at| ends >> at & 1 == 1);
+        let helps = |trial: &Trial| {
+            trials
+                .iter()
+                .position(|other| other == trial)
+                .is_some_and(|at| ends >> at & 1 == 1)
+        };
         let (found, _) = searched(&[WHIRL], from, &trials, |trial, _, _| {
             if helps(trial) { DONE } else { open(&[WHIRL]) }
         });
         let change = found.tested.unwrap().change;
-        assert!(trials.iter().any(|trial| trial.change == change && helps(trial)), "{ends:b}");
+        assert!(
+            trials.iter().any(|trial| trial.change == change && helps(trial)),
+            "{ends:b}"
+        );
         // Where the change helps from one rung of the first ladder on, that rung is found.
         let rungs = ends & 0b1111;
-        if let Some(first) = [0b1111, 0b1110, 0b1100, 0b1000].iter().position(|from_on| rungs == *from_on) {
+        if let Some(first) = [0b1111, 0b1110, 0b1100, 0b1000]
+            .iter()
+            .position(|from_on| rungs == *from_on)
+        {
             assert_eq!(change, trials[first].change, "{ends:b}");
         }
     }

@@ -2,7 +2,7 @@
 
 use super::point;
 use crate::ahead::measured::is_judged_at;
-use crate::alarms::{AlarmId, Change, Knob, rule};
+use crate::alarms::{AlarmId, Change, Knob, TRIED, rule};
 use flexdrill_config::{Advice, Config};
 use flexdrill_core::twin::SimulationSettings;
 
@@ -11,6 +11,8 @@ use flexdrill_core::twin::SimulationSettings;
 /// be another drilling programme.
 const LOWER: [f64; 4] = [0.15, 0.3, 0.5, 0.7];
 const RAISE: [f64; 3] = [0.15, 0.3, 0.5];
+// The words on a rule that is refuted depend on the range that is tried.
+const _: () = assert!(1.0 - LOWER[3] - TRIED[0] < 1e-12 && 1.0 + RAISE[2] == TRIED[1]);
 
 /// A change to be tried.
 #[derive(Debug, Clone, Copy, PartialEq)]

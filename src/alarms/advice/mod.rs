@@ -237,9 +237,7 @@ impl Trial {
                 format!("the twin is searching for a change that ends the alarm, about {seconds} s.")
             }
             // A rule that was tried is not shown any more.
-            Self::NothingFound => {
-                "the twin has tried smaller changes, and none ended the alarm.".to_owned()
-            }
+            Self::NothingFound => "the twin has tried smaller changes, and none ended the alarm.".to_owned(),
         };
         format!(" This is a rule of thumb: {now}")
     }

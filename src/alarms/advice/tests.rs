@@ -199,9 +199,8 @@ fn a_rule_that_the_search_has_refuted_is_not_shown() {
         trial: Some(Trial::NothingFound),
         tested: None,
     };
-    let text = |priority, now: &Operating| {
-        told(&[demand(AlarmId::ChaoticWhirl, priority, slower)], now, &found).remove(0)
-    };
+    let text =
+        |priority, now: &Operating| told(&[demand(AlarmId::ChaoticWhirl, priority, slower)], now, &found).remove(0);
     assert_eq!(
         text(MEDIUM, &at(95.0, 20.0)),
         "Nothing within the limits ends it: the twin has tried other speeds and weights. Call the engineer. If it gets \

@@ -242,7 +242,10 @@ impl Advisor {
         if exchange.stop.is_none() && exchange.search().is_some() {
             stop(&mut exchange.forecast);
         }
-        let answered = exchange.answered.iter().filter_map(|(asked, tested)| Some((asked, (*tested)?)));
+        let answered = exchange
+            .answered
+            .iter()
+            .filter_map(|(asked, tested)| Some((asked, (*tested)?)));
         let first = exchange.first.iter().map(|(asked, tested)| (asked, *tested));
         let mut found = answered.chain(first);
         let holds = found.find(|(asked, tested)| asked.is_for(&leading, acting) && tested.lies_ahead(set));

@@ -458,9 +458,12 @@ fn of_bands() -> Vec<Variable> {
         Some(Variant::from(u64::from(bands.failed)))
     });
     let one = Kind::Number(Unit::One);
-    add("effective", "Number of members alike that they amount to", one, |bands| {
-        number(bands.effective)
-    });
+    add(
+        "effective",
+        "Number of members alike that they amount to",
+        one,
+        |bands| number(bands.effective),
+    );
     add(
         "any_alarm",
         "Share of them in which any alarm of the tool stands",
@@ -516,14 +519,16 @@ mod tests {
             members: 12,
             effective: 11.5,
             any_alarm: f64::NAN,
-            bands: (0..).zip(&known).map(|(index, figure)| FigureBand {
-                name: figure.name.clone(),
-                unit: figure.unit.to_owned(),
-                p5: f64::from(index),
-                p50: f64::from(index) + 0.5,
-                p95: f64::from(index) + 1.0,
-            })
-            .collect(),
+            bands: (0..)
+                .zip(&known)
+                .map(|(index, figure)| FigureBand {
+                    name: figure.name.clone(),
+                    unit: figure.unit.to_owned(),
+                    p5: f64::from(index),
+                    p50: f64::from(index) + 0.5,
+                    p95: f64::from(index) + 1.0,
+                })
+                .collect(),
             ..Bands::default()
         };
         let mut twin = TwinState::default();
@@ -531,7 +536,12 @@ mod tests {
         for (index, figure) in (0..).zip(&known) {
             for (quantile, more) in [("p5", 0.0), ("p50", 0.5), ("p95", 1.0)] {
                 let variable = of(&name(&figure.name, quantile));
-                assert_eq!(variable.value(&twin), Some(Variant::from(f64::from(index) + more)), "{}", figure.name);
+                assert_eq!(
+                    variable.value(&twin),
+                    Some(Variant::from(f64::from(index) + more)),
+                    "{}",
+                    figure.name
+                );
                 let unit = variable.kind.unit().unwrap();
                 let in_message = if unit == Unit::One { "" } else { unit.name() };
                 assert_eq!(in_message.replace('.', " "), figure.unit, "{}", figure.name);
