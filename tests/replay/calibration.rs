@@ -140,3 +140,25 @@ fn a_bag_with_what_the_rig_measured_is_a_log() {
     let (code, _, told) = calibrate(&path, &["--windows", "--from", "3"]);
     assert_eq!(code, Some(2), "{told}");
 }
+
+/// A calibration that is refused leaves the sample of an earlier one as it was: nothing is written before all is known.
+#[test]
+fn a_calibration_that_is_refused_leaves_an_earlier_sample() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = write_log(folder.path(), true, true);
+    let out = folder.path().join("out");
+    std::fs::create_dir(&out).unwrap();
+    std::fs::write(out.join("points.csv"), "points of another configuration\n").unwrap();
+    std::fs::write(out.join("posterior.csv"), "an earlier sample").unwrap();
+    let (code, said, told) = calibrate(&log, &[]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(told.contains("points.csv"), "{told}");
+    let mut left: Vec<_> = std::fs::read_dir(&out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    left.sort();
+    assert_eq!(left, ["points.csv", "posterior.csv"]);
+    let sample = std::fs::read_to_string(out.join("posterior.csv")).unwrap();
+    assert_eq!(sample, "an earlier sample");
+}
