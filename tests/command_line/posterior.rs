@@ -98,7 +98,7 @@ fn check_refuses_the_sample_that_a_node_would_refuse() {
     refused("no posterior of `flexdrill calibrate`");
     // Another file than the one that a recording names.
     write_sample(&config, 0.3, |_| ());
-    let named = configuration(folder.path(), &format!(", posterior_sha256: {}", "0".repeat(64)));
+    let named = configuration(folder.path(), &format!(", posterior_sha256: '{}'", "0".repeat(64)));
     let (code, said) = check(&named);
     assert!(code == Some(1) && said.contains("ensemble.posterior_sha256"), "{said}");
 }
