@@ -33,6 +33,9 @@ const SLOWLY_WITHIN: f64 = 60.0;
 /// five (`docs/measurements.md`).
 const LASTING: f64 = 15.0;
 const LEAST: f64 = 25.0;
+/// Least time of the members that confirm a first answer (s): the driller has it by then, and they can take the time that
+/// alarms need to return slowly.
+const LEAST_OF_LATER: f64 = 40.0;
 
 /// How long alarms have to end in a member, and must stay away then (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,12 +57,12 @@ impl Span {
         }
     }
 
-    /// Of a member that confirms a change.
-    const fn confirming(within: f64) -> Self {
+    /// Of a member that confirms a change, by its number.
+    const fn confirming(within: f64, number: u32) -> Self {
         Self {
             within,
             lasting: LASTING,
-            least: LEAST,
+            least: if number < ASKED_AFTER[0] { LEAST } else { LEAST_OF_LATER },
         }
     }
 }
@@ -328,7 +331,6 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
         for until in ASKED_AFTER {
             let Course { tried, spent, .. } = &*course;
             let this = &tried[index];
-            let span = Span::confirming(this.within);
             let numbers: Vec<u32> = (0..until)
                 .filter(|number| this.fresh[*number as usize].is_none())
                 .collect();
@@ -339,6 +341,7 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
                 if against.load(Ordering::Relaxed) > MOST_AGAINST {
                     return Some(None);
                 }
+                let span = Span::confirming(this.within, *number);
                 let outcome = (self.member)(&this.trial, self.seed ^ FRESH, this.number, *number, span);
                 let outcome = counted(outcome, spent)?;
                 against.fetch_add(outcome.weight(goal), Ordering::Relaxed);
