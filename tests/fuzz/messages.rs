@@ -74,6 +74,7 @@ types! {
     ours::FigureBand,
     ours::Forecast,
     ours::ForecastBand,
+    ours::HoleAhead,
     ours::JointDeflections,
     ours::Reactions,
     ours::Residual,

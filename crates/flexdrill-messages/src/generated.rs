@@ -1263,6 +1263,123 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ForecastBand", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p5", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p50", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p95", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "width", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "compared", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside_members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// Where this tool drills next: what the bit does now, and the next metres with the range of plausible tools, once per second
+    /// of model time. It reads the twin and acts on nothing.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct HoleAhead {
+        /// Stamp: the instant at which the means end, on the rig's clock. Where an answer is to come the message follows once it is
+        /// there, some seconds later. Frame: the tool.
+        pub header: super::std_msgs::Header,
+        /// Whether the hole ahead is known. Where it is false, all from build_rate on that says where the tool drills is NaN, and the
+        /// arrays are empty.
+        pub known: bool,
+        /// Why it is not known, in one sentence; empty where it is.
+        pub because: std::string::String,
+        /// Time that the means cover (s): whole turns, or all that is there where it is less than one turn.
+        pub window: f64,
+        /// Whole turns of the bit in that time; 0 where the bit stands or turns more slowly.
+        pub turns: u32,
+        /// Measured depth of the bit, from the kick-off (m).
+        pub measured_depth: f64,
+        /// Inclination of the hole at the bit (rad): 0 is straight down.
+        pub inclination: f64,
+        /// Azimuth of the hole at the bit (rad), clockwise seen from above: 0 is the plane of the configured hole.
+        pub azimuth: f64,
+        /// Force of the bit on the rock across the hole (N), to the low side: above 0 it drops.
+        pub side_force_low: f64,
+        /// The same to the right, seen down the hole (N): above 0 it walks to the right.
+        pub side_force_right: f64,
+        /// Standard errors of these means (N); NaN with fewer than 3 whole turns.
+        pub side_force_low_error: f64,
+        pub side_force_right_error: f64,
+        /// Tilt of the guide's last node against the hole (rad), to the low side: below 0 the bit points up and builds.
+        pub tilt_low: f64,
+        /// The same to the right (rad).
+        pub tilt_right: f64,
+        /// Direction in which the bit drills against the hole's (rad), to the low side: tilt and side force together by the law of the
+        /// bit. Below 0 it builds more than the hole at the bit does. NaN where the bit cuts nothing.
+        pub turn_low: f64,
+        /// The same to the right (rad).
+        pub turn_right: f64,
+        /// Weight on the bit (N); 0 off bottom.
+        pub weight_on_bit: f64,
+        /// The part of it that cuts (N): without the wear flats. 0 where the bit cuts nothing.
+        pub weight_that_cuts: f64,
+        /// Torque of the rock against the bit (N m).
+        pub torque: f64,
+        /// The instant of the means that the answer is for, on the rig's clock; 0 without an answer.
+        pub answered: super::builtin_interfaces::Time,
+        /// Side force to the low side of the guide at rest in this hole, by the statics that the hole is grown with (N). The hole ahead
+        /// is not known where that of the twin differs by more than 3 standard errors and 5 %. NaN without an answer.
+        pub side_force_low_at_rest: f64,
+        /// Build rate over the next metre (rad/m): above 0 the inclination rises. Low and high: 5 and 95 % of the plausible tools. NaN
+        /// where it is not known.
+        pub build_rate: f64,
+        pub build_rate_low: f64,
+        pub build_rate_high: f64,
+        /// Walk rate over the next metre (rad/m): above 0 the azimuth turns to the right. NaN where it is not known, or the hole is
+        /// within 3 deg of the vertical.
+        pub walk_rate: f64,
+        pub walk_rate_low: f64,
+        pub walk_rate_high: f64,
+        /// Radius of the hole over the next metre (m), whatever its direction; infinite where it is straight. NaN where it is not known.
+        pub radius: f64,
+        pub radius_low: f64,
+        pub radius_high: f64,
+        /// Steering number P: lateral resistance of the bit against the bending of the guide, in a long arc. NaN where it is not known.
+        pub steering_number: f64,
+        /// Length between the bit and where the guide lies on the wall, in a long arc (m). NaN where it is not known.
+        pub free_length: f64,
+        /// Whether the hole ripples: P is below 2.2; false where it is not known.
+        pub ripples: bool,
+        /// Smallest and largest radius in a long arc that this guide drills at the present weight, with any bit and any rock (m). NaN
+        /// where it is not known.
+        pub radius_any_bit_low: f64,
+        pub radius_any_bit_high: f64,
+        /// Measured depth from the kick-off (m); the first is that of the bit when the answer was computed.
+        pub measured_depths: Vec<f64>,
+        /// Inclination (rad), and 5 and 95 % of the plausible tools.
+        pub inclinations: Vec<f64>,
+        pub inclinations_low: Vec<f64>,
+        pub inclinations_high: Vec<f64>,
+        /// Azimuth (rad), and 5 and 95 % of the plausible tools.
+        pub azimuths: Vec<f64>,
+        pub azimuths_low: Vec<f64>,
+        pub azimuths_high: Vec<f64>,
+        /// Position from the kick-off, X horizontal in the plane of the configured hole (m).
+        pub position_x: Vec<f64>,
+        /// Position, Y horizontal, to the right (m).
+        pub position_y: Vec<f64>,
+        /// Position, Z down (m).
+        pub position_z: Vec<f64>,
+        /// Half of the width that 90 % of the plausible tools have across the hole, towards its high side (m).
+        pub half_width_high: Vec<f64>,
+        /// The same to the right (m).
+        pub half_width_right: Vec<f64>,
+        /// Plausible tools that were computed, and those without a result. What the latter drill is unknown.
+        pub members: u32,
+        pub failed: u32,
+        /// Surveys that the answer rests on, and how far the bit is beyond the last of them (m; NaN without any). No survey is used yet.
+        pub surveys_used: u32,
+        pub since_survey: f64,
+    }
+
+    impl Message for HoleAhead {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "HoleAhead";
+        const ROS_TYPE: &'static str = "flexdrill/msg/HoleAhead";
+        const DDS_TYPE: &'static str = "flexdrill::msg::dds_::HoleAhead_";
+        const RIHS01: &'static str = "RIHS01_373086a586ff9050f068017a20a9c8f8705ea406718b61c674cb02dcc18aba49";
+        const SCHEMA: &'static str = concat!(
+            include_str!("../../../msg/HoleAhead.msg"),
+            "================================================================================\nMSG: std_msgs/Header\n",
+            include_str!("../../../crates/flexdrill-messages/external/std_msgs/msg/Header.msg"),
+            "================================================================================\nMSG: builtin_interfaces/Time\n",
+            include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
+        );
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/HoleAhead", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "known", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "because", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "window", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "turns", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclination", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "azimuth", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "side_force_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "side_force_right", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "side_force_low_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "side_force_right_error", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "tilt_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "tilt_right", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "turn_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "turn_right", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_that_cuts", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "torque", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "answered", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "side_force_low_at_rest", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "build_rate", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "build_rate_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "build_rate_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "walk_rate", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "walk_rate_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "walk_rate_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "radius", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "radius_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "radius_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "steering_number", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "free_length", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "ripples", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "radius_any_bit_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "radius_any_bit_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "measured_depths", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclinations", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclinations_low", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inclinations_high", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "azimuths", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "azimuths_low", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "azimuths_high", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "position_x", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "position_y", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "position_z", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "half_width_high", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "half_width_right", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "surveys_used", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "since_survey", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
     /// entry 0 is joint_01 of joint_states.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -4667,6 +4784,7 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::FigureBand as super::Message>::INFO,
     <flexdrill::Forecast as super::Message>::INFO,
     <flexdrill::ForecastBand as super::Message>::INFO,
+    <flexdrill::HoleAhead as super::Message>::INFO,
     <flexdrill::JointDeflections as super::Message>::INFO,
     <flexdrill::Reactions as super::Message>::INFO,
     <flexdrill::Residual as super::Message>::INFO,

@@ -905,6 +905,178 @@ export function decodeForecast(reader: CdrReader): Forecast {
 }
 
 /**
+ * Where this tool drills next: what the bit does now, and the next metres with the range of plausible tools, once per second
+ * of model time. It reads the twin and acts on nothing.
+ */
+export interface HoleAhead {
+  /**
+   * Stamp: the instant at which the means end, on the rig's clock. Where an answer is to come the message follows once it is
+   * there, some seconds later. Frame: the tool.
+   */
+  header: Header;
+  /**
+   * Whether the hole ahead is known. Where it is false, all from build_rate on that says where the tool drills is NaN, and the
+   * arrays are empty.
+   */
+  known: boolean;
+  /** Why it is not known, in one sentence; empty where it is. */
+  because: string;
+  /** Time that the means cover (s): whole turns, or all that is there where it is less than one turn. */
+  window: number;
+  /** Whole turns of the bit in that time; 0 where the bit stands or turns more slowly. */
+  turns: number;
+  /** Measured depth of the bit, from the kick-off (m). */
+  measured_depth: number;
+  /** Inclination of the hole at the bit (rad): 0 is straight down. */
+  inclination: number;
+  /** Azimuth of the hole at the bit (rad), clockwise seen from above: 0 is the plane of the configured hole. */
+  azimuth: number;
+  /** Force of the bit on the rock across the hole (N), to the low side: above 0 it drops. */
+  side_force_low: number;
+  /** The same to the right, seen down the hole (N): above 0 it walks to the right. */
+  side_force_right: number;
+  /** Standard errors of these means (N); NaN with fewer than 3 whole turns. */
+  side_force_low_error: number;
+  side_force_right_error: number;
+  /** Tilt of the guide's last node against the hole (rad), to the low side: below 0 the bit points up and builds. */
+  tilt_low: number;
+  /** The same to the right (rad). */
+  tilt_right: number;
+  /**
+   * Direction in which the bit drills against the hole's (rad), to the low side: tilt and side force together by the law of the
+   * bit. Below 0 it builds more than the hole at the bit does. NaN where the bit cuts nothing.
+   */
+  turn_low: number;
+  /** The same to the right (rad). */
+  turn_right: number;
+  /** Weight on the bit (N); 0 off bottom. */
+  weight_on_bit: number;
+  /** The part of it that cuts (N): without the wear flats. 0 where the bit cuts nothing. */
+  weight_that_cuts: number;
+  /** Torque of the rock against the bit (N m). */
+  torque: number;
+  /** The instant of the means that the answer is for, on the rig's clock; 0 without an answer. */
+  answered: Time;
+  /**
+   * Side force to the low side of the guide at rest in this hole, by the statics that the hole is grown with (N). The hole ahead
+   * is not known where that of the twin differs by more than 3 standard errors and 5 %. NaN without an answer.
+   */
+  side_force_low_at_rest: number;
+  /**
+   * Build rate over the next metre (rad/m): above 0 the inclination rises. Low and high: 5 and 95 % of the plausible tools. NaN
+   * where it is not known.
+   */
+  build_rate: number;
+  build_rate_low: number;
+  build_rate_high: number;
+  /**
+   * Walk rate over the next metre (rad/m): above 0 the azimuth turns to the right. NaN where it is not known, or the hole is
+   * within 3 deg of the vertical.
+   */
+  walk_rate: number;
+  walk_rate_low: number;
+  walk_rate_high: number;
+  /** Radius of the hole over the next metre (m), whatever its direction; infinite where it is straight. NaN where it is not known. */
+  radius: number;
+  radius_low: number;
+  radius_high: number;
+  /** Steering number P: lateral resistance of the bit against the bending of the guide, in a long arc. NaN where it is not known. */
+  steering_number: number;
+  /** Length between the bit and where the guide lies on the wall, in a long arc (m). NaN where it is not known. */
+  free_length: number;
+  /** Whether the hole ripples: P is below 2.2; false where it is not known. */
+  ripples: boolean;
+  /**
+   * Smallest and largest radius in a long arc that this guide drills at the present weight, with any bit and any rock (m). NaN
+   * where it is not known.
+   */
+  radius_any_bit_low: number;
+  radius_any_bit_high: number;
+  /** Measured depth from the kick-off (m); the first is that of the bit when the answer was computed. */
+  measured_depths: Float64Array;
+  /** Inclination (rad), and 5 and 95 % of the plausible tools. */
+  inclinations: Float64Array;
+  inclinations_low: Float64Array;
+  inclinations_high: Float64Array;
+  /** Azimuth (rad), and 5 and 95 % of the plausible tools. */
+  azimuths: Float64Array;
+  azimuths_low: Float64Array;
+  azimuths_high: Float64Array;
+  /** Position from the kick-off, X horizontal in the plane of the configured hole (m). */
+  position_x: Float64Array;
+  /** Position, Y horizontal, to the right (m). */
+  position_y: Float64Array;
+  /** Position, Z down (m). */
+  position_z: Float64Array;
+  /** Half of the width that 90 % of the plausible tools have across the hole, towards its high side (m). */
+  half_width_high: Float64Array;
+  /** The same to the right (m). */
+  half_width_right: Float64Array;
+  /** Plausible tools that were computed, and those without a result. What the latter drill is unknown. */
+  members: number;
+  failed: number;
+  /** Surveys that the answer rests on, and how far the bit is beyond the last of them (m; NaN without any). No survey is used yet. */
+  surveys_used: number;
+  since_survey: number;
+}
+/** Reads a `flexdrill/msg/HoleAhead`. */
+export function decodeHoleAhead(reader: CdrReader): HoleAhead {
+  return {
+    header: decodeHeader(reader),
+    known: reader.bool(),
+    because: reader.string(),
+    window: reader.float64(),
+    turns: reader.uint32(),
+    measured_depth: reader.float64(),
+    inclination: reader.float64(),
+    azimuth: reader.float64(),
+    side_force_low: reader.float64(),
+    side_force_right: reader.float64(),
+    side_force_low_error: reader.float64(),
+    side_force_right_error: reader.float64(),
+    tilt_low: reader.float64(),
+    tilt_right: reader.float64(),
+    turn_low: reader.float64(),
+    turn_right: reader.float64(),
+    weight_on_bit: reader.float64(),
+    weight_that_cuts: reader.float64(),
+    torque: reader.float64(),
+    answered: decodeTime(reader),
+    side_force_low_at_rest: reader.float64(),
+    build_rate: reader.float64(),
+    build_rate_low: reader.float64(),
+    build_rate_high: reader.float64(),
+    walk_rate: reader.float64(),
+    walk_rate_low: reader.float64(),
+    walk_rate_high: reader.float64(),
+    radius: reader.float64(),
+    radius_low: reader.float64(),
+    radius_high: reader.float64(),
+    steering_number: reader.float64(),
+    free_length: reader.float64(),
+    ripples: reader.bool(),
+    radius_any_bit_low: reader.float64(),
+    radius_any_bit_high: reader.float64(),
+    measured_depths: reader.float64Array(reader.length()),
+    inclinations: reader.float64Array(reader.length()),
+    inclinations_low: reader.float64Array(reader.length()),
+    inclinations_high: reader.float64Array(reader.length()),
+    azimuths: reader.float64Array(reader.length()),
+    azimuths_low: reader.float64Array(reader.length()),
+    azimuths_high: reader.float64Array(reader.length()),
+    position_x: reader.float64Array(reader.length()),
+    position_y: reader.float64Array(reader.length()),
+    position_z: reader.float64Array(reader.length()),
+    half_width_high: reader.float64Array(reader.length()),
+    half_width_right: reader.float64Array(reader.length()),
+    members: reader.uint32(),
+    failed: reader.uint32(),
+    surveys_used: reader.uint32(),
+    since_survey: reader.float64(),
+  };
+}
+
+/**
  * Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
  * entry 0 is joint_01 of joint_states.
  */
@@ -2327,6 +2499,7 @@ export const DECODERS = {
   "flexdrill/msg/FigureBand": decodeFigureBand,
   "flexdrill/msg/Forecast": decodeForecast,
   "flexdrill/msg/ForecastBand": decodeForecastBand,
+  "flexdrill/msg/HoleAhead": decodeHoleAhead,
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/Residual": decodeResidual,

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use flexdrill_messages::{
     Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, FigureBand,
-    Forecast, ForecastBand, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs, RigMeasured,
+    Forecast, ForecastBand, HoleAhead, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs, RigMeasured,
     SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr,
     visualization_msgs::MarkerArray,
 };
@@ -174,6 +174,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<RigMeasured>(&mut maker),
         reference::<Residual>(&mut maker),
         reference::<Residuals>(&mut maker),
+        reference::<HoleAhead>(&mut maker),
     ];
     let fresh = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(REFERENCE);
