@@ -10,11 +10,12 @@
 //! - [`node`]: the ROS 2 node: its stages, threads, services and parameters.
 //! - [`ahead`]: runs from forks of the present state: what would be under other speeds and weights.
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
-//! - [`hole_ahead`]: where a tool drills next, with the range of plausible tools.
+//! - [`hole_ahead`]: where the tool of a configuration drills next, with a plan.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
-//! - [`ensemble`]: plausible tools that run with the twin, and what they do together.
+//! - [`ensemble`]: plausible tools that run with the twin, and what they do together. [`drilling`]: where a tool drills next,
+//!   with the range of plausible tools, also under the load of a live twin.
 //! - [`runs`]: runs that need nothing of each other, on threads, and kept.
 //! - [`residuals`]: what the rig measures against what the twin computes, once per second.
 //! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
@@ -32,6 +33,7 @@ pub mod alarms;
 #[cfg(feature = "bridge")]
 pub mod bridge;
 pub mod cli;
+pub mod drilling;
 pub mod ensemble;
 pub mod health;
 #[cfg(feature = "sweep")]

@@ -211,6 +211,7 @@ impl Publisher {
         }
         self.send_forecast();
         log_unsent(self.session.publish_bands(false, &mut NodeHost::all(&self.parts)));
+        log_unsent(self.session.publish_hole(false, &mut NodeHost::all(&self.parts)));
         // Requests of operators are answered before the list is published,
         // so that an acknowledgement is in the next list.
         let PublisherParts { alarms, clocks, .. } = &mut self.parts;

@@ -10,7 +10,7 @@ use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::n_to_kn;
 use flexdrill_motion::{BIT, KICK_OFF};
 
-use super::soft_string::weights;
+use crate::drilling::loads::weights;
 
 /// Shortest time of a mean (s): two turns at 40 r/min.
 const SHORTEST_WINDOW: f64 = 3.0;

@@ -19,9 +19,10 @@
 //! M = mu_t r integral |w_p sin i - T kappa| ds.
 //! ```
 
-use flexdrill_core::tool::{RockLaw, SectionProperties, ToolDescription, Weakening, WellPath};
+use flexdrill_core::tool::{ToolDescription, WellPath};
 
 use super::Load;
+use crate::drilling::loads::{bit_torque, weights};
 
 /// Pieces into which the hole is divided: 1.5 cm of 60 m.
 const PIECES: usize = 4000;
@@ -71,13 +72,6 @@ impl SoftString {
     }
 }
 
-/// Weight per length of guide and pipe (N/m), in mud.
-pub(crate) fn weights(tool: &ToolDescription) -> [f64; 2] {
-    let mass = |tube| SectionProperties::of(tube, tool.material, 1.0).mass;
-    let pipe = tool.pipe_sections.iter().map(|&tube| mass(tube)).sum::<f64>() / tool.pipe_sections.len() as f64;
-    [tool.gravity * mass(tool.guide_section), tool.gravity * pipe]
-}
-
 /// Radius at which the pipe touches the guide (m).
 fn radius(tool: &ToolDescription) -> f64 {
     tool.pipe_contact_diameters
@@ -85,24 +79,6 @@ fn radius(tool: &ToolDescription) -> f64 {
         .chain(tool.pipe_sections.iter().map(|tube| &tube.outer_diameter))
         .fold(0.0_f64, |widest, &diameter| widest.max(diameter))
         / 2.0
-}
-
-/// Torque of the rock (N m) at a steady weight (N) and speed (rad/s).
-pub(crate) fn bit_torque(tool: &ToolDescription, weight: f64, speed: f64) -> f64 {
-    let by_weight = tool.bit.friction_factor * tool.bit.diameter / 3.0 * weight;
-    let factor = |falls: &Weakening| 1.0 + (falls.ratio - 1.0) * libm::exp(-speed.abs() / falls.rate);
-    match &tool.rock {
-        RockLaw::Weakening(falls) => by_weight * factor(falls),
-        RockLaw::DepthOfCut(cut) => {
-            let radius = tool.bit.diameter / 2.0;
-            let flats = weight.min(cut.wear_flat_force);
-            let depth = (weight - flats) / (cut.cutter_inclination * cut.specific_energy * radius);
-            0.5 * cut.specific_energy * radius * radius * depth
-                + 0.5 * cut.wear_flat_friction * radius * flats * factor(&cut.weakening)
-        }
-        // The paper's Eq. 1.
-        _ => by_weight,
-    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod tests;
 use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
+use crate::drilling::live::{LiveHole, Ready};
 use crate::ensemble::{self, Found, Running, Told};
 use crate::residuals::{Comparison, RigComparison, Samples, predicted};
 use crate::safe_window::SafeWindow;
@@ -55,6 +56,8 @@ pub struct Session {
     ensemble: Option<Running>,
     /// Ticks and instant at which those of the newest bands began: a clock that is set must not give them another one.
     begun: Option<(u64, i64)>,
+    /// Where the tool drills next.
+    hole: LiveHole,
     /// None before the instant of the first step is known, and in a run that publishes nothing.
     outputs: Option<Outputs>,
 }
@@ -65,6 +68,7 @@ impl Session {
     pub fn new(config: Arc<Config>, alarms: AlarmBook) -> Self {
         Self {
             rig: RigComparison::new(&config),
+            hole: LiveHole::new(&config),
             config,
             alarms,
             residuals: None,
@@ -175,6 +179,7 @@ impl Session {
     ) -> Result<(), H::Error> {
         if inputs.reset {
             self.rig.restart();
+            self.hole.reset();
         }
         if let Some(ensemble) = &self.ensemble {
             ensemble.tell(Told::Applied(ticks, Box::new(*inputs), Arc::clone(&self.config)));
@@ -198,6 +203,7 @@ impl Session {
         if frame.due.has(Output::Alarms) {
             let stamp = outputs.instant(frame.ticks);
             self.observe(&frame.snapshot, stamp);
+            self.hole.observe(frame);
             host.judged(&mut self.alarms, &frame.snapshot);
             self.compare(frame, stamp, host)?;
         }
@@ -285,6 +291,32 @@ impl Session {
                 topic: &topics::BANDS,
                 stamp,
                 cdr: &to_cdr(&bands)?,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Publishes where the tool drills next, up to the first message whose answer is not there. Where the run can `wait` for
+    /// it, it does.
+    ///
+    /// # Errors
+    /// As [`Session::begin`].
+    pub fn publish_hole<H: Host>(&mut self, wait: bool, host: &mut H) -> Result<(), H::Error> {
+        while let Some(Ready {
+            ticks,
+            answered,
+            mut message,
+        }) = self.hole.take(wait)
+        {
+            // Frames come only once the instant of the first step is known.
+            let Some(stamp) = self.instant(ticks) else { continue };
+            message.header = self.header(stamp);
+            let answered = answered.and_then(|ticks| self.instant(ticks));
+            message.answered = answered.map_or_else(Time::default, Time::from_nanoseconds);
+            host.send(Encoded {
+                topic: &topics::HOLE_AHEAD,
+                stamp,
+                cdr: &to_cdr(&message)?,
             })?;
         }
         Ok(())

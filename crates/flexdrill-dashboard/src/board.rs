@@ -32,7 +32,7 @@ const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
 const EXAGGERATION: &str = "outputs.exaggeration";
 /// Outputs of which the server keeps the age alone.
-const AGE_ONLY: [&str; 9] = [
+const AGE_ONLY: [&str; 10] = [
     topics::JOINT_STATES.name,
     topics::DIAGNOSTICS.name,
     topics::AGEING.name,
@@ -40,6 +40,7 @@ const AGE_ONLY: [&str; 9] = [
     topics::TRANSFER.name,
     topics::FORECAST.name,
     topics::BANDS.name,
+    topics::HOLE_AHEAD.name,
     topics::SAFE_WINDOW.name,
     topics::RESIDUALS.name,
 ];

@@ -261,6 +261,7 @@ impl Player {
         if judges {
             self.publish_alarms(stamp)?;
             self.session.publish_bands(false, &mut self.sink)?;
+            self.session.publish_hole(true, &mut self.sink)?;
         }
         self.sink.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())

@@ -77,7 +77,8 @@ impl Schedule {
     }
 
     /// Which statistics end with this snapshot: those of the contacts with the contact forces, and those of the bit with the
-    /// bit's state. An output that is off leaves its statistics to the other one.
+    /// bit's state. An output that is off leaves its statistics to the other one. Those of the bit across the hole end with the
+    /// judging of the alarms.
     pub fn ends_interval(&self, step: u64) -> EndsInterval {
         let due = self.due(step);
         let ends = |output: Output, other: Output| match self.every[output as usize] {
@@ -87,6 +88,7 @@ impl Schedule {
         EndsInterval {
             contacts: ends(Output::ContactForces, Output::BitState),
             bit: ends(Output::BitState, Output::ContactForces),
+            steering: due.has(Output::Alarms),
         }
     }
 
@@ -111,6 +113,8 @@ pub struct EndsInterval {
     pub contacts: bool,
     /// Means, root mean squares and peaks of the bit.
     pub bit: bool,
+    /// Means of what the bit does across the hole.
+    pub steering: bool,
 }
 
 impl EndsInterval {
@@ -118,11 +122,13 @@ impl EndsInterval {
     pub const ALL: Self = Self {
         contacts: true,
         bit: true,
+        steering: true,
     };
     /// None.
     pub const NONE: Self = Self {
         contacts: false,
         bit: false,
+        steering: false,
     };
 }
 
@@ -171,9 +177,9 @@ mod tests {
     fn schedule() -> Schedule {
         Schedule::new(0.5e-3, |output| match output {
             Output::JointDeflections | Output::JointStates | Output::BitState => 50.0,
-            Output::ContactForces => 25.0,
+            Output::ContactForces | Output::Alarms => 25.0,
             Output::Whirl => 10.0,
-            Output::ToolShape | Output::Ageing | Output::Reactions | Output::Transfer | Output::Alarms => 0.0,
+            Output::ToolShape | Output::Ageing | Output::Reactions | Output::Transfer => 0.0,
         })
     }
 
@@ -189,7 +195,7 @@ mod tests {
 
     #[test]
     fn the_start_shows_everything_that_is_on() {
-        assert_eq!(schedule().due(0).iter().count(), 5);
+        assert_eq!(schedule().due(0).iter().count(), 6);
         assert!(schedule().due(1).is_empty());
     }
 
@@ -211,7 +217,11 @@ mod tests {
         assert_eq!(schedule().ends_interval(41), EndsInterval::NONE);
         for only in [Output::BitState, Output::ContactForces] {
             let off = Schedule::new(0.5e-3, |output| if output == only { 50.0 } else { 0.0 });
-            assert_eq!(off.ends_interval(40), EndsInterval::ALL);
+            let both = EndsInterval {
+                steering: false,
+                ..EndsInterval::ALL
+            };
+            assert_eq!(off.ends_interval(40), both);
         }
     }
 

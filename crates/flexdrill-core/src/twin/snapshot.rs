@@ -27,6 +27,8 @@ pub struct Snapshot {
     pub contacts: Contacts,
     /// Torque, speed, load and accelerations of the bit.
     pub bit: Bit,
+    /// What the bit does across the hole.
+    pub steering: Steering,
     /// Forces of the supports and all others from outside.
     pub reactions: Reactions,
     /// Torque, weight and power from the surface to the bit.
@@ -187,6 +189,25 @@ pub struct Bit {
     pub lateral_impulse: f64,
     /// Level that the stick-slip index has reached.
     pub stick_slip: Severity,
+}
+
+/// What the bit does across the hole: means over all steps since the alarms were last judged, a tenth of a second. Components
+/// are (right, low), seen down the hole.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Steering {
+    /// Time of the steps (s); 0 where there were none, and the values are those of the instant.
+    pub duration: f64,
+    /// Torque of the rock against the bit (N m), negative in reverse.
+    pub torque: f64,
+    /// Speed of the bit (rad/s).
+    pub rotary_speed: f64,
+    /// Weight on bit (N).
+    pub weight_on_bit: f64,
+    /// Force of the bit on the rock across the hole (N): minus that of both lower supports.
+    pub side_force: [f64; 2],
+    /// Tilt of the guide's last node against the hole (rad).
+    pub tilt: [f64; 2],
 }
 
 /// What holds the tool at a place.

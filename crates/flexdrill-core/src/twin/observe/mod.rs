@@ -2,11 +2,13 @@
 
 mod hazards;
 mod output;
+mod steering;
 mod step;
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
+use self::steering::SteeringMeans;
 use crate::dynamics::state::{State, inner_lateral};
 use crate::elements::string::StringLine;
 use crate::model::Model;
@@ -37,6 +39,8 @@ pub(super) struct Observer {
     hole_depth: Option<f64>,
     /// Of the bit's torque (N m), speed (rad/s) and weight (N).
     bit: Means,
+    /// Of what the bit does across the hole.
+    steering: SteeringMeans,
     /// Of a preloaded guide with a rating.
     guide_preload: Option<LoadWatch>,
     /// Of a pipe under pressure with a rating.
@@ -90,6 +94,7 @@ impl Observer {
             transfer: TransferWatch::new(&settings.transfer, hoist_response(stepper)),
             hole_depth: stepper.bit_depth(),
             bit: Means::default(),
+            steering: SteeringMeans::default(),
             // A guide as curved as the hole has no preload, whatever the settings say.
             guide_preload: (settings
                 .guide_preload
@@ -188,6 +193,9 @@ impl Observer {
             self.tangential.restart();
             self.axial.restart();
             self.lateral.restart();
+        }
+        if of.steering {
+            self.steering.restart();
         }
     }
 }

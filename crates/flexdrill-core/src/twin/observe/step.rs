@@ -63,6 +63,7 @@ impl Observer {
         let bottom = stepper.bottom_motion();
         let bit = &stepper.interactions().bit;
         self.bit.push(dt, [bit.torque, bottom.spin_rate, bit.weight]);
+        self.steering.push(dt, stepper);
         let radius = 0.5 * model.description.bit.diameter;
         self.tangential.push(dt, radius * bottom.spin_acceleration);
         self.axial.push(dt, bottom.axial_acceleration);

@@ -5,7 +5,7 @@ use flexdrill_core::tool::{HoleInterval, SectionProperties};
 use flexdrill_core::units::{deg_to_rad, n_to_kn};
 use flexdrill_hole::{BitLaw, Gravity, Guide, Hole, HoleError};
 
-use crate::reach::soft_string::{bit_torque, weights};
+use super::loads::{bit_torque, weights};
 
 /// Distance of two stations ahead (m).
 pub const SPACING: f64 = 0.25;

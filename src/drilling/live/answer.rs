@@ -1,0 +1,220 @@
+//! The next metres at a weight: the tool as configured and plausible ones, as `flexdrill ahead` lets them drill.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use flexdrill_config::{BitAxis, Config, FreeBend, Section};
+use flexdrill_core::units::{deg_to_rad, n_to_kn, rad_to_deg};
+use flexdrill_hole::{at_rest, bounds, steady};
+
+use crate::drilling::{Band, Drilling, Long, SPACING, Spread, Station, Track, across, build, drill, spread, turned};
+use crate::drilling::{tool, unknowns};
+
+/// Metres ahead.
+pub const METRES: f64 = 5.0;
+/// Plausible tools: a range needs 19, and some may have no result.
+pub const MEMBERS: usize = 24;
+/// Stations of the next metre.
+const NEXT_METRE: usize = (1.0 / SPACING) as usize;
+/// Sine of the inclination below which an azimuth says nothing: 3 deg from the vertical.
+const STEEP: f64 = 0.052;
+
+/// A number with 5 and 95 % of the plausible tools.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ranged {
+    /// Of the tool as configured.
+    pub value: f64,
+    /// 5 % of the plausible tools are below.
+    pub low: f64,
+    /// 5 % of the plausible tools are above.
+    pub high: f64,
+}
+
+/// Where the tool drills at a weight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ahead {
+    /// Side force to the low side of the guide at rest in the hole (N).
+    pub side_force_low: f64,
+    /// What the tool drills to in a long arc.
+    pub long: Long,
+    /// Arc above the bit (m).
+    pub arc: f64,
+    /// Curvatures (1/m) between which the guide drills in a long arc at this weight, whatever the bit.
+    pub any_bit: [f64; 2],
+    /// The stations of the tool as configured.
+    pub track: Track,
+    /// Where the plausible tools are at each of them; empty with fewer than a range needs.
+    pub spread: Vec<Spread>,
+    /// Build rate, walk rate and curvature over the next metre (rad/m); none with fewer tools than a range needs.
+    pub rates: Option<[Ranged; 3]>,
+    /// Plausible tools with a result, and without.
+    pub members: [u32; 2],
+}
+
+/// Why nothing can be said for a configuration, whatever the load; none where something can.
+pub fn refusal(config: &Config) -> Option<String> {
+    let why = if config.tool.bit.axis() == BitAxis::Link {
+        "the bit is screwed to the last link (tool.bit.axis: link) and points where that link lies, which depends on whirl"
+    } else if config.tool.guide.fixed {
+        "the guide is held at every node (tool.guide.fixed), and such a guide does not drill"
+    } else if config.well.is_straight() {
+        "the hole is straight, and where a curved guide drills depends on the arc that it lies in"
+    } else if matches!(config.tool.guide.free_curvature, FreeBend::Path(_)) {
+        "the shape of the guide is not given (tool.guide.free_curvature: as_built): measure it on a template and set the \
+         curvature as a number"
+    } else {
+        return None;
+    };
+    Some(why.to_owned())
+}
+
+/// Length of the arc above the bit (m).
+fn arc_above_the_bit(config: &Config) -> f64 {
+    let sections = config.well.sections.iter().rev();
+    let arc = sections.take_while(|section| matches!(section, Section::Arc { .. }));
+    arc.map(Section::length).sum()
+}
+
+/// Turn to the right per metre over the next metre (rad/m); NaN near the vertical.
+fn walk(track: &[Station]) -> f64 {
+    let ends = (track.first(), track.get(NEXT_METRE));
+    let (Some(from), Some(to)) = ends else { return f64::NAN };
+    if [from, to].into_iter().any(|at| libm::sin(at.inclination) < STEEP) {
+        return f64::NAN;
+    }
+    turned(to.azimuth - from.azimuth) / (NEXT_METRE as f64 * SPACING)
+}
+
+/// Angle between the directions at both ends of the next metre, per metre (1/m).
+fn curvature(track: &[Station]) -> f64 {
+    let ends = (track.first(), track.get(NEXT_METRE));
+    let (Some(from), Some(to)) = ends else { return f64::NAN };
+    // Components of the later direction across the earlier one, and along it.
+    let direction = |at: &Station| {
+        let ((sine, cosine), (east, north)) = (libm::sincos(at.inclination), libm::sincos(at.azimuth));
+        [sine * north, sine * east, cosine]
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| a.into_iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let [high, right] = across(from).map(|unit| dot(unit, direction(to)));
+    libm::atan2(high.hypot(right), dot(direction(from), direction(to))) / (NEXT_METRE as f64 * SPACING)
+}
+
+/// A rate of the tool as configured, with its range.
+fn ranged(nominal: &[Station], members: &[Result<Track, String>], of: impl Fn(&[Station]) -> f64) -> Option<Ranged> {
+    let band = Band::of(members.iter().flatten().map(|track| of(track)).collect())?;
+    Some(Ranged {
+        value: of(nominal),
+        low: band.low,
+        high: band.high,
+    })
+}
+
+/// Computes the next metres at a weight at the bit (N), with the draws of a seed. The same arguments give the same bits.
+///
+/// # Errors
+/// Why there is no answer, in words; also where `stop` was set.
+pub fn compute(config: &Config, weight: f64, seed: u64, stop: &AtomicBool) -> Result<Ahead, String> {
+    let in_words = |error: &dyn std::fmt::Display| format!("the next metres cannot be computed: {error}");
+    let drilling = Drilling::of(config, weight, 0.0).map_err(|error| in_words(&error))?;
+    let rest = at_rest(&drilling.guide, weight, &drilling.hole).map_err(|error| in_words(&error))?;
+    let inclination = deg_to_rad(config.well.end_inclination_deg());
+    let sine = libm::sin(inclination);
+    // The closed forms are for the hole at the bit.
+    let long = steady(&drilling.guide, &drilling.law, sine).map_err(|error| in_words(&error))?;
+    let any_bit = bounds(&drilling.guide, weight, sine).map_err(|error| in_words(&error))?;
+    let stations = (METRES / SPACING) as usize;
+    let track = drill(&drilling, stations).map_err(|error| in_words(&error))?;
+    let tools = unknowns::members(config, weight, 0.0, MEMBERS, seed).map_err(|error| in_words(&error))?;
+    let mut members = Vec::with_capacity(MEMBERS);
+    for tool in tools {
+        // A node that ends does not wait for tools that are of no use any more.
+        if stop.load(Ordering::Relaxed) {
+            return Err("the run has ended".to_owned());
+        }
+        members.push(tool.and_then(|tool| drill(&tool, stations).map_err(|error| error.to_string())));
+    }
+    let rates = [
+        ranged(&track, &members, |track| build(track, NEXT_METRE)),
+        ranged(&track, &members, walk),
+        ranged(&track, &members, curvature),
+    ];
+    let known = members.iter().flatten().count();
+    let rates = match rates {
+        [Some(build), Some(walk), Some(curvature)] => Some([build, walk, curvature]),
+        _ => None,
+    };
+    Ok(Ahead {
+        side_force_low: rest.side_force.y,
+        long: Long::from(long),
+        arc: arc_above_the_bit(config),
+        any_bit: [any_bit.low, any_bit.high],
+        spread: spread(&track, &members),
+        track,
+        rates,
+        members: [known, MEMBERS - known].map(|count| u32::try_from(count).unwrap_or(u32::MAX)),
+    })
+}
+
+impl Ahead {
+    /// Why this is not to be believed under a weight (N) and a side force to the low side with its standard error (N), where
+    /// it is not.
+    ///
+    /// A guide feels the straight hole above an arc that is shorter than twice its free length. The statics hold the guide
+    /// as its shape and its weight say; where the twin's side force is another one, something else acts on the guide, and
+    /// the hole is grown for a tool that there is not. 0.5 % of the weight is what two programs for the same guide differ by.
+    pub fn doubt(&self, weight: f64, [side_force, error]: [f64; 2]) -> Option<String> {
+        let [known, failed] = self.members;
+        if self.rates.is_none() {
+            return Some(format!(
+                "only {known} of {} plausible tools have a result, and a range needs {}",
+                known + failed,
+                Band::LEAST
+            ));
+        }
+        let needed = 2.0 * self.long.free_length;
+        if self.arc < needed {
+            return Some(format!(
+                "the arc above the bit is {:.2} m long, and this guide needs {needed:.2} m, twice its free length: above a \
+                 shorter arc it feels the straight hole",
+                self.arc
+            ));
+        }
+        let errors = if error.is_finite() { 3.0 * error } else { 0.0 };
+        let tolerance = errors + (0.05 * self.side_force_low.abs()).max(0.005 * weight);
+        let off = (side_force - self.side_force_low).abs();
+        if off.is_nan() || off > tolerance {
+            return Some(format!(
+                "the bit pushes {side_force:.0} N to the low side, and the guide at rest {:.0} N (tolerance {tolerance:.0} N): \
+                 something acts on the guide that this forecast leaves out, such as pressure, shut slots or hinges",
+                self.side_force_low
+            ));
+        }
+        None
+    }
+}
+
+/// Why nothing is known under these means, where that is so; `flats` is the force of the wear flats (N).
+pub fn standing(means: &super::Means, flats: f64) -> Option<String> {
+    if means.weight <= 0.0 {
+        return Some("the bit is off bottom".to_owned());
+    }
+    // 1 r/min: slower than any drive drills.
+    if means.rotary_speed < std::f64::consts::TAU / 60.0 {
+        let reverse = means.rotary_speed < -std::f64::consts::TAU / 60.0;
+        return Some(if reverse { "the bit turns in reverse" } else { "the bit stands" }.to_owned());
+    }
+    if means.weight <= flats {
+        return Some(format!(
+            "all of the weight, {:.2} kN, is on the wear flats of the bit, which carry {:.2} kN: it cuts nothing",
+            n_to_kn(means.weight),
+            n_to_kn(flats)
+        ));
+    }
+    if means.turns == 0 {
+        return Some(format!(
+            "the bit has turned by {:.0} deg in {:.1} s, and means need a whole turn",
+            rad_to_deg(means.rotary_speed * means.window),
+            means.window
+        ));
+    }
+    None
+}

@@ -1,0 +1,111 @@
+//! `HoleAhead` from means and an answer.
+
+use super::Draft;
+use super::answer::{Ahead, Ranged};
+use crate::drilling::SPACING;
+use flexdrill_messages::HoleAhead;
+
+/// What stands where nothing is known.
+const RATES: Ranged = Ranged {
+    value: f64::NAN,
+    low: f64::NAN,
+    high: f64::NAN,
+};
+
+/// The radius of a curvature (m), infinite where there is none or the hole bends the other way.
+fn radius(curvature: f64) -> f64 {
+    if curvature > 0.0 { 1.0 / curvature } else { f64::INFINITY }
+}
+
+/// The message without header and instant of the answer.
+pub fn message(draft: &Draft, ahead: Result<&Ahead, &str>) -> HoleAhead {
+    let mut out = means(draft);
+    let because = match ahead {
+        Err(because) => Some(because.to_owned()),
+        Ok(ahead) => {
+            out.side_force_low_at_rest = ahead.side_force_low;
+            [out.members, out.failed] = ahead.members;
+            let side_force = [out.side_force_low, out.side_force_low_error];
+            ahead.doubt(out.weight_on_bit, side_force)
+        }
+    };
+    match (because, ahead) {
+        (None, Ok(ahead)) => fill(ahead, &mut out),
+        (because, _) => out.because = because.unwrap_or_default(),
+    }
+    out
+}
+
+/// What is known without an answer. All that says where the tool drills is NaN or empty.
+fn means(draft: &Draft) -> HoleAhead {
+    let Draft {
+        means,
+        weight_that_cuts,
+        turn: [turn_right, turn_low],
+        measured_depth,
+        inclination,
+        ..
+    } = *draft;
+    let unknown = f64::NAN;
+    let mut out = HoleAhead {
+        measured_depth,
+        inclination,
+        // The hole lies in one plane.
+        azimuth: 0.0,
+        turn_low,
+        turn_right,
+        weight_that_cuts,
+        side_force_low_at_rest: unknown,
+        steering_number: unknown,
+        free_length: unknown,
+        radius_any_bit_low: unknown,
+        radius_any_bit_high: unknown,
+        since_survey: unknown,
+        window: means.window,
+        turns: means.turns,
+        side_force_low: means.side_force[1],
+        side_force_right: means.side_force[0],
+        side_force_low_error: means.side_force_error[1],
+        side_force_right_error: means.side_force_error[0],
+        tilt_low: means.tilt[1],
+        tilt_right: means.tilt[0],
+        weight_on_bit: means.weight,
+        torque: means.torque,
+        ..HoleAhead::default()
+    };
+    rates(&mut out, [RATES; 3]);
+    out
+}
+
+/// Build rate, walk rate and curvature.
+fn rates(out: &mut HoleAhead, [build, walk, curvature]: [Ranged; 3]) {
+    (out.build_rate, out.build_rate_low, out.build_rate_high) = (build.value, build.low, build.high);
+    (out.walk_rate, out.walk_rate_low, out.walk_rate_high) = (walk.value, walk.low, walk.high);
+    let of = |curvature: f64| if curvature.is_nan() { f64::NAN } else { radius(curvature) };
+    // The larger curvature is the smaller radius.
+    (out.radius, out.radius_low, out.radius_high) = (of(curvature.value), of(curvature.high), of(curvature.low));
+}
+
+/// Where the tool drills.
+fn fill(ahead: &Ahead, out: &mut HoleAhead) {
+    out.known = true;
+    rates(out, ahead.rates.unwrap_or([RATES; 3]));
+    out.steering_number = ahead.long.steering_number;
+    out.free_length = ahead.long.free_length;
+    out.ripples = ahead.long.ripples();
+    let [low, high] = ahead.any_bit;
+    (out.radius_any_bit_low, out.radius_any_bit_high) = (radius(high), radius(low));
+    let depth = |station: usize| out.measured_depth + station as f64 * SPACING;
+    out.measured_depths = (0..ahead.track.len()).map(depth).collect();
+    out.inclinations = ahead.track.iter().map(|at| at.inclination).collect();
+    out.azimuths = ahead.track.iter().map(|at| at.azimuth).collect();
+    let position = |axis: usize| ahead.track.iter().map(|at| at.position[axis]).collect();
+    (out.position_x, out.position_y, out.position_z) = (position(0), position(1), position(2));
+    let of = |number: fn(&crate::drilling::Spread) -> f64| ahead.spread.iter().map(number).collect();
+    out.inclinations_low = of(|at| at.inclination.low);
+    out.inclinations_high = of(|at| at.inclination.high);
+    out.azimuths_low = of(|at| at.azimuth.low);
+    out.azimuths_high = of(|at| at.azimuth.high);
+    out.half_width_high = of(|at| at.high.half());
+    out.half_width_right = of(|at| at.right.half());
+}

@@ -1,0 +1,260 @@
+//! The hole ahead of a live twin: `twin/hole_ahead`.
+//!
+//! Once per second of model time a message has the means of what the bit does across the hole (`means`). Where they can say
+//! where the tool drills (`answer`), the next metres are computed on another thread (`worker`) for the weight of an instant,
+//! and used [`DELAY`] of model time later, until the weight has moved. Which answer a message has is a function of the
+//! frames alone: where it is not there in time, the message and those behind it wait. A replay gives the same messages.
+//! All of it reads the twin and acts on nothing.
+
+mod answer;
+mod means;
+mod message;
+#[cfg(test)]
+mod tests;
+mod worker;
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use flexdrill_config::Config;
+use flexdrill_core::twin::Frame;
+use flexdrill_core::units::n_to_kn;
+use flexdrill_messages::HoleAhead;
+
+use self::answer::{Ahead, refusal, standing};
+use self::means::Window;
+use self::worker::{Asked, Found, Worker};
+use crate::drilling::tool;
+
+pub use means::Means;
+
+/// Model time after which an answer is used (s): several times what it takes.
+pub const DELAY: f64 = 5.0;
+/// Tenths of a second between two messages.
+const MESSAGE: u32 = 10;
+/// Share by which the weight differs from that of an answer before another is asked for.
+const MOVED: f64 = 0.03;
+/// Share by which it differs before that answer is no longer shown. Half of what the plausible tools differ by.
+const OTHER: f64 = 0.06;
+/// Seed of the plausible tools of a configuration without `ensemble`.
+const SEED: u64 = 1;
+/// Answers that are kept.
+const KEPT: usize = 4;
+/// Messages that may wait: half a minute. A computer that is later does not keep up.
+const WAITING: usize = 30;
+
+/// A message before its answer.
+#[derive(Debug, Clone)]
+struct Draft {
+    ticks: u64,
+    means: Means,
+    weight_that_cuts: f64,
+    /// Direction of the hole at the bit against the hole's (right, low) (rad); NaN where nothing cuts.
+    turn: [f64; 2],
+    measured_depth: f64,
+    inclination: f64,
+    /// Ticks of the means whose answer it has, or why it has none.
+    answer: Result<u64, String>,
+}
+
+/// A weight for which an answer was asked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Request {
+    ticks: u64,
+    weight: f64,
+}
+
+/// A message that is ready.
+pub struct Ready {
+    /// Ticks at which its means end.
+    pub ticks: u64,
+    /// Ticks of the means that its answer is for; none without an answer.
+    pub answered: Option<u64>,
+    /// All but the header and the instant of the answer.
+    pub message: HoleAhead,
+}
+
+/// What the session keeps.
+pub struct LiveHole {
+    config: Arc<Config>,
+    /// Why nothing is known, whatever the load.
+    refusal: Option<String>,
+    /// Force of the wear flats (N).
+    flats: f64,
+    /// Ticks of [`DELAY`].
+    delay: u64,
+    window: Window,
+    /// Tenths since the last message.
+    tenths: u32,
+    /// Answers that messages may have, the newest last, and the one that follows.
+    current: VecDeque<Request>,
+    next: Option<Request>,
+    drafts: VecDeque<Draft>,
+    found: BTreeMap<u64, Result<Ahead, String>>,
+    worker: Option<Worker>,
+    /// Whether the run waits for answers.
+    waits: bool,
+    /// Why there are no answers any more.
+    ended: Option<String>,
+}
+
+impl LiveHole {
+    /// For a run with a configuration.
+    pub fn new(config: &Arc<Config>) -> Self {
+        Self {
+            refusal: refusal(config),
+            flats: tool::wear_flats(config),
+            delay: (DELAY / config.solver.time_step).round() as u64,
+            config: Arc::clone(config),
+            window: Window::default(),
+            tenths: 0,
+            current: VecDeque::new(),
+            next: None,
+            drafts: VecDeque::new(),
+            found: BTreeMap::new(),
+            worker: None,
+            waits: false,
+            ended: None,
+        }
+    }
+
+    /// The motion begins again.
+    pub fn reset(&mut self) {
+        self.window.clear();
+        self.tenths = 0;
+    }
+
+    /// Takes a frame at which the alarms are judged, ten times per second: every second one becomes a message.
+    ///
+    /// Parameters that change while a twin runs are frictions and limits of alarms: they do not move the next metres, but
+    /// by way of the weight.
+    pub fn observe(&mut self, frame: &Frame) {
+        let snapshot = &frame.snapshot;
+        self.window.push(snapshot.steering);
+        if snapshot.steering.duration <= 0.0 {
+            return;
+        }
+        self.tenths += 1;
+        if self.tenths < MESSAGE {
+            return;
+        }
+        self.tenths = 0;
+        let Some(means) = self.window.means() else { return };
+        let answer = self.answer_for(&means, frame.ticks);
+        let law = tool::bit(&self.config, means.weight).ok();
+        let turn = law.map(|law| law.turn(means.tilt.into(), means.side_force.into()));
+        let last = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);
+        self.drafts.push_back(Draft {
+            ticks: frame.ticks,
+            means,
+            weight_that_cuts: law.map_or(0.0, |law| law.active_weight),
+            turn: turn.map_or([f64::NAN; 2], Into::into),
+            measured_depth: last(&snapshot.contacts.measured_depth),
+            inclination: last(&snapshot.contacts.inclination),
+            answer,
+        });
+    }
+
+    /// The answer that means at these ticks have. Asks for another one where the weight has moved.
+    fn answer_for(&mut self, means: &Means, ticks: u64) -> Result<u64, String> {
+        if let Some(next) = self.next.take_if(|next| next.ticks + self.delay <= ticks) {
+            self.current.push_back(next);
+            // A weight that is lifted and set again has its answer already.
+            if self.current.len() > KEPT {
+                self.current.pop_front();
+            }
+        }
+        if let Some(why) = &self.refusal {
+            return Err(why.clone());
+        }
+        if let Some(why) = standing(means, self.flats) {
+            return Err(why);
+        }
+        let weight = means.weight;
+        let off = |request: &Request| (weight - request.weight).abs() / request.weight;
+        let nearest = self.current.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
+        if self.next.is_none() && nearest.is_none_or(|request| off(&request) > MOVED) {
+            self.next = Some(Request { ticks, weight });
+            self.ask(ticks, weight);
+        }
+        match nearest {
+            None => Err(format!("the next metres are being computed: they follow within {DELAY:.0} s")),
+            Some(other) if off(&other) > OTHER => Err(format!(
+                "the weight has changed from {:.2} to {:.2} kN: the next metres for it follow within {:.0} s",
+                n_to_kn(other.weight),
+                n_to_kn(weight),
+                2.0 * DELAY
+            )),
+            Some(request) => Ok(request.ticks),
+        }
+    }
+
+    fn ask(&mut self, ticks: u64, weight: f64) {
+        let seed = self.config.ensemble.as_ref().map_or(SEED, |ensemble| ensemble.seed);
+        if self.worker.is_none() && self.ended.is_none() {
+            // A run that waits has nothing else to do.
+            match Worker::start(seed, !self.waits) {
+                Ok(worker) => self.worker = Some(worker),
+                Err(error) => self.ended = Some(format!("the computer has no thread for the next metres: {error}")),
+            }
+        }
+        if let Some(worker) = &self.worker {
+            worker.ask(Asked {
+                ticks,
+                weight,
+                config: Arc::clone(&self.config),
+            });
+        }
+    }
+
+    /// The next message that is ready. Where the run can `wait`, it waits for the answer; otherwise a message that has waited
+    /// for half a minute says so.
+    pub fn take(&mut self, wait: bool) -> Option<Ready> {
+        self.waits = wait;
+        let needs = self.drafts.front()?.answer.as_ref().ok().copied();
+        if let Some(ticks) = needs {
+            self.hear(ticks, wait);
+            let late = self.drafts.len() > WAITING;
+            if !self.found.contains_key(&ticks) && self.ended.is_none() && !late {
+                return None;
+            }
+        }
+        let draft = self.drafts.pop_front()?;
+        let ahead = match &draft.answer {
+            Err(why) => Err(why.as_str()),
+            Ok(ticks) => match self.found.get(ticks) {
+                Some(found) => found.as_ref().map_err(String::as_str),
+                None => Err(self
+                    .ended
+                    .as_deref()
+                    .unwrap_or("the computer does not keep up: the next metres are half a minute late")),
+            },
+        };
+        Some(Ready {
+            ticks: draft.ticks,
+            answered: ahead.is_ok().then_some(needs).flatten(),
+            message: message::message(&draft, ahead),
+        })
+    }
+
+    /// Takes what the thread has found, and waits for the answer of these ticks where it is to.
+    fn hear(&mut self, ticks: u64, wait: bool) {
+        while self.ended.is_none()
+            && let Some(worker) = &self.worker
+        {
+            let missing = !self.found.contains_key(&ticks);
+            match worker.take(wait && missing) {
+                Ok(Some(Found { ticks, ahead })) => {
+                    self.found.insert(ticks, ahead);
+                }
+                Ok(None) => break,
+                Err(_) => self.ended = Some("the thread that computes the next metres has ended".to_owned()),
+            }
+        }
+        // What no message can have any more is forgotten.
+        let (asked, drafts) = (self.current.iter().chain(&self.next), &self.drafts);
+        let asked: Vec<u64> = asked.map(|request| request.ticks).collect();
+        self.found
+            .retain(|of, _| asked.contains(of) || drafts.iter().any(|draft| draft.answer.as_ref() == Ok(of)));
+    }
+}
