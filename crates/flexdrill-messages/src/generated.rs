@@ -1310,7 +1310,8 @@ pub mod flexdrill {
         /// The instant of the means that the answer is for, on the rig's clock; 0 without an answer.
         pub answered: super::builtin_interfaces::Time,
         /// Side force to the low side of the guide at rest in this hole, by the statics that the hole is grown with (N). The hole ahead
-        /// is not known where that of the twin differs by more than 3 standard errors and 5 %. NaN without an answer.
+        /// is not known where that of the twin differs by more than 3 standard errors and 5 %, or 0.5 % of the weight where that is
+        /// more. NaN without an answer.
         pub side_force_low_at_rest: f64,
         /// Build rate over the next metre (rad/m): above 0 the inclination rises. Low and high: 5 and 95 % of the plausible tools. NaN
         /// where it is not known.
@@ -1359,8 +1360,9 @@ pub mod flexdrill {
         /// Plausible tools that were computed, and those without a result. What the latter drill is unknown.
         pub members: u32,
         pub failed: u32,
-        /// Surveys that the answer rests on, and how far the bit is beyond the last of them (m; NaN without any). No survey is used yet.
+        /// Surveys that the answer rests on. No survey is used yet.
         pub surveys_used: u32,
+        /// How far the bit is beyond the last of them (m); NaN without any.
         pub since_survey: f64,
     }
 

@@ -959,7 +959,8 @@ export interface HoleAhead {
   answered: Time;
   /**
    * Side force to the low side of the guide at rest in this hole, by the statics that the hole is grown with (N). The hole ahead
-   * is not known where that of the twin differs by more than 3 standard errors and 5 %. NaN without an answer.
+   * is not known where that of the twin differs by more than 3 standard errors and 5 %, or 0.5 % of the weight where that is
+   * more. NaN without an answer.
    */
   side_force_low_at_rest: number;
   /**
@@ -1015,8 +1016,9 @@ export interface HoleAhead {
   /** Plausible tools that were computed, and those without a result. What the latter drill is unknown. */
   members: number;
   failed: number;
-  /** Surveys that the answer rests on, and how far the bit is beyond the last of them (m; NaN without any). No survey is used yet. */
+  /** Surveys that the answer rests on. No survey is used yet. */
   surveys_used: number;
+  /** How far the bit is beyond the last of them (m); NaN without any. */
   since_survey: number;
 }
 /** Reads a `flexdrill/msg/HoleAhead`. */
