@@ -15,11 +15,11 @@ pub mod words;
 use flexdrill_config::Config;
 use flexdrill_hole::{Bounds, HoleError, bounds, steady};
 
-use crate::drilling::{middle_inclination, spread, unknowns};
-use crate::runs::{KeepError, KeptAs, Work, run_all};
 pub use crate::drilling::{
     Band, Drilling, Long, Refusal, SPACING, Spread, Station, Track, across, along, build, drill, tool, turned,
 };
+use crate::drilling::{middle_inclination, spread, unknowns};
+use crate::runs::{KeepError, KeptAs, Work, run_all};
 pub use advice::Advice;
 pub use plan::Plan;
 

@@ -5,8 +5,8 @@ use crate::ensemble::{Ensemble, Pace};
 use crate::rig_inputs::Measured;
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_core::twin::{Run, Simulation};
-use flexdrill_messages::{HoleAhead, RigMeasured, from_cdr};
 use flexdrill_messages::topics::Cadence;
+use flexdrill_messages::{HoleAhead, RigMeasured, from_cdr};
 use flexdrill_outputs::{MeasuredValues as _, schedule};
 
 const SECOND: i64 = 1_000_000_000;
@@ -194,7 +194,11 @@ fn at_rest(bending_factor: &str) -> HoleAhead {
             session.publish_hole(true, &mut host).unwrap();
         }
     }
-    let (_, stamp, cdr) = host.sent.iter().rfind(|(topic, ..)| *topic == topics::HOLE_AHEAD.name).unwrap();
+    let (_, stamp, cdr) = host
+        .sent
+        .iter()
+        .rfind(|(topic, ..)| *topic == topics::HOLE_AHEAD.name)
+        .unwrap();
     let message: HoleAhead = from_cdr(cdr).unwrap();
     assert_eq!(message.header.stamp.to_nanoseconds(), *stamp);
     message
@@ -207,11 +211,19 @@ fn at_rest(bending_factor: &str) -> HoleAhead {
 fn a_tool_at_rest_has_the_side_force_of_the_statics() {
     for (bending_factor, force, tilt) in [("1.0", 4083.0, -6.636e-3), ("0.05", 1930.0, -13.906e-3)] {
         let message = at_rest(bending_factor);
-        assert!((message.side_force_low / force - 1.0).abs() < 0.02, "{}", message.side_force_low);
+        assert!(
+            (message.side_force_low / force - 1.0).abs() < 0.02,
+            "{}",
+            message.side_force_low
+        );
         assert!((message.tilt_low / tilt - 1.0).abs() < 0.02, "{}", message.tilt_low);
         // Nothing turns, so that nothing points sideways.
         assert!(message.side_force_right.abs() < 5.0, "{}", message.side_force_right);
-        assert!(!message.known && message.because.contains("as_built"), "{}", message.because);
+        assert!(
+            !message.known && message.because.contains("as_built"),
+            "{}",
+            message.because
+        );
         assert!((message.inclination - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
         assert!((message.measured_depth - 3.2 * std::f64::consts::FRAC_PI_2).abs() < 1e-9);
         assert_eq!(message.turns, 0);

@@ -1,9 +1,10 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, Forecast, HoleAhead, JointDeflections,
-    Message, Reactions, Residuals, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, TypeInfo,
-    WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs, visualization_msgs,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, Forecast, HoleAhead,
+    JointDeflections, Message, Reactions, Residuals, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer,
+    TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs,
+    visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -157,8 +158,7 @@ pub const FORECAST: TopicInfo = TopicInfo::new("twin/forecast", Forecast::INFO, 
 /// Output: what plausible tools do under the same inputs.
 pub const BANDS: TopicInfo = TopicInfo::new("twin/bands", Bands::INFO, Cadence::OnChange, reliable(10));
 /// Output: where the tool drills next.
-pub const HOLE_AHEAD: TopicInfo =
-    TopicInfo::new("twin/hole_ahead", HoleAhead::INFO, Cadence::OnChange, reliable(10));
+pub const HOLE_AHEAD: TopicInfo = TopicInfo::new("twin/hole_ahead", HoleAhead::INFO, Cadence::OnChange, reliable(10));
 /// Output: the map of speed and weight that is loaded.
 pub const SAFE_WINDOW: TopicInfo = TopicInfo::new("twin/safe_window", SafeWindow::INFO, Cadence::OnChange, LATCHED);
 /// Output: what the rig measures less what the twin computes.

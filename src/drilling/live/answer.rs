@@ -200,7 +200,14 @@ pub fn standing(means: &super::Means, flats: f64) -> Option<String> {
     // 1 r/min: slower than any drive drills.
     if means.rotary_speed < std::f64::consts::TAU / 60.0 {
         let reverse = means.rotary_speed < -std::f64::consts::TAU / 60.0;
-        return Some(if reverse { "the bit turns in reverse" } else { "the bit stands" }.to_owned());
+        return Some(
+            if reverse {
+                "the bit turns in reverse"
+            } else {
+                "the bit stands"
+            }
+            .to_owned(),
+        );
     }
     if means.weight <= flats {
         return Some(format!(

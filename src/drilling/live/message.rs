@@ -14,7 +14,11 @@ const RATES: Ranged = Ranged {
 
 /// The radius of a curvature (m), infinite where there is none or the hole bends the other way.
 fn radius(curvature: f64) -> f64 {
-    if curvature > 0.0 { 1.0 / curvature } else { f64::INFINITY }
+    if curvature > 0.0 {
+        1.0 / curvature
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// The message without header and instant of the answer.
@@ -81,7 +85,13 @@ fn means(draft: &Draft) -> HoleAhead {
 fn rates(out: &mut HoleAhead, [build, walk, curvature]: [Ranged; 3]) {
     (out.build_rate, out.build_rate_low, out.build_rate_high) = (build.value, build.low, build.high);
     (out.walk_rate, out.walk_rate_low, out.walk_rate_high) = (walk.value, walk.low, walk.high);
-    let of = |curvature: f64| if curvature.is_nan() { f64::NAN } else { radius(curvature) };
+    let of = |curvature: f64| {
+        if curvature.is_nan() {
+            f64::NAN
+        } else {
+            radius(curvature)
+        }
+    };
     // The larger curvature is the smaller radius.
     (out.radius, out.radius_low, out.radius_high) = (of(curvature.value), of(curvature.high), of(curvature.low));
 }

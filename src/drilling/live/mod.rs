@@ -178,7 +178,9 @@ impl LiveHole {
             self.ask(ticks, weight);
         }
         match nearest {
-            None => Err(format!("the next metres are being computed: they follow within {DELAY:.0} s")),
+            None => Err(format!(
+                "the next metres are being computed: they follow within {DELAY:.0} s"
+            )),
             Some(other) if off(&other) > OTHER => Err(format!(
                 "the weight has changed from {:.2} to {:.2} kN: the next metres for it follow within {:.0} s",
                 n_to_kn(other.weight),

@@ -210,7 +210,9 @@ fn messages_follow_from_the_frames_alone() {
     let changed = |ready: &&Ready| ready.message.because.contains("weight has changed");
     let changing: Vec<&Ready> = waits.found.iter().filter(changed).collect();
     assert!(seconds[6] && seconds[19] && !changing.is_empty(), "{seconds:?}");
-    changing.iter().for_each(|ready| assert_unknown(&ready.message, "follow within 10 s"));
+    changing
+        .iter()
+        .for_each(|ready| assert_unknown(&ready.message, "follow within 10 s"));
     let answers: Vec<u64> = waits.found.iter().filter_map(|ready| ready.answered).collect();
     assert!(answers.last() > answers.first(), "{answers:?}");
 }
@@ -232,7 +234,11 @@ fn a_computer_that_does_not_keep_up_says_so() {
 #[test]
 fn nothing_is_known_of_a_tool_that_nothing_can_be_said_of() {
     let changes = [
-        ("free_curvature: 0.3125", "free_curvature: as_built", "shape of the guide is not given"),
+        (
+            "free_curvature: 0.3125",
+            "free_curvature: as_built",
+            "shape of the guide is not given",
+        ),
         ("lateral_resistance: 20", "axis: link", "screwed to the last link"),
         (
             "[{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]",
@@ -259,7 +265,9 @@ fn nothing_is_known_of_a_tool_that_nothing_can_be_said_of() {
 /// An arc of 1.1 m above the bit: the guide needs twice its free length, 2.4 m.
 #[test]
 fn a_short_arc_says_nothing() {
-    let text = TOOL.replace("1.117010", "3.909537").replace("build_angle_deg: 70", "build_angle_deg: 20");
+    let text = TOOL
+        .replace("1.117010", "3.909537")
+        .replace("build_angle_deg: 70", "build_angle_deg: 20");
     let mut twin = Twin::new(&config(&text));
     twin.run(70, STEADY, true);
     assert_unknown(twin.last(), "arc above the bit is 1.12 m long");
@@ -291,7 +299,10 @@ fn a_bit_that_does_not_drill_says_nothing() {
         ..twin.hole.window.means().unwrap()
     };
     let words = standing(&means, 8.67e3).unwrap();
-    assert!(words.contains("8.00 kN, is on the wear flats") && words.contains("8.67 kN"), "{words}");
+    assert!(
+        words.contains("8.00 kN, is on the wear flats") && words.contains("8.67 kN"),
+        "{words}"
+    );
     assert_eq!(standing(&means, 0.0), None);
 }
 

@@ -9,8 +9,8 @@ use crate::cell;
 
 /// Units as they stand in the comments, the longer before those that they begin with.
 const UNITS: [&str; 20] = [
-    "rad/s2", "rad/s", "rad/m", "rad", "r/min", "N m", "N s", "N/s", "N", "kN", "m/s2", "m/s", "m", "W/m", "1/s", "1/h", "J",
-    "Hz", "ms", "s",
+    "rad/s2", "rad/s", "rad/m", "rad", "r/min", "N m", "N s", "N/s", "N", "kN", "m/s2", "m/s", "m", "W/m", "1/s",
+    "1/h", "J", "Hz", "ms", "s",
 ];
 /// What begins the definitions that a message is made of.
 const NEXT: &str = "====";

@@ -26,5 +26,7 @@ pub use run::{Frame, Run, RunInputs};
 pub use schedule::{Due, EndsInterval, Output, Schedule, Timeline};
 pub use settings::SimulationSettings;
 pub use simulation::{BuildError, Simulation};
-pub use snapshot::{Applied, Bit, ContactLayer, Contacts, Holder, Joints, Reactions, Shape, Snapshot, SolverCounters, Steering};
+pub use snapshot::{
+    Applied, Bit, ContactLayer, Contacts, Holder, Joints, Reactions, Shape, Snapshot, SolverCounters, Steering,
+};
 pub use step_choice::{StepChoice, StepRule};

@@ -8,9 +8,9 @@ use std::path::Path;
 
 use flexdrill_messages::{
     Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, FigureBand,
-    Forecast, ForecastBand, HoleAhead, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs, RigMeasured,
-    SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState, WhirlWarning, to_cdr,
-    visualization_msgs::MarkerArray,
+    Forecast, ForecastBand, HoleAhead, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs,
+    RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState,
+    WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};

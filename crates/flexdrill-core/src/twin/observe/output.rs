@@ -123,7 +123,7 @@ impl Observer {
             lateral_impulse: self.lateral.impulse(),
             stick_slip: self.stick_slip.severity(),
         };
-        out.steering = self.steering.value(stepper);
+        out.steering = self.steering.value([torque, rotary_speed, weight_on_bit], stepper);
         fill_reactions(stepper, &mut out.reactions);
         out.transfer = *self.transfer.summary();
         self.whirl.report(&mut out.whirl);

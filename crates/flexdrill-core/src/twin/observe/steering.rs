@@ -1,5 +1,6 @@
 //! What the bit does across the hole, over every step: an instant would alias with the rotation.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::step::Stepper;
@@ -17,9 +18,9 @@ pub(super) struct SteeringMeans {
 }
 
 impl SteeringMeans {
-    /// Takes a step of `dt` (s), at its end.
-    pub fn push(&mut self, dt: f64, stepper: &Stepper) {
-        for (integral, value) in self.integrals.iter_mut().zip(present(stepper)) {
+    /// Takes a step of `dt` (s), at its end, with torque, speed and weight of the bit.
+    pub fn push(&mut self, dt: f64, bit: [f64; 3], stepper: &Stepper) {
+        for (integral, value) in self.integrals.iter_mut().zip(together(bit, across(stepper))) {
             *integral += value * dt;
         }
         self.duration += dt;
@@ -30,12 +31,12 @@ impl SteeringMeans {
         *self = Self::default();
     }
 
-    /// Means of the interval so far; at its start the present values, over no time.
-    pub fn value(&self, stepper: &Stepper) -> Steering {
+    /// Means of the interval so far; at its start the present values, over no time, with these of the bit.
+    pub fn value(&self, bit: [f64; 3], stepper: &Stepper) -> Steering {
         let values = if self.duration > 0.0 {
             self.integrals.map(|integral| integral / self.duration)
         } else {
-            present(stepper)
+            together(bit, across(stepper))
         };
         let [torque, rotary_speed, weight_on_bit, right, low, tilt_right, tilt_low] = values;
         Steering {
@@ -49,26 +50,22 @@ impl SteeringMeans {
     }
 }
 
-/// The values at the end of the last step.
+/// All values of a step.
+fn together([torque, speed, weight]: [f64; 3], [right, low, tilt_right, tilt_low]: [f64; 4]) -> Values {
+    [torque, speed, weight, right, low, tilt_right, tilt_low]
+}
+
+/// Side force and tilt at the end of the last step.
 ///
 /// The supports at the bit hold it on the axis of the hole, as the rock does: their forces on both pipes together, across
 /// the hole, are the opposite of what the bit pushes on the rock. The guide's last slope is that of the bit's axis.
-fn present(stepper: &Stepper) -> Values {
+fn across(stepper: &Stepper) -> [f64; 4] {
     let model = stepper.model();
     let last = model.last();
     let bottom = &model.stations[last];
     let at_bit = model.held_nodes.iter().filter(|held| held.station == last);
-    let held = at_bit.map(|held| stepper.reaction(held)[0]);
-    let across = bottom.frame.tr_mul(&held.sum());
+    let held: Vector3<f64> = at_bit.map(|held| stepper.reaction(held)[0]).sum();
+    let across = bottom.frame.tr_mul(&held);
     let slope = |about: Direction| stepper.value(|state| &state.q, bottom.guide + about as usize);
-    let bit = &stepper.interactions().bit;
-    [
-        bit.torque,
-        stepper.bottom_motion().spin_rate,
-        bit.weight,
-        -across.y,
-        -across.z,
-        slope(Direction::PhiZ),
-        -slope(Direction::PhiY),
-    ]
+    [-across.y, -across.z, slope(Direction::PhiZ), -slope(Direction::PhiY)]
 }

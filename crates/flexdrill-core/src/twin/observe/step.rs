@@ -62,8 +62,9 @@ impl Observer {
         // The bit's motion comes from the chain, without the cost of a full state.
         let bottom = stepper.bottom_motion();
         let bit = &stepper.interactions().bit;
-        self.bit.push(dt, [bit.torque, bottom.spin_rate, bit.weight]);
-        self.steering.push(dt, stepper);
+        let of_bit = [bit.torque, bottom.spin_rate, bit.weight];
+        self.bit.push(dt, of_bit);
+        self.steering.push(dt, of_bit, stepper);
         let radius = 0.5 * model.description.bit.diameter;
         self.tangential.push(dt, radius * bottom.spin_acceleration);
         self.axial.push(dt, bottom.axial_acceleration);
