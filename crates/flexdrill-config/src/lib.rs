@@ -49,6 +49,7 @@ pub mod units;
 mod vibration;
 mod warnings;
 mod well;
+mod well_plan;
 mod whirl;
 mod whole;
 mod yaml_place;
@@ -104,6 +105,7 @@ pub use uncertainty::{
 };
 pub use vibration::{ChaoticWhirl, JointLoad, Repeats, Shock, Steps, StickSlip};
 pub use well::{Section, Well};
+pub use well_plan::{PlannedStation, WellPlan};
 pub use whirl::{ForwardPower, InputTrust, Watched, Whirl};
 
 use checker::Checker;

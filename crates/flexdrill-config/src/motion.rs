@@ -178,8 +178,11 @@ const HOLE_AHEAD: [&str; 4] = [
     "axis",
 ];
 
-/// Removes the keys of the bit that act on the hole ahead and not on the motion.
+/// Removes the keys of the bit that act on the hole ahead and not on the motion, and the plan.
 fn leave_out_hole_ahead(sections: &mut Map<String, Value>) {
+    if let Some(well) = sections.get_mut("well").and_then(Value::as_object_mut) {
+        well.remove("plan");
+    }
     if let Some(bit) = sections.get_mut("tool").and_then(|tool| tool.get_mut("bit"))
         && let Some(bit) = bit.as_object_mut()
     {
@@ -275,6 +278,14 @@ mod tests {
         ] {
             assert_ne!(other(key, value).motion_hash(), hash, "{key}");
         }
+        let planned = {
+            let mut schema = (*config).clone();
+            schema.well.plan = Some(serde_json::from_str(r#"{"file": "plan.csv"}"#).unwrap());
+            Config::from_schema("planned", schema).unwrap()
+        };
+        assert_eq!(planned.motion_hash(), hash);
+        assert_eq!(planned.tool_hash([]), config.tool_hash([]));
+        assert_ne!(planned.hash(), config.hash());
         // A drive stalls below a string only.
         let stalled = |config: &Config| config.with_value("transfer.stalled.watch", Value::from(3.0)).unwrap();
         assert_eq!(stalled(&config).motion_hash(), hash);

@@ -18,6 +18,8 @@ impl Config {
         let whole = schema.well.length();
         let mut left = whole * links as f64 / schema.tool.links as f64;
         schema.tool.links = links;
+        // It begins on the hole as it is, which this one is not.
+        schema.well.plan = None;
         schema.well.sections = schema
             .well
             .sections

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
+use super::well_plan::WellPlan;
 use flexdrill_core::tool::{WellDescription, WellSection};
 use flexdrill_core::units::deg_to_rad;
 
@@ -26,6 +27,9 @@ pub struct Well {
     /// Diameter of the hole (m). Required.
     #[schemars(transform = HOLE.in_schema())]
     pub hole_diameter: f64,
+    /// The planned hole. Nothing of it acts on a run. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<WellPlan>,
 }
 
 /// One section of the well path.
@@ -138,6 +142,10 @@ impl Well {
             "m",
             "a bore of a slim drilling tool, given in metres",
         );
+        if let Some(plan) = &self.plan {
+            let hole = self.length();
+            c.below("plan", |c| plan.check(c, hole));
+        }
     }
 
     pub(super) fn describe(&self) -> WellDescription {
