@@ -1,18 +1,20 @@
 //! `flexdrill ahead`: where the tool drills in the next metres.
 
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
 
+use super::plan::Planned;
 use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
 use crate::hole_ahead::words::{Goal, words};
-use crate::hole_ahead::{Drilling, Plan, Question, Refusal, SPACING, advice, answer, picture, plan, table, tool};
+use crate::hole_ahead::{
+    Drilling, Plan, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, picture, plan, table, tool,
+};
 use flexdrill_config::Config;
-use flexdrill_core::units::kn_to_n;
+use flexdrill_core::units::{kn_to_n, n_to_kn};
 use flexdrill_text::counted;
 
 /// Computes where the tool drills in the next metres, with the range of plausible tools, and writes ahead.csv and ahead.svg.
@@ -27,10 +29,10 @@ pub struct AheadArgs {
     #[arg(long)]
     out: PathBuf,
     /// Metres ahead, in whole quarters of a metre.
-    #[arg(long, default_value_t = 5.0, value_parser = numbers::metres_ahead)]
+    #[arg(long, default_value_t = USUAL_LENGTH, value_parser = numbers::metres_ahead)]
     metres: f64,
     /// Weight at the bit (kN).
-    #[arg(long, default_value_t = 10.0, value_parser = numbers::kilonewton)]
+    #[arg(long, default_value_t = n_to_kn(USUAL_WEIGHT), value_parser = numbers::kilonewton)]
     weight: f64,
     /// Plausible tools, drawn from what is not known.
     #[arg(long, default_value_t = 100, value_parser = members())]
@@ -38,27 +40,28 @@ pub struct AheadArgs {
     /// Seed of the draws: the same seed gives the same results.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Plan: a table (CSV) with the columns measured_depth_m from the kick-off, inclination_deg and azimuth_deg.
+    /// Plan: a table (CSV) with the columns measured_depth_m from the kick-off, inclination_deg and azimuth_deg. Without it
+    /// and --radius, the plan is that of the configuration (well.plan).
     #[arg(long, conflicts_with = "radius")]
     plan: Option<PathBuf>,
     /// Plan: an arc of this radius (m) that continues the hole.
     #[arg(long, value_parser = numbers::arc_radius)]
     radius: Option<f64>,
-    /// Distance from the plan that counts as on plan (m).
-    #[arg(long, default_value_t = 0.5, value_parser = numbers::distance)]
-    target: f64,
+    /// Distance from the plan that counts as on plan (m); that of the configuration's plan by default, else 0.5.
+    #[arg(long, value_parser = numbers::distance)]
+    target: Option<f64>,
     /// Tools computed at the same time, one thread each. The results do not depend on it.
     #[arg(long, default_value_t = 1, value_parser = numbers::jobs())]
     jobs: usize,
 }
 
+/// Distance that counts as on plan where none is given (m).
+const USUAL_TARGET: f64 = 0.5;
+
 /// A number of members.
 fn members() -> clap::builder::RangedU64ValueParser<usize> {
     clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000)
 }
-
-/// Largest file of a plan (bytes).
-const LARGEST_PLAN: u64 = 4 << 20;
 
 /// Runs the subcommand.
 ///
@@ -69,18 +72,27 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     let (config, name) = built_in::load(&args.config)?;
     let in_config = |refusal: Refusal| anyhow::anyhow!("{name}: {refusal}");
     tool::check(&config).map_err(in_config)?;
-    let rows = args.plan.as_deref().map(rows).transpose()?;
+    // What the command line asks for comes before the plan of the configuration.
+    let table = match (&args.plan, args.radius) {
+        (Some(path), _) => Some(Planned::at(path)?),
+        (None, Some(_)) => None,
+        (None, None) => Planned::of(&config, &name, &args.config)?,
+    };
     let bit = config.well.length();
-    if let (Some(rows), Some(path)) = (&rows, &args.plan) {
-        plan::covers(&path.display().to_string(), rows, bit)?;
+    if let Some(table) = &table {
+        plan::covers(&table.name, &table.rows, bit)?;
     }
     // A configuration has no azimuth: the hole lies in the plane of the plan.
-    let azimuth = rows.as_ref().map_or(0.0, |rows| plan::azimuth(rows, bit));
+    let azimuth = table.as_ref().map_or(0.0, |table| plan::azimuth(&table.rows, bit));
+    let target = args
+        .target
+        .or(config.well.plan.as_ref().map(|plan| plan.target))
+        .unwrap_or(USUAL_TARGET);
     let question = question(args, &config, azimuth)?;
     let drilling = Drilling::of(&config, question.weight, azimuth).map_err(in_config)?;
     let ahead = question.stations as f64 * SPACING;
-    let planned = rows
-        .map(|rows| Plan::laid(&rows, &drilling, bit, ahead))
+    let planned = table
+        .map(|table| Plan::laid(&table.rows, &drilling, bit, ahead))
         .or_else(|| args.radius.map(|radius| Plan::arc(radius, &drilling, bit, ahead)));
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     let mut progress = Progress::share();
@@ -88,8 +100,8 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     progress.done();
     let goal = planned.as_ref().map(|plan| Goal {
         plan,
-        target: args.target,
-        advice: advice::advise(&config, &question, &found, plan, args.target),
+        target,
+        advice: advice::advise(&config, &question, &found, plan, target),
     });
     let svg = flexdrill_plot::svg(&picture::figure(&found, planned.as_ref(), azimuth))?;
     whole_file::write(&args.out, "ahead.csv", &table::csv(&found, planned.as_ref()))?;
@@ -104,23 +116,6 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         args.out.join("ahead.csv").display()
     );
     Ok(())
-}
-
-/// The rows of a plan's file.
-fn rows(path: &Path) -> anyhow::Result<Vec<plan::Row>> {
-    let name = path.display().to_string();
-    let file = std::fs::File::open(path).with_context(|| format!("cannot read {name}"))?;
-    let mut text = String::new();
-    // One byte more than allowed shows that the file is longer.
-    file.take(LARGEST_PLAN + 1)
-        .read_to_string(&mut text)
-        .with_context(|| format!("cannot read {name}"))?;
-    anyhow::ensure!(
-        text.len() as u64 <= LARGEST_PLAN,
-        "{name}: must be at most {} MB: give the stations of the plan around the bit",
-        LARGEST_PLAN >> 20
-    );
-    Ok(plan::read(&name, &text)?)
 }
 
 /// What is asked, SI.

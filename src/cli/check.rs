@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::drills::Drills;
 use super::{built_in, priors};
 use crate::cli::output::{say, say_text};
 use flexdrill_config::{Config, Law};
@@ -34,11 +35,12 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
         say!("{}", serde_json::to_string_pretty(&flexdrill_config::json_schema())?);
         return Ok(());
     };
-    let (config, _) = built_in::load(path)?;
+    let (config, name) = built_in::load(path)?;
     if args.full {
         say_text!("{}", config.to_yaml()?);
     } else {
-        say_text!("{}", Summary(&config));
+        let drills = Drills::of(&config, &name, path)?;
+        say_text!("{}", Summary(&config, &drills));
         let known = Priors::of(&config)?;
         for line in priors::lines(&known, path, &config.hash()) {
             say!("{line}");
@@ -52,7 +54,7 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-struct Summary<'a>(&'a Config);
+struct Summary<'a>(&'a Config, &'a Drills);
 
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -113,6 +115,9 @@ impl fmt::Display for Summary<'_> {
                 ),
             )?;
         }
+        for (name, value) in &self.1.rows {
+            row(name, value.clone())?;
+        }
         // The count sets the time per step and the memory, so it is shown before a run is begun.
         let count = config.unknowns();
         row(
@@ -163,7 +168,7 @@ impl fmt::Display for Summary<'_> {
         )?;
         // The hash names the configuration in recordings and calibrations, which can be compared with it.
         row("hash", config.hash())?;
-        for warning in config.warnings() {
+        for warning in config.warnings().into_iter().chain(self.1.warnings.iter().cloned()) {
             row("warning", warning)?;
         }
         Ok(())

@@ -18,6 +18,7 @@ mod calibrate;
 mod check;
 mod dashboard;
 mod demo;
+mod drills;
 mod first_start;
 #[cfg(feature = "sweep")]
 mod map;
@@ -33,6 +34,7 @@ mod numbers;
 mod output;
 #[cfg(feature = "paper")]
 mod paper;
+mod plan;
 mod priors;
 #[cfg_attr(
     not(feature = "full"),

@@ -3,16 +3,27 @@
 //! # Layout
 //! - [`tool`]: guide, bit and hole of a configuration; [`loads`]: its loads.
 //! - [`unknowns`]: what is not known, and plausible tools drawn from it.
+//! - [`plan`]: a planned hole and the distance to it.
+//! - [`range`]: what the guide drills in a long arc, and what with no bit; [`words`]: the same in words.
 //! - [`live`]: what the bit of a live twin does across the hole, and where it drills: `twin/hole_ahead`.
 
 pub mod live;
 pub mod loads;
+pub mod plan;
+pub mod range;
 pub mod tool;
 pub mod unknowns;
+pub mod words;
 
 use flexdrill_hole::{HoleError, Propagation, RIPPLE_THRESHOLD, Steady};
 
+pub use plan::Plan;
 pub use tool::{Drilling, Refusal, SPACING};
+
+/// Weight at the bit where none is given (N).
+pub const USUAL_WEIGHT: f64 = 10e3;
+/// Length ahead where none is given (m).
+pub const USUAL_LENGTH: f64 = 5.0;
 
 /// The bit at a depth.
 #[derive(Debug, Clone, Copy, PartialEq)]

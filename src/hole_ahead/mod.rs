@@ -2,13 +2,11 @@
 //! [`drilling`](crate::drilling) lets each tool drill.
 //!
 //! # Layout
-//! - [`plan`]: a planned hole and the distance to it.
 //! - [`advice`]: what the plan needs, and under which weight the bit comes nearest to it.
 //! - [`table`], [`words`], [`picture`]: the results.
 
 pub mod advice;
 pub mod picture;
-pub mod plan;
 pub mod table;
 pub mod words;
 
@@ -16,12 +14,12 @@ use flexdrill_config::Config;
 use flexdrill_hole::{Bounds, HoleError, bounds, steady};
 
 pub use crate::drilling::{
-    Band, Drilling, Long, Refusal, SPACING, Spread, Station, Track, across, along, build, drill, tool, turned,
+    Band, Drilling, Long, Plan, Refusal, SPACING, Spread, Station, Track, USUAL_LENGTH, USUAL_WEIGHT, across, along,
+    build, drill, plan, tool, turned,
 };
 use crate::drilling::{middle_inclination, spread, unknowns};
 use crate::runs::{KeepError, KeptAs, Work, run_all};
 pub use advice::Advice;
-pub use plan::Plan;
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,11 +7,10 @@ use flexdrill_text::{counted, fixed};
 use super::advice::{Tried, allowed, last_station};
 use super::tool::wear_flats;
 use super::{Advice, Answer, Band, Plan, Question, SPACING, Track, build};
+use crate::drilling::words::{STRAIGHT, any_bit, in_a_long_arc, needed, radii, radius};
 
 /// Metres ahead that the words name.
 const NAMED: [f64; 3] = [1.0, 3.0, 5.0];
-/// Curvature (1/m) below which a hole counts as straight: 0.06 deg/m.
-const STRAIGHT: f64 = 1e-3;
 /// Sine of the inclination below which an azimuth says nothing: 6 deg from the vertical.
 const STEEP: f64 = 0.1;
 /// Most causes of unknown members that are named.
@@ -43,24 +42,6 @@ fn metres(station: usize) -> String {
     format!("{}", station as f64 * SPACING)
 }
 
-/// The radius of a curvature (1/m) in words.
-fn radius(curvature: f64) -> String {
-    if curvature.abs() < STRAIGHT {
-        "straight".to_owned()
-    } else {
-        format!("{:.2} m", 1.0 / curvature.abs())
-    }
-}
-
-/// The radii between two curvatures, the larger curvature first.
-fn radii(low: f64, high: f64) -> String {
-    if low < STRAIGHT {
-        format!("{} to straight or dropping", radius(high))
-    } else {
-        format!("{} to {}", radius(high), radius(low))
-    }
-}
-
 /// A build rate (rad/m) over a length in words: "builds 17.3 deg/m, a radius of 3.31 m".
 fn rate(build: f64) -> String {
     let degrees = rad_to_deg(build.abs());
@@ -76,8 +57,8 @@ pub fn words(config: &Config, question: &Question, answer: &Answer, goal: Option
     let mut lines = vec![beginning(question, answer)];
     lines.push(first_metre(answer));
     lines.extend(ahead(answer));
-    lines.push(in_a_long_arc(answer));
-    lines.push(bounds(question, answer));
+    lines.push(in_a_long_arc(answer.long.as_ref(), ""));
+    lines.push(any_bit(answer.bounds.as_ref(), question.largest_weight));
     if let Some(goal) = goal {
         lines.extend(to_plan(config, question, answer, goal));
     }
@@ -158,51 +139,6 @@ fn ahead(answer: &Answer) -> Vec<String> {
     named(answer.nominal.len() - 1).into_iter().filter_map(line).collect()
 }
 
-/// What the closed form says of a long arc: curvature, free length, steering number, ripple.
-fn in_a_long_arc(answer: &Answer) -> String {
-    let Some(long) = answer.long else {
-        return "A long arc of this tool has no steady radius: the weight bends the guide without limit.".to_owned();
-    };
-    let ripple = if long.ripples() {
-        format!(
-            "the hole ripples, with a period of about {:.1} m and the same mean radius",
-            long.free_length
-        )
-    } else {
-        "the hole does not ripple".to_owned()
-    };
-    let turn = if long.curvature.abs() < STRAIGHT {
-        "straight on".to_owned()
-    } else {
-        let sense = if long.curvature < 0.0 { ", dropping" } else { "" };
-        format!("a radius of {}{sense}", radius(long.curvature))
-    };
-    format!(
-        "In a long arc it drills {turn}: {:.2} m between bit and wall are free, steering number {:.1} (below 2.2 the hole \
-         ripples): {ripple}.",
-        long.free_length, long.steering_number
-    )
-}
-
-/// The range that no bit leaves.
-fn bounds(question: &Question, answer: &Answer) -> String {
-    let weight = n_to_kn(question.largest_weight);
-    match answer.bounds {
-        Some(bounds) => {
-            let range = if bounds.low < STRAIGHT {
-                format!("shorter than {}", radius(bounds.high))
-            } else {
-                format!("outside {}", radii(bounds.low, bounds.high))
-            };
-            format!(
-                "No bit and no rock makes this guide drill a radius {range} in a long arc at {weight:.1} kN, the largest \
-                 weight (inputs.weight_on_bit.max_kn), or below it."
-            )
-        }
-        None => format!("At {weight:.1} kN, the largest weight, the thrust bends this guide without limit."),
-    }
-}
-
 /// Distance to the plan, the chance to stay near it, and what can be done.
 fn to_plan(config: &Config, question: &Question, answer: &Answer, goal: &Goal<'_>) -> Vec<String> {
     let Goal { plan, target, advice } = *goal;
@@ -235,15 +171,6 @@ fn to_plan(config: &Config, question: &Question, answer: &Answer, goal: &Goal<'_
     }
     lines.push(what_to_do(config, question, target, advice, last));
     lines
-}
-
-/// What a curvature (1/m) asks of the hole.
-fn needed(curvature: f64) -> String {
-    match curvature {
-        curvature if curvature.abs() < STRAIGHT => "a straight hole".to_owned(),
-        curvature if curvature > 0.0 => format!("a radius of {} on the mean", radius(curvature)),
-        curvature => format!("a drop with a radius of {} on the mean", radius(curvature)),
-    }
 }
 
 /// Where the bit is against the plan.

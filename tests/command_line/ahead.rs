@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-fn flexdrill(arguments: &[&str]) -> Output {
+pub fn flexdrill(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .args(arguments)
         .output()
         .unwrap()
 }
 
-fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
 /// The tool of `tests/data/ahead.yaml` with some of its text replaced, in a folder.
-fn configuration(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
+pub fn configuration(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/ahead.yaml");
     let mut yaml = std::fs::read_to_string(file).unwrap();
     for (from, to) in changes {
@@ -29,7 +29,7 @@ fn configuration(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
 }
 
 /// Words and table of a prediction.
-fn ahead(config: &Path, out: &Path, more: &[&str]) -> (String, Vec<BTreeMap<String, String>>) {
+pub fn ahead(config: &Path, out: &Path, more: &[&str]) -> (String, Vec<BTreeMap<String, String>>) {
     let fixed = ["ahead", config.to_str().unwrap(), "--out", out.to_str().unwrap()];
     let output = flexdrill(&[&fixed, more].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));

@@ -9,6 +9,7 @@
 mod ahead;
 mod paper;
 mod posterior;
+mod plan;
 mod reach;
 mod sensitivity;
 mod sweep;

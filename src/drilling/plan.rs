@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
+use flexdrill_config::PlannedStation;
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 use super::tool::Drilling;
-use super::{Station, across};
+use super::{Station, USUAL_LENGTH, across};
 
 /// Columns of a table.
 pub const COLUMNS: [&str; 3] = ["measured_depth_m", "inclination_deg", "azimuth_deg"];
@@ -23,6 +24,16 @@ pub struct Row {
     pub inclination: f64,
     /// Azimuth (rad).
     pub azimuth: f64,
+}
+
+impl From<&PlannedStation> for Row {
+    fn from(station: &PlannedStation) -> Self {
+        Self {
+            depth: station.measured_depth,
+            inclination: deg_to_rad(station.inclination_deg),
+            azimuth: deg_to_rad(station.azimuth_deg),
+        }
+    }
 }
 
 /// Why a plan is refused.
@@ -292,6 +303,16 @@ impl Plan {
             inclinations: [bit, compared].map(|depth| inclination(direction(rows, depth))),
             between: [bit, compared],
         }
+    }
+
+    /// The mean build curvature (1/m) that rows need over the usual length below a bit at a depth (m), and that length (m); none
+    /// where they end less than a metre below it.
+    pub fn needs(rows: &[Row], bit: f64) -> Option<(f64, f64)> {
+        let end = rows.last()?.depth.min(bit + USUAL_LENGTH);
+        (end >= bit + 1.0).then(|| {
+            let [first, last] = [bit, end].map(|depth| inclination(direction(rows, depth)));
+            ((last - first) / (end - bit), end - bit)
+        })
     }
 
     /// An arc of a radius (m) that continues the hole as configured in its plane, as rows.
