@@ -3,8 +3,9 @@
 
 use serde_json::{Value, json};
 
-use flexdrill_config::Config;
+use flexdrill_config::{Config, WellPlan};
 use flexdrill_core::tool::{ToolDescription, WellPath, frame_along, tangent};
+use flexdrill_core::units::deg_to_rad;
 use flexdrill_messages::SessionInfo;
 
 /// Longest configuration that is read (bytes): ten times that of the default tool with all its comments.
@@ -171,7 +172,24 @@ fn tool(config: &Config, tool: &ToolDescription, stations: &[Station]) -> Value 
         "build_radius": build_radius.is_finite().then_some(build_radius),
         "joint_limit": tool.joint.limit,
         "exaggeration": config.outputs.exaggeration,
+        "plan": config.well.plan.as_ref().map(plan),
     })
+}
+
+/// The planned hole, SI. A file of stations is one of the twin's computer, of which the page has the name.
+fn plan(plan: &WellPlan) -> Value {
+    let stations: Vec<Value> = plan
+        .stations
+        .iter()
+        .map(|station| {
+            json!({
+                "measured_depth": station.measured_depth,
+                "inclination": deg_to_rad(station.inclination_deg),
+                "azimuth": deg_to_rad(station.azimuth_deg),
+            })
+        })
+        .collect();
+    json!({"target": plan.target, "file": plan.file, "stations": stations})
 }
 
 #[cfg(test)]
@@ -202,6 +220,34 @@ mod tests {
         // There, the low side is down.
         let [y, z] = session.stations[165].displacement([3.2, 0.001, 3.202]);
         assert!((y - 0.001).abs() < 1e-9 && (z - 0.002).abs() < 1e-9, "{y} {z}");
+    }
+
+    #[test]
+    fn a_plan_has_its_stations_or_the_name_of_its_file() {
+        let planned = |plan: &str| {
+            let text = include_str!("../../../config/default.yaml");
+            let configuration = text.replacen("\nwell:\n", &format!("\nwell:\n  plan: {plan}\n"), 1);
+            assert_ne!(configuration, text);
+            let info = SessionInfo {
+                configuration,
+                ..SessionInfo::default()
+            };
+            Session::new(&info).unwrap().tool_json()["plan"].clone()
+        };
+        let of = planned(
+            "{stations: [{measured_depth: 0, inclination_deg: 0, azimuth_deg: 180}, \
+             {measured_depth: 9, inclination_deg: 90, azimuth_deg: 180}], target: 0.3}",
+        );
+        let half_turn = std::f64::consts::PI;
+        assert_eq!(
+            of["stations"][1],
+            json!({"measured_depth": 9.0, "inclination": half_turn / 2.0, "azimuth": half_turn})
+        );
+        assert_eq!((of["target"].as_f64(), of["file"].is_null()), (Some(0.3), true));
+        assert_eq!(
+            planned("{file: plan.csv}"),
+            json!({"target": 0.5, "file": "plan.csv", "stations": []})
+        );
     }
 
     /// Any program on the network can publish a session.

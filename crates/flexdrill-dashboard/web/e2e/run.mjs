@@ -7,6 +7,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import * as hole from "./hole.mjs";
 import { look as lookAt } from "./look.mjs";
 import { impose, restore, STATES } from "./states.mjs";
 import {
@@ -230,6 +231,48 @@ try {
       forecast.test(await page.textContent("#forecast-summary")),
     );
     await look("ahead");
+    await page.click("#tab-alarms");
+  });
+
+  await step("the hole ahead is drawn with its plan while it is known, and is a sentence otherwise", async () => {
+    await page.click("#tab-hole");
+    // The paper's guide has the curvature of the hole, so the twin does not know its shape as made.
+    await until("why it is not known", 20, async () =>
+      /as made|as_built/.test(await page.textContent("#hole-summary")),
+    );
+    assert.equal(await page.isVisible("#hole-side"), false);
+    await hole.impose(page, true);
+    await until("the sentence", 10, async () =>
+      /^Radius 3\.57 m over the next metre \(3\.40 to 3\.70\); after 3 m inclination 138\.1° \(134\.1 to 142\.1\)/.test(
+        await page.textContent("#hole-summary"),
+      ),
+    );
+    await until("the distance to the plan", 5, async () =>
+      /^From the plan: 0\.\d\d m after 1 m; 0\.\d\d m after 3 m, off target \(target 0\.10 m\)\.$/.test(
+        await page.textContent("#hole-plan"),
+      ),
+    );
+    // Pixels of the path's colour, of the cone's and of the ground's.
+    const colours = () =>
+      page.evaluate(() =>
+        ["hole-side", "hole-above"].map((id) => {
+          const canvas = document.getElementById(id);
+          const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+          const seen = new Set();
+          for (let at = 0; at < data.length; at += 4) seen.add(data.slice(at, at + 4).join());
+          return seen.size;
+        }),
+      );
+    await until("both pictures", 5, async () => (await colours()).every((count) => count > 5));
+    await look("hole");
+    await hole.impose(page, false);
+    await until(
+      "the reason",
+      5,
+      async () => (await page.textContent("#hole-summary")) === "The hole ahead is not known: the bit is off bottom.",
+    );
+    assert.equal(await page.isVisible("#hole-side"), false);
+    await hole.restore(page);
     await page.click("#tab-alarms");
   });
 

@@ -14,6 +14,13 @@ export interface Incident {
   text: string;
 }
 
+/** The planned hole of the configuration, SI: stations, or the name of a file on the twin's computer. */
+export interface Plan {
+  target: number;
+  file: string | null;
+  stations: { measured_depth: number; inclination: number; azimuth: number }[];
+}
+
 export interface Tool {
   stations: { measured_depth: number; inclination: number; position?: [number, number, number] }[];
   joints: { measured_depth: number; inclination: number; station: number }[];
@@ -26,6 +33,8 @@ export interface Tool {
   joint_limit: number;
   exaggeration: number;
   title?: string;
+  /** A server of an earlier version sends none. */
+  plan?: Plan | null;
 }
 
 export interface Session {

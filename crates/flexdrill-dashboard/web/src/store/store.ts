@@ -12,6 +12,7 @@ import {
   type BitState,
   type ContactForces,
   type Forecast,
+  type HoleAhead,
   type JointDeflections,
   type MarkerArray,
   type Residuals,
@@ -34,6 +35,8 @@ import { Trace } from "./trace";
 const LATCHED: readonly string[] = ["twin/session", "twin/alarms", "twin/forecast", "twin/safe_window"];
 /** Forecasts that are kept: what came is shown against those of the last minutes. */
 const FORECASTS = 6;
+/** An answer of the hole ahead is of the present for this long after its stamp (s): it takes some seconds to compute. */
+const HOLE_HOLDS = 15;
 /** Comparisons of rig and twin that are kept: ten minutes at one per second, and some more. */
 const RESIDUALS = 640;
 /**
@@ -74,6 +77,8 @@ export class Store {
   forecasts: Forecast[] = [];
   /** The newest comparisons of rig and twin, the oldest first. */
   residuals: Residuals[] = [];
+  /** The newest answer where the tool drills; null where none has ever come. */
+  hole: HoleAhead | null = null;
   /** What plausible tools do. */
   readonly bands = new BandBook();
   /** Messages that were not understood: page and twin are of different versions. */
@@ -83,6 +88,7 @@ export class Store {
   private readonly trace = new Trace(this, () => {
     this.book.forgetPast();
     this.bands.clear();
+    this.hole = null;
     this.cursorTime = null;
   });
   private cursorTime: number | null = null;
@@ -200,6 +206,9 @@ export class Store {
         return this.takeForecast(message as Forecast);
       case "twin/bands":
         return this.bands.take(message as Bands);
+      case "twin/hole_ahead":
+        this.hole = message as HoleAhead;
+        return;
       case "twin/residuals":
         return this.takeResiduals(message as Residuals);
       case "twin/tool_shape":
@@ -342,6 +351,13 @@ export class Store {
   /** What plausible tools do at present; null where that is not known, or the views show the past. */
   get plausible(): Bands | null {
     return this.cursorTime === null && !this.silent ? this.bands.fresh(this.now) : null;
+  }
+
+  /** Where the tool drills; null where that is not of the present, or the views show the past. */
+  get holeNow(): HoleAhead | null {
+    if (!this.hole || this.cursorTime !== null || this.silent) return null;
+    const age = this.now - stamp(this.hole.header);
+    return age <= HOLE_HOLDS && age > -1 ? this.hole : null;
   }
 
   /** Takes the server's hour, older than what has been heard here; with a bag all of it. */

@@ -19,6 +19,7 @@ export const TOPICS = [
   "twin/bands",
   "twin/safe_window",
   "twin/residuals",
+  "twin/hole_ahead",
 ] as const;
 export type Topic = (typeof TOPICS)[number];
 

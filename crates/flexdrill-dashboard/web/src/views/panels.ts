@@ -1,9 +1,10 @@
-// The panels next to the tool: alarms, location, transfer, rig, look-ahead, steering; one of them is shown.
+// The panels next to the tool: alarms, location, transfer, rig, look-ahead, hole, steering; one of them is shown.
 
 import { h, setAttribute, setText, show } from "../dom";
 import type { Context, View } from "../view";
 import { AheadView } from "./ahead";
 import { Alarms } from "./alarms";
+import { HoleView } from "./hole";
 import { LocationView } from "./location";
 import { RigView } from "./rig";
 import type { Steer } from "./steer";
@@ -26,6 +27,7 @@ export class Panels implements View {
       ["Transfer", new TransferView(context)],
       ["Rig", new RigView(context)],
       ["Ahead", new AheadView(context)],
+      ["Hole", new HoleView(context)],
       ["Steer", steer],
     ] as const) {
       const id = name.toLowerCase();
