@@ -187,7 +187,10 @@ fn at_rest(bending_factor: &str) -> HoleAhead {
     session.applied(&run.applied(), &[], 0, &mut host).unwrap();
     while host.counts().get(topics::HOLE_AHEAD.name).is_none() {
         assert!(frame.snapshot.time < 1.5, "no message");
-        run.advance();
+        assert!(!matches!(
+            run.advance(),
+            flexdrill_core::dynamics::StepOutcome::Failed(_)
+        ));
         if !run.due().is_empty() {
             run.capture(&mut frame);
             session.frame(&frame, &mut host).unwrap();

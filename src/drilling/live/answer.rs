@@ -6,8 +6,8 @@ use flexdrill_config::{BitAxis, Config, FreeBend, Section};
 use flexdrill_core::units::{deg_to_rad, n_to_kn, rad_to_deg};
 use flexdrill_hole::{at_rest, bounds, steady};
 
+use crate::drilling::unknowns;
 use crate::drilling::{Band, Drilling, Long, SPACING, Spread, Station, Track, across, build, drill, spread, turned};
-use crate::drilling::{tool, unknowns};
 
 /// Metres ahead.
 pub const METRES: f64 = 5.0;
