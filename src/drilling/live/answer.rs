@@ -132,6 +132,7 @@ pub fn compute(config: &Config, weight: f64, seed: u64, stop: &AtomicBool) -> Re
         }
         members.push(tool.and_then(|tool| drill(&tool, stations).map_err(|error| error.to_string())));
     }
+    // The ranges are of the next metre, as a driller asks for it.
     let rates = [
         ranged(&track, &members, |track| build(track, NEXT_METRE)),
         ranged(&track, &members, walk),

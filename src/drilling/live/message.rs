@@ -50,6 +50,7 @@ fn means(draft: &Draft) -> HoleAhead {
         inclination,
         ..
     } = *draft;
+    // A 0 where nothing is known would be read as a number.
     let unknown = f64::NAN;
     let mut out = HoleAhead {
         measured_depth,

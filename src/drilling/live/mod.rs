@@ -170,6 +170,7 @@ impl LiveHole {
         if let Some(why) = standing(means, self.flats) {
             return Err(why);
         }
+        // One answer at a time is computed: a weight that changes all the time asks once per delay.
         let weight = means.weight;
         let off = |request: &Request| (weight - request.weight).abs() / request.weight;
         let nearest = self.current.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
@@ -177,6 +178,7 @@ impl LiveHole {
             self.next = Some(Request { ticks, weight });
             self.ask(ticks, weight);
         }
+        // An answer for another weight would look like one for this.
         match nearest {
             None => Err(format!(
                 "the next metres are being computed: they follow within {DELAY:.0} s"

@@ -41,7 +41,7 @@ const STEADY: Tenth = Tenth {
     side_force: SIDE_FORCE,
 };
 
-/// A twin that is as told.
+/// A twin whose bit does what a test says.
 struct Twin {
     hole: LiveHole,
     frame: Frame,
@@ -62,7 +62,7 @@ impl Twin {
         }
     }
 
-    /// Goes on for a number of tenths of a second, and waits for answers or not.
+    /// Adds tenths of a second, and waits for answers or not.
     fn run(&mut self, tenths: usize, tenth: Tenth, wait: bool) {
         for _ in 0..tenths {
             self.frame.ticks += self.tenth;
