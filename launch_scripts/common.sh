@@ -1,6 +1,6 @@
 # Shared by the scripts in this folder; sourced, not run.
-# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, python_tools and
-# python_wheel.
+# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, program_notices,
+# python_tools, python_wheel and python_audit.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 name=$(basename "$0")
@@ -107,6 +107,12 @@ time_left() {
         }'
 }
 
+# program_notices: prints the licences of parts of the program that are under other ones than most.
+program_notices() {
+    printf 'The font Roboto in it is under the Apache License 2.0.\n'
+    printf 'async-opcua in it, unchanged, is under the Mozilla Public License 2.0: https://crates.io/crates/async-opcua\n'
+}
+
 # Where the scripts of the Python package keep what they make.
 python_out=$root/target/python
 
@@ -130,13 +136,18 @@ python_tools() {
 # python_wheel TARGET DIR: builds the wheel for that target of Rust into DIR and checks it: $wheel. zig links against the
 # symbols of glibc 2.17, the oldest that Rust supports, so that the wheel runs on every distribution since 2014.
 python_wheel() {
-    local target=$1 dist=$2 said
+    local target=$1 dist=$2
     maturin build --release --locked --zig --compatibility manylinux_2_17 --target "$target" \
         --manifest-path "$root/crates/flexdrill-python/Cargo.toml" --out "$dist"
     wheel=$(find "$dist" -name "*_${target%%-*}.whl")
     [ -f "$wheel" ] || fail "no wheel for $target in $dist, or more than one"
-    # Two judges that are not the builder: the shared libraries and versions of symbols that manylinux allows, and the
-    # functions of Python that its stable interface has had since 3.9.
+    python_audit "$wheel"
+}
+
+# python_audit WHEEL: two judges that are not the builder look at all that is compiled in it: the shared libraries and
+# versions of symbols that manylinux allows, and the functions of Python that its stable interface has had since 3.9.
+python_audit() {
+    local wheel=$1 said
     said=$(auditwheel show "$wheel" 2>&1) || fail "auditwheel: $said"
     printf '%s\n' "$said" | tr '\n' ' ' | grep -Eq 'following platform tag: +"manylinux_2_(5|12|17)_' ||
         fail "$(basename "$wheel") needs more than manylinux_2_17 has: $said"

@@ -1,12 +1,19 @@
 #!/usr/bin/env bash
-# The Python package as it is released: launch_scripts/wheels.sh
-# Builds into target/python/release: wheels for x86-64 and aarch64 (manylinux_2_17, linked by zig) and the sdist. It
-# checks names, contents, licences, shared libraries and symbols; installs the sdist in a clean environment away from
-# the repository, which compiles it; and runs the wheel in each Python from 3.9 to 3.14 that is here (pyenv's, or in
-# PATH). All must give the same bits. Checks whose tools are missing are reported as NOT CHECKED and skipped.
+# The Python package as it is released: launch_scripts/wheels.sh [--without-program]
+# Builds into target/python/release: wheels for x86-64 and aarch64 (manylinux_2_17, linked by zig), each with the program
+# flexdrill, and the sdist. It checks names, contents, licences, shared libraries and symbols; installs the sdist in a
+# clean environment away from the repository, which compiles it; runs the wheel in each Python from 3.9 to 3.14 that is
+# here (pyenv's, or in PATH), which must all give the same bits; and shows the demonstration with the program of an
+# installed wheel. Checks whose tools are missing are reported as NOT CHECKED and skipped.
+#   --without-program   the Python module alone, which takes a fraction of the time; not for a release
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
-[ $# -eq 0 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2 && exit 2; }
+programs=yes
+case ${1:-} in
+"") ;;
+--without-program) programs="" ;;
+*) sed -n '2,8s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+esac
 need_packages build-essential python3-venv
 need_rust
 cd "$root"
@@ -41,16 +48,34 @@ install() {
         fail "pip could not install $3 with $1"
 }
 
-say "step 1 of 4: tools, versions pinned"
+# add_program TARGET: compiles the program with the features of the Debian package, and puts it into $wheel. It is linked
+# as the module is, and stripped: with the names of its functions the wheel would be larger than it may be.
+with_program=()
+add_program() {
+    local target=$1 made=$out/program/$1
+    [ -n "$programs" ] || return 0
+    rm -rf "$made"
+    maturin build --release --locked --strip --zig --compatibility manylinux_2_17 --target "$target" --bindings bin \
+        --features full --manifest-path "$root/Cargo.toml" --out "$made" || return 1
+    program_notices >"$made/notices"
+    "$tools/bin/python" "$crate/tests/add_program.py" "$wheel" "$(find "$made" -name '*.whl')" "$made/notices" ||
+        fail "the program could not be put into $wheel"
+    python_audit "$wheel"
+    with_program+=("${target%%-*}")
+}
+
+say "step 1 of 5: tools, versions pinned"
 python_tools
 
-say "step 2 of 4: wheels and sdist"
+say "step 2 of 5: wheels and sdist"
 rm -rf "$dist"
 native=x86_64-unknown-linux-gnu other=aarch64-unknown-linux-gnu
 python_wheel "$native" "$dist"
+add_program "$native" || fail "the program could not be compiled for $native; see above"
 x86_64=$wheel
 if rustup target list --installed 2>/dev/null | grep -qx "$other" || timeout 60 rustup target add "$other"; then
     python_wheel "$other" "$dist"
+    add_program "$other" || not_checked "the wheel for aarch64 has no program: it could not be compiled; see above"
     # Cross-compiled: name, ELF machine, libraries and symbols are checked, and nothing runs.
     not_checked "the wheel for aarch64 runs: this machine is $(uname -m)"
 else
@@ -58,9 +83,9 @@ else
 fi
 maturin sdist --manifest-path "$crate/Cargo.toml" --out "$dist"
 sdist=$(find "$dist" -name '*.tar.gz')
-"$tools/bin/python" "$crate/tests/check_package.py" "$dist"
+"$tools/bin/python" "$crate/tests/check_package.py" "$dist" ${with_program[@]+"${with_program[@]}"}
 
-say "step 3 of 4: the wheel in every Python"
+say "step 3 of 5: the wheel in every Python"
 # Away from the repository, so that nothing of it is imported or built by accident.
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -84,11 +109,27 @@ done
 [ -n "$bits" ] || fail "no Python from 3.9 to 3.14 with venv is here; the package python3-venv is needed"
 [ ${#missing[@]} -eq 0 ] || not_checked "the wheel in Python ${missing[*]}: not here (pyenv install VERSION)"
 
-say "step 4 of 4: the sdist, compiled in a clean environment"
+say "step 4 of 5: the program of the wheel"
+if [ -n "$programs" ]; then
+    cp "$crate/tests/check_program.py" "$scratch/"
+    install python3 "$scratch/program" "$x86_64"
+    (
+        cd "$scratch"
+        # With nothing in PATH but the system's own programs, as on a machine without Rust.
+        ROS_DOMAIN_ID=${FLEXDRILL_TEST_DOMAIN:-88} PATH=/usr/bin:/bin timeout 600 program/bin/python check_program.py
+    ) || fail "the program of $x86_64 does not do what it must"
+else
+    not_checked "the program: it is left out (--without-program)"
+fi
+
+say "step 5 of 5: the sdist, compiled in a clean environment"
 # pip unpacks it into TMPDIR and compiles it there. Files of an sdist have a fixed date, so that cargo would take a crate
 # of an earlier run for this one: there must be no earlier one.
 mkdir "$scratch/tmp"
 export TMPDIR=$scratch/tmp CARGO_TARGET_DIR=$scratch/build
 (cd "$scratch" && install python3 "$scratch/sdist" "$sdist")
 run "$scratch/sdist" "the sdist"
+# A package without the program says so.
+said=$("$scratch/sdist/bin/python" -m flexdrill --version 2>&1) && fail "the sdist has a program: $said"
+[[ $said == *"has no program flexdrill"* ]] || fail "python -m flexdrill of the sdist says: $said"
 say "done: $(cd "$dist" && echo *)"

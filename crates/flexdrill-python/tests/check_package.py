@@ -1,5 +1,6 @@
-"""Checks what was built: python check_package.py DIST. Names, size and contents of the wheels, their bills of
-materials and licences, and that the sdist is complete."""
+"""Checks what was built: python check_package.py DIST [ARCHITECTURE...]. Names, size and contents of the wheels, their
+bills of materials and licences, and that the sdist is complete. The wheels for the architectures that are named must
+have the program, and others must not."""
 
 from __future__ import annotations
 
@@ -14,6 +15,11 @@ from pathlib import Path
 MOST_BYTES = 15_000_000
 ROOT = Path(__file__).resolve().parents[3]
 LICENCES = ["LICENSE-APACHE", "LICENSE-MIT"]
+PROGRAM_LICENCE = "LICENSE-PROGRAM"
+PROGRAM_BOM = "program.cyclonedx.json"
+OF_MODULE = ["flexdrill-config", "flexdrill-core", "numpy", "pyo3"]
+OF_PROGRAM = ["flexdrill-bridge", "flexdrill-core", "flexdrill-ros2", "flexdrill-sqlite", "flexdrill-sweep", "rustdds"]
+"""Components that the bills of materials must name."""
 CONFIGS = ["coarse.yaml", "default.yaml", "paper.yaml", "rig.yaml"]
 WHEEL_NAME = re.compile(r"flexdrill-[\d.]+-cp39-abi3-manylinux2014_(x86_64|aarch64)\.manylinux_2_17_\1\.whl")
 MACHINES = {"x86_64": 62, "aarch64": 183}
@@ -24,10 +30,13 @@ EXCEPTIONS = {
     "foldhash": "Zlib",
     "unicode-ident": "Unicode-3.0",
     "target-lexicon": "Apache-2.0 WITH LLVM-exception",
+    "ring": "ISC",
+    "rustls-webpki": "ISC",
+    "untrusted": "ISC",
 }
 
 
-def check_wheel(wheel: Path) -> None:
+def check_wheel(wheel: Path, with_program: list[str]) -> None:
     name = WHEEL_NAME.fullmatch(wheel.name)
     if name is None:
         raise SystemExit(f"{wheel.name}: its name must match {WHEEL_NAME.pattern}")
@@ -40,40 +49,55 @@ def check_wheel(wheel: Path) -> None:
         needed = ["flexdrill/py.typed", "flexdrill/_native.abi3.so", "flexdrill/_native.pyi", f"{info}/METADATA"]
         same = {f"flexdrill/configs/{config}": ROOT / "config" / config for config in CONFIGS}
         same.update({f"{info}/licenses/{licence}": ROOT / licence for licence in LICENCES})
+        program = f"{info.removesuffix('.dist-info')}.data/scripts/flexdrill"
+        has_program = name[1] in with_program
+        if has_program:
+            needed += [program, f"{info}/licenses/{PROGRAM_LICENCE}", f"{info}/sboms/{PROGRAM_BOM}"]
         missing = [entry for entry in [*needed, *same] if entry not in names]
         boms = [entry for entry in names if entry.startswith(f"{info}/sboms/")]
-        if missing or len(boms) != 1:
-            raise SystemExit(f"{wheel.name}: missing {missing}, bills of materials {boms}, must be one")
+        if missing or len(boms) != 1 + has_program:
+            raise SystemExit(f"{wheel.name}: missing {missing}, bills of materials {boms}, must be {1 + has_program}")
+        if not has_program and program in names:
+            raise SystemExit(f"{wheel.name} has a program: must have none")
         for entry, source in same.items():
             if archive.read(entry) != source.read_bytes():
                 raise SystemExit(f"{wheel.name}: {entry} is not {source}")
-        machine = int.from_bytes(archive.read("flexdrill/_native.abi3.so")[18:20], "little")
-        if machine != MACHINES[name[1]]:
-            raise SystemExit(f"{wheel.name}: machine {machine} of the library must be {MACHINES[name[1]]}")
+        for file in ["flexdrill/_native.abi3.so", *([program] if has_program else [])]:
+            machine = int.from_bytes(archive.read(file)[18:20], "little")
+            if machine != MACHINES[name[1]]:
+                raise SystemExit(f"{wheel.name}: machine {machine} of {file} must be {MACHINES[name[1]]}")
         metadata = message_from_bytes(archive.read(f"{info}/METADATA"))
-        components = check_bom(archive.read(boms[0]))
+        components: list[int] = []
+        for bom in boms:
+            wanted = OF_PROGRAM if bom.endswith(f"/{PROGRAM_BOM}") else OF_MODULE
+            components.append(check_bom(archive.read(bom), wanted))
     licences = (metadata["License-Expression"], sorted(metadata.get_all("License-File", [])))
-    if licences != ("MIT OR Apache-2.0", LICENCES):
+    if licences != ("MIT OR Apache-2.0", [*LICENCES, *([PROGRAM_LICENCE] if has_program else [])]):
         raise SystemExit(f"{wheel.name}: METADATA names the licences {licences}")
-    print(f"{wheel.name}: {size / 1e6:.1f} MB, {len(names)} files, bill of materials of {components} components")
+    with_or_without = "with the program" if has_program else "without the program"
+    print(
+        f"{wheel.name}: {size / 1e6:.1f} MB, {with_or_without}, {len(names)} files, "
+        f"bills of materials of {' and '.join(map(str, components))} components"
+    )
 
 
-def check_bom(text: bytes) -> int:
+def check_bom(text: bytes, needed: list[str]) -> int:
     """The number of components of a CycloneDX bill of materials, all with a version and a permitted licence."""
     bom = json.loads(text)
-    components = {component["name"]: component for component in bom["components"]}
-    missing = [name for name in ("flexdrill-config", "flexdrill-core", "numpy", "pyo3") if name not in components]
+    names = {component["name"] for component in bom["components"]}
+    missing = [name for name in needed if name not in names]
     if bom["bomFormat"] != "CycloneDX" or missing:
         raise SystemExit(f"bill of materials: format {bom['bomFormat']}, missing {missing}")
-    for name, component in components.items():
+    for component in bom["components"]:
+        name = component["name"]
         licence = " AND ".join(entry["expression"] for entry in component.get("licenses", []))
-        choices = {choice.strip(" ()") for choice in re.split(r" OR |/", licence)}
-        # With AND, as in unicode-ident's, every part must be permitted.
-        parts = [part for choice in choices for part in choice.split(" AND ")]
-        permitted = choices & PERMITTED or (EXCEPTIONS.get(name) in parts)
+        own = "MPL-2.0" if name.startswith("async-opcua") else EXCEPTIONS.get(name)
+        # One choice must be permitted. With AND, as in unicode-ident's, every part of it must be.
+        choices = [{part.strip(" ()") for part in choice.split(" AND ")} for choice in re.split(r" OR |/", licence)]
+        permitted = any(choice <= PERMITTED | {own} for choice in choices)
         if not component.get("version") or not permitted:
             raise SystemExit(f"bill of materials: {name} {component.get('version')}, licence {licence!r}: not permitted")
-    return len(components)
+    return len(bom["components"])
 
 
 def check_sdist(sdist: Path) -> None:
@@ -100,7 +124,7 @@ def main() -> None:
     if not wheels or len(sdists) != 1:
         raise SystemExit(f"{dist}: {len(wheels)} wheels and {len(sdists)} sdists, must be one or more and one")
     for wheel in wheels:
-        check_wheel(wheel)
+        check_wheel(wheel, sys.argv[2:])
     check_sdist(sdists[0])
 
 
