@@ -56,8 +56,12 @@ add_program() {
     [ -n "$programs" ] || return 0
     rm -rf "$made"
     maturin build --release --locked --strip --zig --compatibility manylinux_2_17 --target "$target" --bindings bin \
-        --features full --manifest-path "$root/Cargo.toml" --out "$made" || return 1
-    program_notices >"$made/notices"
+        --features "$features" --manifest-path "$root/Cargo.toml" --out "$made" || return 1
+    {
+        printf 'The program flexdrill in this wheel is under the licences of the package. sboms/program.cyclonedx.json lists\n'
+        printf 'what it consists of, each with its licence.\n'
+        program_notices
+    } >"$made/notices"
     "$tools/bin/python" "$crate/tests/add_program.py" "$wheel" "$(find "$made" -name '*.whl')" "$made/notices" ||
         fail "the program could not be put into $wheel"
     python_audit "$wheel"

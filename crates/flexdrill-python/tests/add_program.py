@@ -1,7 +1,7 @@
 """Puts the program into a wheel: python add_program.py WHEEL PROGRAM NOTICES.
 
-PROGRAM is the wheel that maturin makes of the program alone. Its script and its bill of materials go into WHEEL, the
-wheel of the Python module, which is written again in place. NOTICES is a text on licences of what is in the program.
+PROGRAM is the wheel that maturin makes of the program alone. Its script and its bill of materials are added to WHEEL,
+the wheel of the Python module, in place. NOTICES is a text on licences of what is in the program.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ PROGRAM = Path(sysconfig.get_path("scripts")) / "flexdrill"
 DEADLINE_S = 120.0
 """For a view that shows the twin. It takes three seconds on an idle machine."""
 ENDING_S = 60.0
-"""For the end of all processes: each of the three has ten seconds of its own before it is killed."""
+"""For the end of all processes: each of the three has ten seconds before it is killed."""
 LEAST_PROCESSES = 4
 """The demonstration itself, twin, rig and view; each of these has a DDS process of the same program."""
 ROWS, COLUMNS = 40, 120
@@ -98,15 +98,15 @@ def demonstrate(arguments: list[str], wanted: bytes, end: str) -> None:
         if code != 0:
             raise SystemExit(f"the demonstration ended with exit code {code}: must be 0")
         deadline = time.monotonic() + ENDING_S
-        while left := running():
+        while remaining := running():
             if time.monotonic() > deadline:
-                raise SystemExit(f"processes {left} outlive the demonstration")
+                raise SystemExit(f"processes {remaining} outlive the demonstration")
             time.sleep(0.05)
     finally:
         process.kill()
         process.wait()
         os.close(ours)
-    print(f"flexdrill demo {' '.join(arguments)}: {len(found)} processes, none is left after {end}")
+    print(f"flexdrill demo {' '.join(arguments)}: {len(found)} processes, none remains after {end}")
 
 
 def ended(process: subprocess.Popen[bytes], source: int) -> int:

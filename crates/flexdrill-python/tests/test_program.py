@@ -18,7 +18,7 @@ from add_program import add_program
 import flexdrill
 
 ECHO = '#!/bin/sh\nprintf "%s\\n" "$@"\nexit 3\n'
-"""In place of the program: it prints its arguments and ends with a code of its own."""
+"""In place of the program: it prints its arguments and ends with a code that Python does not use."""
 INFO = "flexdrill-1.2.3.dist-info"
 METADATA = "Metadata-Version: 2.4\nName: flexdrill\nVersion: 1.2.3\nLicense-File: LICENSE-MIT\n\nText: none\n"
 
