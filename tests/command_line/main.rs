@@ -8,8 +8,8 @@
 
 mod ahead;
 mod paper;
-mod posterior;
 mod plan;
+mod posterior;
 mod reach;
 mod sensitivity;
 mod sweep;
