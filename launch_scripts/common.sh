@@ -1,6 +1,6 @@
 # Shared by the scripts in this folder; sourced, not run.
-# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, program_notices,
-# python_tools, python_wheel and python_audit.
+# Sets $root (the repository) and offers say, fail, need_packages, need_rust, build, progress, python_tools,
+# python_wheel and python_audit.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 name=$(basename "$0")
@@ -105,12 +105,6 @@ time_left() {
             if (minutes < 1) printf ", less than a minute left"
             else printf ", about %.0f minute%s left", minutes, (minutes < 1.5 ? "" : "s")
         }'
-}
-
-# program_notices: prints the licences of parts of the program that are under other ones than most.
-program_notices() {
-    printf 'The font Roboto in it is under the Apache License 2.0.\n'
-    printf 'async-opcua in it, unchanged, is under the Mozilla Public License 2.0: https://crates.io/crates/async-opcua\n'
 }
 
 # Where the scripts of the Python package keep what they make.

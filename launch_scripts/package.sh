@@ -32,8 +32,8 @@ printf 'flexdrill (%s-1) unstable; urgency=medium\n\n  * See CHANGELOG.md of the
 {
     printf 'flexdrill may be used under the Apache License 2.0, which Debian has as\n/usr/share/common-licenses/Apache-2.0, or under this one:\n\n'
     cat LICENSE-MIT
-    printf '\n'
-    program_notices
+    printf '\nThe font Roboto in it is under the Apache License 2.0.\n'
+    printf 'async-opcua in it, unchanged, is under the Mozilla Public License 2.0: https://crates.io/crates/async-opcua\n'
 } >"$package/copyright"
 
 say "the package"

@@ -48,21 +48,17 @@ install() {
         fail "pip could not install $3 with $1"
 }
 
-# add_program TARGET: compiles the program with the features of the Debian package, and puts it into $wheel. It is linked
-# as the module is, and stripped: with the names of its functions the wheel would be larger than it may be.
+# add_program TARGET: compiles the program with the default features, which the demonstration needs, and puts it into
+# $wheel. It is linked as the module is. With all features, or with the names of its functions, the wheel would be larger
+# than check_package.py permits.
 with_program=()
 add_program() {
     local target=$1 made=$out/program/$1
     [ -n "$programs" ] || return 0
     rm -rf "$made"
     maturin build --release --locked --strip --zig --compatibility manylinux_2_17 --target "$target" --bindings bin \
-        --features "$features" --manifest-path "$root/Cargo.toml" --out "$made" || return 1
-    {
-        printf 'The program flexdrill in this wheel is under the licences of the package. sboms/program.cyclonedx.json lists\n'
-        printf 'what it consists of, each with its licence.\n'
-        program_notices
-    } >"$made/notices"
-    "$tools/bin/python" "$crate/tests/add_program.py" "$wheel" "$(find "$made" -name '*.whl')" "$made/notices" ||
+        --manifest-path "$root/Cargo.toml" --out "$made" || return 1
+    "$tools/bin/python" "$crate/tests/add_program.py" "$wheel" "$(find "$made" -name '*.whl')" ||
         fail "the program could not be put into $wheel"
     python_audit "$wheel"
     with_program+=("${target%%-*}")

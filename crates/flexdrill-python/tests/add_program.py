@@ -1,7 +1,7 @@
-"""Puts the program into a wheel: python add_program.py WHEEL PROGRAM NOTICES.
+"""Puts the program into a wheel: python add_program.py WHEEL PROGRAM.
 
 PROGRAM is the wheel that maturin makes of the program alone. Its script and its bill of materials are added to WHEEL,
-the wheel of the Python module, in place. NOTICES is a text on licences of what is in the program.
+the wheel of the Python module, in place.
 """
 
 from __future__ import annotations
@@ -15,12 +15,11 @@ import zipfile
 from pathlib import Path
 
 PROGRAM = "flexdrill"
-LICENCE = "LICENSE-PROGRAM"
 BOM = "program.cyclonedx.json"
 
 
-def add_program(wheel: Path, program: Path, notices: Path) -> None:
-    """Adds the program with its bill of materials and its notices to the wheel."""
+def add_program(wheel: Path, program: Path) -> None:
+    """Adds the program with its bill of materials to the wheel."""
     with zipfile.ZipFile(program) as archive:
         release = _release(archive, program)
         scripts = [name for name in archive.namelist() if "/scripts/" in name]
@@ -40,12 +39,8 @@ def add_program(wheel: Path, program: Path, notices: Path) -> None:
         # The record comes last, as installers expect it.
         entries = {entry: archive.read(entry) for entry in archive.infolist() if entry.filename != f"{info}/RECORD"}
         date = archive.getinfo(f"{info}/METADATA").date_time
-    for entry in entries:
-        if entry.filename == f"{info}/METADATA":
-            entries[entry] = _with_licence(entries[entry])
     entries[_entry(scripts[0], date, 0o755)] = content
     entries[_entry(f"{info}/sboms/{BOM}", date)] = bom
-    entries[_entry(f"{info}/licenses/{LICENCE}", date)] = notices.read_bytes()
     entries[_entry(f"{info}/RECORD", date)] = _record(f"{info}/RECORD", entries)
     with zipfile.ZipFile(new, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for entry, data in entries.items():
@@ -68,12 +63,6 @@ def _entry(name: str, date: tuple[int, int, int, int, int, int], mode: int = 0o6
     return entry
 
 
-def _with_licence(metadata: bytes) -> bytes:
-    """Names the notices among the licence files. The headers end with the first empty line."""
-    headers, end, text = metadata.partition(b"\n\n")
-    return headers + f"\nLicense-File: {LICENCE}".encode() + end + text
-
-
 def _record(name: str, entries: dict[zipfile.ZipInfo, bytes]) -> bytes:
     """The list of all files with SHA-256 and size, as the wheel's format asks for it."""
     text = io.StringIO()
@@ -86,6 +75,6 @@ def _record(name: str, entries: dict[zipfile.ZipInfo, bytes]) -> bytes:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
-        raise SystemExit("three arguments are needed: WHEEL PROGRAM NOTICES")
+    if len(sys.argv) != 3:
+        raise SystemExit("two arguments are needed: WHEEL PROGRAM")
     add_program(*map(Path, sys.argv[1:]))

@@ -132,10 +132,6 @@ def main() -> None:
         raise SystemExit("python -m flexdrill is another program than flexdrill")
     if not output(str(PROGRAM), "check", "rig").strip():
         raise SystemExit("flexdrill check rig says nothing")
-    # A program without a command of a package says so instead.
-    asked = subprocess.run([PROGRAM, "bridge", "mqtt", "--broker", "host:0"], capture_output=True, text=True, timeout=60)
-    if "the port must be" not in asked.stderr:
-        raise SystemExit(f"the program has no MQTT: {asked.stderr}")
     demonstrate([], b"RUNNING", "q")
     demonstrate(["--plain"], b"RUNNING", "SIGINT")
     print(f"{version}: {PROGRAM.stat().st_size / 1e6:.1f} MB")

@@ -54,9 +54,7 @@ def wheel(module: Path, tmp_path: Path) -> Path:
         tmp_path / "program.whl",
         {"flexdrill-1.2.3.data/scripts/flexdrill": ECHO, f"{INFO}/sboms/any.json": "{}", f"{INFO}/METADATA": METADATA},
     )
-    notices = tmp_path / "notices"
-    notices.write_text("A font.\n")
-    add_program(module, program, notices)
+    add_program(module, program)
     return module
 
 
@@ -85,10 +83,7 @@ def test_the_record_of_a_wheel_with_a_program_is_complete(wheel: Path) -> None:
         assert archive.read("flexdrill-1.2.3.data/scripts/flexdrill").decode() == ECHO
         mode = archive.getinfo("flexdrill-1.2.3.data/scripts/flexdrill").external_attr >> 16
         assert mode & 0o777 == 0o755
-        headers, _, text = archive.read(f"{INFO}/METADATA").decode().partition("\n\n")
-        assert headers.splitlines()[-2:] == ["License-File: LICENSE-MIT", "License-File: LICENSE-PROGRAM"]
-        assert text == "Text: none\n"
-        assert archive.read(f"{INFO}/licenses/LICENSE-PROGRAM") == b"A font.\n"
+        assert archive.read(f"{INFO}/METADATA").decode() == METADATA
         assert archive.read(f"{INFO}/sboms/program.cyclonedx.json") == b"{}"
 
 
@@ -99,7 +94,7 @@ def test_a_program_of_another_version_is_refused(module: Path, tmp_path: Path) -
     )
     before = module.read_bytes()
     with pytest.raises(SystemExit, match="must be the same"):
-        add_program(module, other, module)
+        add_program(module, other)
     assert module.read_bytes() == before
 
 
