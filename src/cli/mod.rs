@@ -22,6 +22,7 @@ mod drills;
 mod first_start;
 #[cfg(feature = "sweep")]
 mod map;
+mod new_file;
 #[cfg_attr(
     not(feature = "full"),
     allow(dead_code, reason = "commands that this build lacks use the rest")

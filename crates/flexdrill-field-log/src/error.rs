@@ -74,6 +74,15 @@ pub enum FieldLogError {
         /// The row.
         row: u64,
     },
+    /// No line of the log has names of columns above rows with as many fields.
+    #[error(
+        "{file}: no line has names of columns with rows of as many fields below it; a mapping names columns, so add a line of \
+         names, and set `header_row` and `separator` in the mapping where they are unusual"
+    )]
+    NoColumns {
+        /// Name of the log.
+        file: String,
+    },
     /// The times of the log cannot be right.
     #[error("{file}: the times in column `{column}` cannot be right: {found}; {cure}")]
     Times {

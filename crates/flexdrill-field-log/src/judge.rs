@@ -10,11 +10,11 @@ const SHORTEST: f64 = 8e-3;
 /// The usual step between rows is not longer (s), unless the mapping allows longer gaps.
 const LONGEST: f64 = 15.0;
 /// Steps that another format would have to give to be a likely cause (s).
-const LIKELY: std::ops::RangeInclusive<f64> = 0.05..=LONGEST;
+pub(crate) const LIKELY: std::ops::RangeInclusive<f64> = 0.05..=LONGEST;
 /// With fewer steps the usual one is chance.
 const FEW_STEPS: usize = 3;
 /// Days of a spreadsheet from 1954 to 2119.
-const EXCEL_DAYS: std::ops::Range<f64> = 20_000.0..80_000.0;
+pub(crate) const EXCEL_DAYS: std::ops::Range<f64> = 20_000.0..80_000.0;
 
 /// What is known of the times besides the rows.
 pub(crate) struct Evidence<'a> {
@@ -122,15 +122,8 @@ impl Evidence<'_> {
         if is_depth(self.column) || !is_time(self.column) && matches!(&*self.unit.to_lowercase(), "m" | "ft" | "f") {
             return Err(self.depth());
         }
-        let by_unit = match &*self.unit.to_lowercase() {
-            "s" | "sec" | "secs" | "seconds" => TimeFormat::Seconds,
-            "ms" | "msec" | "milliseconds" => TimeFormat::Milliseconds,
-            "us" | "µs" | "microseconds" => TimeFormat::Microseconds,
-            "ns" | "nanoseconds" => TimeFormat::Nanoseconds,
-            "min" | "mins" | "minutes" => TimeFormat::Minutes,
-            "h" | "hr" | "hrs" | "hours" => TimeFormat::Hours,
-            "d" | "day" | "days" => TimeFormat::ExcelDays,
-            _ => return Ok(()),
+        let Some(by_unit) = format_of_unit(self.unit) else {
+            return Ok(());
         };
         // A format that the mapping names has been chosen; the default has not.
         if self.is_named || by_unit == *self.format {
@@ -252,8 +245,22 @@ impl Evidence<'_> {
     }
 }
 
+/// The format of a column of numbers by its unit; `None` where it is no unit of time.
+pub(crate) fn format_of_unit(unit: &str) -> Option<TimeFormat> {
+    Some(match &*unit.to_lowercase() {
+        "s" | "sec" | "secs" | "seconds" => TimeFormat::Seconds,
+        "ms" | "msec" | "milliseconds" => TimeFormat::Milliseconds,
+        "us" | "µs" | "microseconds" => TimeFormat::Microseconds,
+        "ns" | "nanoseconds" => TimeFormat::Nanoseconds,
+        "min" | "mins" | "minutes" => TimeFormat::Minutes,
+        "h" | "hr" | "hrs" | "hours" => TimeFormat::Hours,
+        "d" | "day" | "days" => TimeFormat::ExcelDays,
+        _ => return None,
+    })
+}
+
 /// Three digits of a step.
-fn shown(seconds: f64) -> f64 {
+pub(crate) fn shown(seconds: f64) -> f64 {
     let scale = 10f64.powf(2.0 - seconds.log10().floor());
     let rounded = (seconds * scale).round() / scale;
     if rounded.is_finite() { rounded } else { seconds }
@@ -264,12 +271,12 @@ fn words(name: &str) -> impl Iterator<Item = String> + '_ {
     words.filter(|word| !word.is_empty()).map(str::to_lowercase)
 }
 
-fn is_time(name: &str) -> bool {
+pub(crate) fn is_time(name: &str) -> bool {
     let marks = ["time", "date", "clock", "utc", "sec", "stamp", "etim"];
     words(name).any(|word| word == "t" || marks.iter().any(|mark| word.contains(mark)))
 }
 
-fn is_depth(name: &str) -> bool {
+pub(crate) fn is_depth(name: &str) -> bool {
     let is_mark = |word: String| word.starts_with("dept") || matches!(&*word, "md" | "tvd" | "dmea" | "dbtm");
     !is_time(name) && words(name).any(is_mark)
 }

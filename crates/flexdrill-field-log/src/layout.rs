@@ -165,7 +165,7 @@ impl Fields {
 }
 
 /// The separator that a line such as `sep=;` names.
-fn separator_line(line: &[u8]) -> Option<char> {
+pub(crate) fn separator_line(line: &[u8]) -> Option<char> {
     let text = std::str::from_utf8(line).ok()?.trim_matches(['\r', '\n', '"']);
     let (key, separator) = text.split_once('=')?;
     let mut characters = separator.chars();

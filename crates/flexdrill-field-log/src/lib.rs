@@ -21,6 +21,7 @@
 mod compressed;
 mod condition;
 mod error;
+mod guess;
 mod hookload;
 mod judge;
 mod las;
@@ -41,6 +42,7 @@ mod time_suggestion;
 
 pub use condition::Condition;
 pub use error::FieldLogError;
+pub use guess::{Guess, LeftOut, Proposal, Quantity, Sure, guess, guess_bytes, is_proposed};
 pub use log_rows::{LogRows, row_source};
 pub use mapping::{
     Columns, Decimal, Direct, Hookload, Mapping, MeasuredColumn, Quality, RotarySpeedColumn, TimeColumn,

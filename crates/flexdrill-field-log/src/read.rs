@@ -124,9 +124,9 @@ pub fn read_bytes(
 }
 
 /// Largest log that is read (bytes): two months at 1 Hz with thirty columns. It is held in memory.
-const LARGEST: u64 = 1 << 30;
+pub(crate) const LARGEST: u64 = 1 << 30;
 
-fn content_of(path: &Path, name: &str) -> Result<Vec<u8>, FieldLogError> {
+pub(crate) fn content_of(path: &Path, name: &str) -> Result<Vec<u8>, FieldLogError> {
     let failed = |reason: std::io::Error| FieldLogError::Read {
         path: path.to_path_buf(),
         reason: reason.to_string(),

@@ -382,7 +382,7 @@ fn other_units(layout: &Layout<'_>, mapping: &Mapping) -> Vec<String> {
 
 /// The encoding of a text other than UTF-8, recognised by its byte order mark or by the zero bytes between the letters
 /// of its header.
-fn foreign_encoding(content: &[u8]) -> Option<&'static str> {
+pub(crate) fn foreign_encoding(content: &[u8]) -> Option<&'static str> {
     match content {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
@@ -608,7 +608,7 @@ impl ColumnIndices {
 
 /// Numbers that recorders write for no value: -999.25 of LAS and its relatives, those of WITS, and the smallest whole
 /// number of 16 bits. No input of a rig has them.
-const MISSING_CODES: [f64; 9] = [
+pub(crate) const MISSING_CODES: [f64; 9] = [
     -999.25, -999.0, -9999.0, -9999.25, -99_999.0, -999_999.0, -8888.0, -32_768.0, -999.99,
 ];
 

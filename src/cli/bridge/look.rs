@@ -1,16 +1,15 @@
 //! `flexdrill bridge wits --look`: what a line carries and what the mapping makes of it, without publishing.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 use std::time::Duration;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use tokio::sync::{broadcast, mpsc};
 
 use super::super::signals;
 use super::WitsArgs;
+use crate::cli::new_file;
 use crate::cli::output::{say, say_text};
 use flexdrill_bridge::lines::{self, LineState, Seats, Times};
 use flexdrill_bridge::wits::{Counts, Line, LineEvent, Look, Mapping};
@@ -109,15 +108,12 @@ pub(super) async fn run(args: &WitsArgs, mapping: &Mapping, time: Duration) -> a
 /// When the file cannot be written. A file that exists is left as it is: it may have a person's corrections.
 fn write_site(file: &Path, text: &str) -> anyhow::Result<()> {
     let name = printable(&file.display().to_string()).into_owned();
-    let written = File::create_new(file).and_then(|mut created| created.write_all(text.as_bytes()));
-    match written {
-        Ok(()) => say!(
+    if new_file::write(file, text, "--site")? {
+        say!(
             "{name} has these items as a mapping; correct what differs from the rig's display, and use it with --map {name}"
-        ),
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-            say!("{name} exists and is left as it is; --site names another file for the mapping of these items");
-        }
-        Err(error) => return Err(error).with_context(|| format!("--site {name}")),
+        );
+    } else {
+        say!("{name} exists and is left as it is; --site names another file for the mapping of these items");
     }
     Ok(())
 }

@@ -71,6 +71,9 @@ pub(super) struct CalibrateArgs {
 /// # Errors
 /// When log or configuration cannot be read, nothing can be fitted, or a file cannot be written.
 pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
+    if args.source.ends_with_guess(&args.log)? {
+        return Ok(());
+    }
     let (config, _) = built_in::load(&args.config)?;
     let samples = read(args, &config)?;
     let windows = windows::find(&samples, &WindowSettings::default());
@@ -149,9 +152,10 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
 fn read(args: &CalibrateArgs, config: &Config) -> anyhow::Result<Vec<Sample>> {
     let samples = if is_bag(&args.log)? {
         if args.source.is_given() {
-            return Err(
-                WrongUse::new("--mapping, --from and --to belong to field logs; a bag is used as a whole").into(),
-            );
+            return Err(WrongUse::new(
+                "--mapping, --guess, --from and --to belong to field logs; a bag is used as a whole",
+            )
+            .into());
         }
         // An input that is older than its limit is not known.
         samples::of_bag(&args.log, config.inputs.rotary_speed.max_age)?

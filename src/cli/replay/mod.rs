@@ -40,7 +40,7 @@ pub(super) struct ReplayArgs {
     #[arg(long)]
     wits: bool,
     /// Bag to write: FILE.mcap or a folder.
-    #[arg(long, value_name = "OUT", required_unless_present = "foxglove")]
+    #[arg(long, value_name = "OUT", required_unless_present_any = ["foxglove", "guess"])]
     out: Option<PathBuf>,
     /// Show a recording unchanged in Foxglove and Lichtblick, which play, pause and seek; 127.0.0.1:8765 is their
     /// default. With --out, show the new bag.
@@ -74,6 +74,12 @@ pub(super) struct ReplayArgs {
 /// # Errors
 /// When the input cannot be used, a step fails, or the bag cannot be written.
 pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
+    if args.source.ends_with_guess(&args.input)? {
+        return Ok(());
+    }
+    if args.out.is_none() && args.foxglove.is_none() {
+        return Err(WrongUse::new("--yes runs the log into a bag: add --out FILE.mcap").into());
+    }
     if let Some(out) = &args.out {
         replay(args, out)?;
     }
@@ -95,7 +101,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     if !args.wits && source::is_bag(&args.input)? && recording::is_ours(&bag::open(&args.input)?) {
         // An option that would change the run is refused, not ignored: the result would be taken for the recorded run.
         if args.config.is_some() || args.members.is_some() || args.source.is_given() {
-            return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --members, --from, --to and --mapping, or use \
+            return Err(WrongUse::new("a recording of flexdrill has its own configuration and inputs: omit --config, --members, --from, --to, --mapping and --guess, or use \
                  another bag").into());
         }
         let script = recording::Script::read(&args.input)?;

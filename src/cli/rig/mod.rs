@@ -66,6 +66,9 @@ pub(super) struct RigArgs {
 pub(super) fn run(args: &RigArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let ros_args = RosArgs::parse(ros_args).map_err(WrongUse::new)?;
     logging::start(&ros_args);
+    if args.source.ends_with_guess(&args.log)? {
+        return Ok(());
+    }
     let samples = args.source.read(&args.log)?;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {

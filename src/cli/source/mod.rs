@@ -1,6 +1,7 @@
 //! Inputs and measured values with times from a bag, a field log or a capture of a WITS line, for `rig` and `replay`.
 
 mod bags;
+mod guess;
 #[cfg(feature = "bridge")]
 mod wits;
 #[cfg(not(feature = "bridge"))]
@@ -114,6 +115,8 @@ pub(super) struct SourceArgs {
     /// End at this position, given in the same form.
     #[arg(long, value_name = "POSITION")]
     to: Option<Position>,
+    #[command(flatten)]
+    guess: guess::GuessArgs,
 }
 
 /// Whether a path is a bag and not a text file.
@@ -130,7 +133,23 @@ pub(super) fn is_bag(path: &Path) -> anyhow::Result<bool> {
 impl SourceArgs {
     /// Whether any option was given.
     pub(super) fn is_given(&self) -> bool {
-        self.mapping.is_some() || self.from.is_some() || self.to.is_some()
+        self.mapping.is_some() || self.from.is_some() || self.to.is_some() || self.guess.is_given()
+    }
+
+    /// Proposes the mapping of a field log where --guess asks for it. True where the command ends with that: without --yes.
+    ///
+    /// # Errors
+    /// When the source is no field log, or cannot be read, or the mapping cannot be written.
+    pub(super) fn ends_with_guess(&self, path: &Path) -> anyhow::Result<bool> {
+        if self.guess.is_given() && (wits::is_capture(path) || is_bag(path)?) {
+            return Err(WrongUse::new(format!(
+                "{}: --guess proposes the mapping of a field log, and this is none; the items of a WITS line are shown by \
+                 flexdrill bridge wits --look",
+                path.display()
+            ))
+            .into());
+        }
+        self.guess.ends_the_command(path)
     }
 
     /// The samples of a bag, a field log or a capture. The report of a log or a capture is printed on standard error.
@@ -195,10 +214,11 @@ impl SourceArgs {
     /// When log or mapping cannot be read.
     pub(super) fn log(&self, path: &Path) -> anyhow::Result<InputSequence> {
         let demo = DemoLog::at(path);
-        let mapping = match (&self.mapping, &demo) {
-            (Some(file), _) => Mapping::load(file)?,
-            (None, Some(demo)) => demo.mapping()?,
-            (None, None) => Mapping::load(only_mapping_in_folder_of(path)?)?,
+        let mapping = match (&self.mapping, self.guess.mapping(path)?, &demo) {
+            (Some(file), _, _) => Mapping::load(file)?,
+            (None, Some(guess), _) => guess,
+            (None, None, Some(demo)) => demo.mapping()?,
+            (None, None, None) => Mapping::load(only_mapping_in_folder_of(path)?)?,
         };
         let range = field_log::Range {
             from: self.from,
@@ -283,10 +303,22 @@ fn only_mapping_in_folder_of(log: &Path) -> anyhow::Result<PathBuf> {
         }
     }
     match found.as_slice() {
-        [only] => Ok(only.clone()),
+        [only] => {
+            // A guess in the folder of its log is no mapping until a person names it.
+            let text = std::fs::read_to_string(only).unwrap_or_default();
+            if field_log::is_proposed(&text) {
+                return Err(WrongUse::new(format!(
+                    "{}: {} was proposed by flexdrill and not compared: compare it, and name it with --mapping or remove its first line",
+                    log.display(),
+                    only.display()
+                ))
+                .into());
+            }
+            Ok(only.clone())
+        }
         _ => Err(WrongUse::new(format!(
             "{}: its folder has {} YAML files, so the mapping is not clear; name it with --mapping FILE \
-             (config/field_logs/rig_1hz.yaml is an example)",
+             (config/field_logs/rig_1hz.yaml is an example), or let --guess propose one",
             log.display(),
             found.len()
         ))

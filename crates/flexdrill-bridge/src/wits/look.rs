@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use flexdrill_core::inputs::{Dimension, Unit};
-use flexdrill_text::{counted, six_digits};
+use flexdrill_text::{Course, counted, six_digits};
 
 use super::frame::RawFrame;
 use super::header::LAST_HEADER_ITEM;
@@ -31,18 +30,8 @@ pub struct Look {
 struct Seen {
     /// Its first value, as sent, escaped and cut.
     first_text: String,
-    numbers: Option<Numbers>,
-}
-
-/// The numbers of an item, nulls left out.
-#[derive(Debug, Clone, Copy)]
-struct Numbers {
-    first: f64,
-    last: f64,
-    least: f64,
-    most: f64,
-    rose: bool,
-    fell: bool,
+    /// Its numbers, nulls left out.
+    numbers: Option<Course>,
 }
 
 impl Look {
@@ -72,7 +61,7 @@ impl Look {
             };
             match &mut seen.numbers {
                 Some(numbers) => numbers.add(value),
-                None => seen.numbers = Some(Numbers::new(value)),
+                None => seen.numbers = Some(Course::new(value)),
             }
         }
     }
@@ -97,7 +86,7 @@ impl Look {
                 Some(numbers) => as_used(mapping, numbers.first),
                 None => "no value".to_owned(),
             };
-            let change = seen.numbers.filter(|_| self.frames > 1).map(Numbers::change);
+            let change = seen.numbers.filter(|_| self.frames > 1).map(Course::words);
             // Writing to a string does not fail.
             let _ = writeln!(
                 text,
@@ -155,49 +144,9 @@ impl Look {
     }
 }
 
-impl Numbers {
-    const fn new(value: f64) -> Self {
-        Self {
-            first: value,
-            last: value,
-            least: value,
-            most: value,
-            rose: false,
-            fell: false,
-        }
-    }
-
-    fn add(&mut self, value: f64) {
-        self.rose |= value > self.last;
-        self.fell |= value < self.last;
-        (self.least, self.most) = (self.least.min(value), self.most.max(value));
-        self.last = value;
-    }
-
-    /// Range and trend in the unit as sent: a depth only grows while drilling, a weight varies.
-    fn change(self) -> String {
-        let range = format!("{} to {}", six_digits(self.least), six_digits(self.most));
-        match (self.rose, self.fell) {
-            (false, false) => "constant".to_owned(),
-            (true, false) => format!("{range}, only rises"),
-            (false, true) => format!("{range}, only falls"),
-            (true, true) => format!("{range}, varies"),
-        }
-    }
-}
-
 /// A value in the unit in which people know the quantity.
 fn as_used(mapping: &ItemMapping, value: f64) -> String {
-    let dimension = mapping.quantity.dimension();
-    let unit = match dimension {
-        Dimension::Force => Unit::Kilonewton,
-        Dimension::Torque => Unit::KilonewtonMetre,
-        Dimension::Pressure => Unit::Megapascal,
-        Dimension::Speed => Unit::MetrePerHour,
-        Dimension::RotarySpeed => Unit::TurnPerMinute,
-        Dimension::Angle => Unit::Degree,
-        Dimension::Length | Dimension::Acceleration | Dimension::Time | Dimension::Number => dimension.si(),
-    };
+    let unit = mapping.quantity.dimension().known_in();
     format!("{} {unit}", six_digits(unit.from_si(mapping.unit.to_si(value))))
 }
 

@@ -51,6 +51,19 @@ impl Dimension {
         }
     }
 
+    /// The unit in which people know a rig's values, for tables.
+    pub const fn known_in(self) -> Unit {
+        match self {
+            Self::Force => Unit::Kilonewton,
+            Self::Torque => Unit::KilonewtonMetre,
+            Self::Pressure => Unit::Megapascal,
+            Self::Speed => Unit::MetrePerHour,
+            Self::RotarySpeed => Unit::TurnPerMinute,
+            Self::Angle => Unit::Degree,
+            Self::Length | Self::Acceleration | Self::Time | Self::Number => self.si(),
+        }
+    }
+
     /// The units of this dimension, by their names in files, for messages: `N, kN, ...`.
     pub fn units(self) -> String {
         let of_this = Unit::ALL.into_iter().filter(|unit| unit.dimension() == self);
