@@ -160,9 +160,12 @@ impl Judged<'_> {
         self.chosen.insert(quantity, candidate);
     }
 
-    /// Whether a quantity has no column, nor one that was left out as one of it.
+    /// Whether a quantity has no column, nor one that was left out although its name says this quantity.
     fn is_open(&self, quantity: Quantity) -> bool {
-        !self.chosen.contains_key(&quantity) && !self.left_out.iter().any(|(_, may_be, _)| may_be.contains(&quantity))
+        let is_named = |index: usize| meaning(self.name(index), "").0 != Meaning::Nothing;
+        let mut left_out = self.left_out.iter();
+        !self.chosen.contains_key(&quantity)
+            && !left_out.any(|(index, may_be, _)| may_be.contains(&quantity) && is_named(*index))
     }
 
     /// The candidate of a column by its name and unit, where the numbers fit both.
@@ -282,6 +285,16 @@ impl Judged<'_> {
 
     /// The weight that the bit takes is that which the hook loses.
     fn weight_and_hook_load(&mut self) {
+        // The hook carries at least the block, so that a force that is often nothing is another one.
+        if self
+            .chosen_si(Quantity::HookLoad)
+            .is_some_and(|hook| rests(&hook) > 0.02)
+        {
+            self.reject(
+                Quantity::HookLoad,
+                "a hook carries at least the block, and its numbers are often 0",
+            );
+        }
         let (Some(weight), Some(hook)) = (
             self.chosen_si(Quantity::WeightOnBit),
             self.chosen_si(Quantity::HookLoad),
@@ -382,21 +395,22 @@ impl Judged<'_> {
     /// A hole grows, and the bit is in it.
     fn depths(&mut self) {
         let (bit, hole) = (self.chosen_si(Quantity::BitDepth), self.chosen_si(Quantity::HoleDepth));
-        if hole.as_deref().and_then(falls).is_some_and(|falls| falls > 0.2) {
-            self.reject(
-                Quantity::HoleDepth,
-                "a hole does not become shallower, and its numbers fall",
-            );
-            return;
-        }
-        let (Some(bit), Some(hole)) = (bit, hole) else { return };
+        let hole_falls = hole.as_deref().and_then(falls).is_some_and(|falls| falls > 0.2);
         // Half a metre is the rounding of recorders and the stretch of a string.
-        let deeper = above(&bit, &hole, 0.5);
+        let deeper = match (&bit, &hole) {
+            (Some(bit), Some(hole)) => above(bit, hole, 0.5),
+            _ => 0.0,
+        };
         if deeper > 0.05 {
             let why = format!("the bit is below the hole's end in {:.0} % of the rows", 100.0 * deeper);
             self.reject(Quantity::BitDepth, &why);
             self.reject(Quantity::HoleDepth, &why);
-        } else {
+        } else if hole_falls {
+            self.reject(
+                Quantity::HoleDepth,
+                "a hole does not become shallower, and its numbers fall",
+            );
+        } else if bit.is_some() && hole.is_some() {
             self.confirm(Quantity::BitDepth, "never below hole_depth".to_owned());
             self.confirm(Quantity::HoleDepth, "grows, and never above bit_depth".to_owned());
         }
