@@ -411,8 +411,8 @@ impl Judged<'_> {
                 "a hole does not become shallower, and its numbers fall",
             );
         } else if bit.is_some() && hole.is_some() {
-            self.confirm(Quantity::BitDepth, "never below hole_depth".to_owned());
-            self.confirm(Quantity::HoleDepth, "grows, and never above bit_depth".to_owned());
+            self.confirm(Quantity::BitDepth, "never deeper than hole_depth".to_owned());
+            self.confirm(Quantity::HoleDepth, "grows, and is never shallower than bit_depth".to_owned());
         }
     }
 
