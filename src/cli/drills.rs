@@ -73,11 +73,11 @@ fn long_arc(config: &Config, range: &Range) -> String {
     let flats = tool::wear_flats(config);
     if range.weight <= flats {
         return format!(
-            "nothing at {weight:.1} kN: {:.1} kN are on wear flats (rock.depth_of_cut.wear_flat_force)",
+            "nothing at {weight:.1} kN on the bit: {:.1} kN are on wear flats (rock.depth_of_cut.wear_flat_force)",
             n_to_kn(flats)
         );
     }
-    words::in_a_long_arc(range.long.as_ref(), &format!(" at {weight:.1} kN"))
+    words::in_a_long_arc(range.long.as_ref(), &format!(" at {weight:.1} kN on the bit"))
 }
 
 /// What to do about a curvature that the guide does not drill.

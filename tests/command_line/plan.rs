@@ -114,7 +114,7 @@ fn check_says_what_the_guide_drills_and_what_it_cannot() {
     );
     let said = check(&planned(folder.path(), "", &[worn])).unwrap();
     assert!(
-        said.contains("guide drills     nothing at 10.0 kN: 12.0 kN are on wear flats"),
+        said.contains("guide drills     nothing at 10.0 kN on the bit: 12.0 kN are on wear flats"),
         "{said}"
     );
 }

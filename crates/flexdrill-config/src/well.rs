@@ -126,6 +126,7 @@ impl Well {
                 c.below(index, |c| section.check(c));
             }
         });
+        // The hole grows by arcs in one vertical plane, and its depth and azimuth are those of a hole that goes down once.
         let end = self.end_inclination_deg();
         c.require(
             end <= 180.0,
@@ -142,6 +143,7 @@ impl Well {
             "m",
             "a bore of a slim drilling tool, given in metres",
         );
+        // The plan begins on the hole, so that its first depth is held against the hole's.
         if let Some(plan) = &self.plan {
             let hole = self.length();
             c.below("plan", |c| plan.check(c, hole));

@@ -68,7 +68,10 @@ fn what_makes_no_sense_is_refused_with_its_place_and_bound() {
     let stations = |list: &[String]| format!("  plan: {{stations: [{}]}}", list.join(", "));
     let good = station(0.0, 0.0, 0.0);
     for (plan, expected) in [
-        ("  plan: {}".to_owned(), "well.plan.stations = 0 (the default): must be 2 to 1000"),
+        (
+            "  plan: {}".to_owned(),
+            "well.plan.stations = 0 (the default): must be 2 to 1000",
+        ),
         (
             stations(&[good.clone()]),
             "rig.yaml:5: well.plan.stations = 1: must be 2 to 1000",

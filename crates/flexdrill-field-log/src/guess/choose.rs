@@ -412,7 +412,10 @@ impl Judged<'_> {
             );
         } else if bit.is_some() && hole.is_some() {
             self.confirm(Quantity::BitDepth, "never deeper than hole_depth".to_owned());
-            self.confirm(Quantity::HoleDepth, "grows, and is never shallower than bit_depth".to_owned());
+            self.confirm(
+                Quantity::HoleDepth,
+                "grows, and is never shallower than bit_depth".to_owned(),
+            );
         }
     }
 

@@ -198,9 +198,11 @@ pub fn guess(path: impl AsRef<Path>) -> Result<Guess, FieldLogError> {
 /// As [`guess`].
 pub fn guess_bytes(name: String, content: &[u8]) -> Result<Guess, FieldLogError> {
     let sheet = Sheet::of(&name, content, LARGEST)?;
+    // The time comes first: whether a depth grows or a rate fits it is a question of the rows' order and steps.
     let times = time::find(&sheet);
     let choice = choose::choose(&sheet, &times);
     let column = |index: usize| sheet.columns.get(index);
+    // A person compares the proposal with the rig's display by its first value and its course.
     let proposal = |candidate: Candidate| {
         let column = column(candidate.index)?;
         let course = Course::of(column.numbers())?;
@@ -217,6 +219,7 @@ pub fn guess_bytes(name: String, content: &[u8]) -> Result<Guess, FieldLogError>
         })
     };
     let codes = choose::codes(&sheet, &choice.proposals);
+    // Every column that is not proposed is named once, in the order of the log: what is not said is believed to be read.
     let mut left_out: Vec<(usize, Vec<Quantity>, String)> = choice.left_out;
     left_out.extend(times.left_out.into_iter().map(|(index, why)| (index, Vec::new(), why)));
     left_out.sort_by_key(|(index, ..)| *index);

@@ -62,10 +62,19 @@ fn together([torque, speed, weight]: [f64; 3], [right, low, tilt_right, tilt_low
 fn across(stepper: &Stepper) -> [f64; 4] {
     let model = stepper.model();
     let last = model.last();
-    let bottom = &model.stations[last];
+    let [above, bottom] = [&model.stations[last - 1], &model.stations[last]];
     let at_bit = model.held_nodes.iter().filter(|held| held.station == last);
     let held: Vector3<f64> = at_bit.map(|held| stepper.reaction(held)[0]).sum();
     let across = bottom.frame.tr_mul(&held);
-    let slope = |about: Direction| stepper.value(|state| &state.q, bottom.guide + about as usize);
-    [-across.y, -across.z, slope(Direction::PhiZ), -slope(Direction::PhiY)]
+    let guide = |direction: Direction| stepper.value(|state| &state.q, bottom.guide + direction as usize);
+    // A guide on the wall outside of the arc has a longer way, and its end lies some millimetres up the hole. A section that
+    // slides by u has turned by kb u with the hole: that is no tilt against it. The hole bends in its vertical plane alone.
+    let curvature = (bottom.inclination - above.inclination) / (bottom.depth - above.depth);
+    let turned_with_the_hole = curvature * guide(Direction::U);
+    [
+        -across.y,
+        -across.z,
+        guide(Direction::PhiZ),
+        turned_with_the_hole - guide(Direction::PhiY),
+    ]
 }
