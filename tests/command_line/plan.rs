@@ -80,7 +80,7 @@ fn check_says_what_the_guide_drills_and_what_it_cannot() {
     let said = check(&planned(folder.path(), &list, &[inputs])).unwrap();
     for part in [
         "guide drills     In a long arc it drills a radius of 3.1",
-        " m at 10.0 kN: ",
+        " m at 10.0 kN on the bit: ",
         // docs/hole_ahead.md: 2.81 to 3.65 m at 10 kN.
         "outside 2.81 m to 3.65 m in a long arc at 10.0 kN, the largest weight",
         "plan             4 stations from 0.00 to 10.03 m, inclination 0.0 to 109.7 deg, target 0.05 m",
