@@ -124,7 +124,7 @@ fn weight_that_does_not_arrive_is_called() {
 
 #[test]
 fn torque_that_does_not_arrive_is_called() {
-    let outcome = drill(changed("rig.yaml", &INCLINED), 40.0, 20.0, 40.0);
+    let outcome = drill(changed("rig.yaml", &INCLINED), 40.0, 15.0, 40.0);
     let (_, _, _, evidence) = outcome.of(AlarmId::TorqueTransfer).unwrap();
     assert!(
         evidence.starts_with("Torque does not arrive: friction takes 9"),
