@@ -185,7 +185,7 @@ fn at_rest(bending_factor: &str) -> HoleAhead {
     let (mut session, mut host) = (session(&config), Kept::default());
     session.begin(START, &mut host).unwrap();
     session.applied(&run.applied(), &[], 0, &mut host).unwrap();
-    while host.counts().get(topics::HOLE_AHEAD.name).is_none() {
+    while !host.counts().contains_key(topics::HOLE_AHEAD.name) {
         assert!(frame.snapshot.time < 1.5, "no message");
         assert!(!matches!(
             run.advance(),

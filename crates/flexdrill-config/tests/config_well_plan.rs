@@ -73,7 +73,7 @@ fn what_makes_no_sense_is_refused_with_its_place_and_bound() {
             "well.plan.stations = 0 (the default): must be 2 to 1000",
         ),
         (
-            stations(&[good.clone()]),
+            stations(std::slice::from_ref(&good)),
             "rig.yaml:5: well.plan.stations = 1: must be 2 to 1000",
         ),
         (
