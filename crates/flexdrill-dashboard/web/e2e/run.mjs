@@ -225,11 +225,12 @@ try {
     );
     await until("its end", 60, async () => !(await page.isVisible("#what-if-cancel")));
     // A browser without graphics hardware takes the processors that look-aheads would have: a forecast whose runs take
-    // longer than its minute, or than the log keeps its speed and weight, is given up, and the page says so.
-    const forecast = / runs? \(chance |The next minute is unknown: ./;
-    await until("a forecast, or why there is none", 240, async () =>
-      forecast.test(await page.textContent("#forecast-summary")),
-    );
+    // longer than its minute, or than the log keeps its speed and weight, is withdrawn, and the page says so.
+    const forecast =
+      / runs? \(chance |The next minute is unknown: .*(its minute is over|no forecast for)|Withdrawn: it(s minute is over| was made for)/;
+    const said = async () =>
+      (await page.textContent("#forecast-state")) + (await page.textContent("#forecast-summary"));
+    await until("a forecast, or why there is none", 240, async () => forecast.test(await said()));
     await look("ahead");
     await page.click("#tab-alarms");
   });
