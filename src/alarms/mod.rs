@@ -31,8 +31,8 @@ mod tool;
 mod window;
 mod worst_moment;
 
-pub(crate) use advice::TRIED;
 pub use advice::{Change, Knob, Leading, Tested, Trial, Unknown};
+pub(crate) use advice::{TRIED_SPEED, TRIED_WEIGHT};
 pub use catalogue::AlarmId;
 pub(crate) use fill::priority as priority_code;
 pub use finding::Finding;

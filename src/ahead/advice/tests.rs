@@ -3,7 +3,7 @@ use std::sync::Mutex;
 use super::searching::Stopped;
 use super::trials::{ladders, trials};
 use super::*;
-use crate::alarms::{TRIED, Tested};
+use crate::alarms::{TRIED_SPEED, TRIED_WEIGHT, Tested};
 use flexdrill_config::{Advice, Config};
 
 fn config() -> Config {
@@ -43,6 +43,7 @@ fn directions_of_the_rule_come_first_and_those_against_it_last() {
             (speed, 69.0),
             (speed, 78.0),
             (speed, 90.0),
+            (speed, 120.0),
             (speed, 51.0),
             (speed, 42.0),
             (speed, 30.0),
@@ -54,23 +55,23 @@ fn directions_of_the_rule_come_first_and_those_against_it_last() {
     );
     assert_eq!(
         ladders(&found),
-        [vec![0, 1, 2, 3], vec![4, 5, 6], vec![7, 8, 9, 10], vec![11, 12, 13]]
+        [vec![0, 1, 2, 3], vec![4, 5, 6, 7], vec![8, 9, 10, 11], vec![12, 13, 14]]
     );
     let without = trials(&config(), &Advice::default(), 60.0, 20.0);
-    assert_eq!(without.len(), 14);
-    let firsts = [0, 4, 8, 11].map(|first| changes(&without)[first]);
+    assert_eq!(without.len(), 15);
+    let firsts = [0, 4, 8, 12].map(|first| changes(&without)[first]);
     assert_eq!(
         firsts,
         [(speed, 51.0), (weight, 17.0), (speed, 69.0), (weight, 23.0)],
         "less before more, and speed before weight"
     );
     // What a rule that is refuted lies within.
-    let parts = without.iter().map(|trial| match trial.change.quantity {
-        Knob::Speed => trial.change.to / 60.0,
-        Knob::Weight => trial.change.to / 20.0,
-    });
-    let [least, most] = [f64::min, f64::max].map(|of| parts.clone().reduce(of).unwrap());
-    assert_eq!([least, most], TRIED);
+    for (quantity, from, tried) in [(speed, 60.0, TRIED_SPEED), (weight, 20.0, TRIED_WEIGHT)] {
+        let of_quantity = without.iter().filter(|trial| trial.change.quantity == quantity);
+        let parts = of_quantity.map(|trial| trial.change.to / from);
+        let [least, most] = [f64::min, f64::max].map(|of| parts.clone().reduce(of).unwrap());
+        assert_eq!([least, most], tried);
+    }
 }
 
 /// Changes to points at which the alarm is not judged are no candidates: of 20 r/min, half is below the gate of

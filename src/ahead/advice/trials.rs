@@ -2,17 +2,19 @@
 
 use super::point;
 use crate::ahead::measured::is_judged_at;
-use crate::alarms::{AlarmId, Change, Knob, TRIED, rule};
+use crate::alarms::{AlarmId, Change, Knob, TRIED_SPEED, TRIED_WEIGHT, rule};
 use flexdrill_config::{Advice, Config};
 use flexdrill_core::twin::SimulationSettings;
 
 /// Changes that are tried, as parts of the present value, the smallest first. Between neighbours lie a tenth to a fifth of
-/// the value: finer steps cost a round of members each, and a rig wavers by some percent. A larger raise than the last would
-/// be another drilling programme.
+/// the value: finer steps cost a round of members each, and a rig wavers by some percent. Speed is doubled too: from where a
+/// bit sticks and slips a driller doubles the speed. A larger raise than the last would be another drilling programme.
 const LOWER: [f64; 4] = [0.15, 0.3, 0.5, 0.7];
-const RAISE: [f64; 3] = [0.15, 0.3, 0.5];
+const FASTER: [f64; 4] = [0.15, 0.3, 0.5, 1.0];
+const HEAVIER: [f64; 3] = [0.15, 0.3, 0.5];
 // The words on a rule that is refuted depend on the range that is tried.
-const _: () = assert!(1.0 - LOWER[3] - TRIED[0] < 1e-12 && 1.0 + RAISE[2] == TRIED[1]);
+const _: () = assert!(1.0 - LOWER[3] - TRIED_SPEED[0] < 1e-12 && 1.0 - LOWER[3] - TRIED_WEIGHT[0] < 1e-12);
+const _: () = assert!(1.0 + FASTER[3] == TRIED_SPEED[1] && 1.0 + HEAVIER[2] == TRIED_WEIGHT[1]);
 
 /// A change to be tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,8 +57,8 @@ pub(super) fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<T
     let directions: [(Knob, &[f64], f64); 4] = [
         (Knob::Speed, &LOWER, -1.0),
         (Knob::Weight, &LOWER, -1.0),
-        (Knob::Speed, &RAISE, 1.0),
-        (Knob::Weight, &RAISE, 1.0),
+        (Knob::Speed, &FASTER, 1.0),
+        (Knob::Weight, &HEAVIER, 1.0),
     ];
     for (quantity, sizes, sense) in directions {
         // What a driller can set: whole turns per minute, half kilonewtons.

@@ -244,9 +244,11 @@ impl Trial {
 }
 
 /// What is said where look-aheads have refuted the rule of the leading alarm.
-const NOTHING: &str = "Nothing within the limits ends it: the twin has tried other speeds and weights. ";
-/// Least and most of speed or weight that look-aheads try, as parts of the present value.
-pub(crate) const TRIED: [f64; 2] = [0.3, 1.5];
+const NOTHING: &str =
+    "Nothing that the twin has tried ends it: from 0.3 to 2 times the speed, from 0.3 to 1.5 times the weight. ";
+/// Least and most speed that look-aheads try, and the same of weight, as parts of the present value.
+pub(crate) const TRIED_SPEED: [f64; 2] = [0.3, 2.0];
+pub(crate) const TRIED_WEIGHT: [f64; 2] = [0.3, 1.5];
 
 impl Knob {
     fn name(self) -> &'static str {
@@ -267,6 +269,13 @@ impl Knob {
         match self {
             Self::Speed => now.rpm,
             Self::Weight => now.kn,
+        }
+    }
+
+    fn tried(self) -> [f64; 2] {
+        match self {
+            Self::Speed => TRIED_SPEED,
+            Self::Weight => TRIED_WEIGHT,
         }
     }
 

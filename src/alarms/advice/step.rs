@@ -1,6 +1,6 @@
 //! One change of one input, as a rule of the configuration asks for it.
 
-use super::{FLUCTUATION, Knob, Operating, TRIED};
+use super::{FLUCTUATION, Knob, Operating};
 use crate::alarms::sentence::number;
 use flexdrill_config::{Advice, InputsConfig};
 
@@ -47,7 +47,8 @@ impl Step {
     /// Whether look-aheads have tried inputs beyond its limit.
     pub fn was_tried(&self, now: &Operating) -> bool {
         let part = self.limit / self.quantity.now(now);
-        (TRIED[0]..=TRIED[1]).contains(&part)
+        let [least, most] = self.quantity.tried();
+        (least..=most).contains(&part)
     }
 
     /// Whether the step violates a limit of another rule: the other lowers the input that this one raises, or the

@@ -187,8 +187,8 @@ fn a_rule_says_what_the_twin_does_about_it() {
     }
 }
 
-/// What a search has refuted leaves the screen. A limit that lies beyond what it tried (below 0.3 or above 1.5 of the present
-/// value) is not refuted, and neither is one at inputs that the twin does not know.
+/// What a search has refuted leaves the screen. A limit that lies beyond what it tried (below 0.3 of the present value, above
+/// 2 of the speed or 1.5 of the weight) is not refuted, and neither is one at inputs that the twin does not know.
 #[test]
 fn a_rule_that_the_search_has_refuted_is_not_shown() {
     let slower = Advice {
@@ -203,13 +203,13 @@ fn a_rule_that_the_search_has_refuted_is_not_shown() {
         |priority, now: &Operating| told(&[demand(AlarmId::ChaoticWhirl, priority, slower)], now, &found).remove(0);
     assert_eq!(
         text(MEDIUM, &at(95.0, 20.0)),
-        "Nothing within the limits ends it: the twin has tried other speeds and weights. Call the engineer. If it gets \
-         worse, pick up off bottom."
+        "Nothing that the twin has tried ends it: from 0.3 to 2 times the speed, from 0.3 to 1.5 times the weight. Call the \
+         engineer. If it gets worse, pick up off bottom."
     );
     assert_eq!(
         text(HIGH, &at(95.0, 20.0)),
-        "Nothing within the limits ends it: the twin has tried other speeds and weights. Pick up off bottom and stop the \
-         drive."
+        "Nothing that the twin has tried ends it: from 0.3 to 2 times the speed, from 0.3 to 1.5 times the weight. Pick up \
+         off bottom and stop the drive."
     );
     // 50 of 200 r/min is a quarter.
     assert_eq!(

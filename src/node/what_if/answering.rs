@@ -203,15 +203,27 @@ impl Answering {
             }
         };
         let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
+        let alarm = asked.leading.alarm.name();
+        let mut first = None;
         let searched = search(&start, &asked.leading, ADVICE_SEED, threads, &stop, |progress| {
-            if !stop.load(Ordering::Relaxed) {
-                self.advisor.hear(&asked, &progress);
+            if stop.load(Ordering::Relaxed) {
+                return;
+            }
+            self.advisor.hear(&asked, &progress);
+            if let (None, Some(tested)) = (first, progress.first) {
+                first = Some(tested);
+                if let Some(more) = log_ending(format!("first advice on {alarm}")) {
+                    let (seconds, model) = (began.elapsed().as_secs_f64(), progress.seconds);
+                    tracing::info!(
+                        "first advice on {alarm} after {seconds:.1} s and {model:.0} s of model time, more runs follow: \
+                         {tested}{more}"
+                    );
+                }
             }
         });
         let Some(searched) = searched.filter(|_| !stop.load(Ordering::Relaxed)) else {
             return;
         };
-        let alarm = asked.leading.alarm.name();
         if let Some(more) = log_ending(format!("advice on {alarm}")) {
             tracing::info!(
                 "advice on {alarm} after {:.1} s, {} and {:.0} s of model time: {}{more}",
@@ -219,7 +231,8 @@ impl Answering {
                 counted(searched.changes as u64, "change"),
                 searched.seconds,
                 searched.tested.map_or_else(
-                    || "nothing within the limits of speed and weight ends it in 9 of 10 runs".to_owned(),
+                    || "nothing from 0.3 to 2 times the speed, or 0.3 to 1.5 times the weight, ends it in 9 of 10 runs"
+                        .to_owned(),
                     |tested| tested.to_string()
                 )
             );
