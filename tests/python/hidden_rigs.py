@@ -1,0 +1,381 @@
+"""Plausible tools on rigs that the twin has not seen.
+
+hidden_rigs.py --out DIR [--rigs 60] [--seconds 600] [--members 16] [--seed 1] [--jobs 2] [--binary FILE] [--config FILE]
+
+A hidden rig is a run of the program with another structure than the twin's, drawn from the list STRUCTURES, and with
+parameters from ranges half as wide again as the twin's own. Its plan of speed and weight changes every half minute to
+two. Sensors with factor, tare, noise, drift, delay, quantising and dropouts make a log of it. The twin replays this log
+with its plausible tools (`flexdrill replay LOG --members N`), and its bands are compared with what the hidden rig did.
+The twin gets the log and the configuration that is under test, and nothing else.
+
+DIR/rig_NNN.json has the figures of one rig: a run that was interrupted continues where it was. DIR/scores.md has the
+tables. Rigs of one seed tune, those of another judge. Ends with 77 when packages are missing.
+"""
+
+import argparse
+import json
+import math
+import random
+import shutil
+import subprocess
+import sys
+from collections import defaultdict
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+try:
+    from rosbags.highlevel import AnyReader
+    from ruamel.yaml import YAML
+except ImportError as missing:
+    print(f"missing: {missing.name}")
+    sys.exit(77)
+
+# Figures that are judged: name in twin/bands, with topic and field of the truth.
+JUDGED = {
+    "bit torque": "transfer/bit_torque",
+    "weight at the bit": "transfer/bit_weight",
+    "force of pipe on guide": "contact_forces/max_pipe_guide_force",
+    "force of guide on wall": "contact_forces/max_guide_wall_force",
+    "swing of the bit's speed": "bit_state/stick_slip_index",
+}
+TOPICS = ("transfer", "contact_forces", "bit_state", "bands", "alarms")
+# A band belongs to one second. The motion is chaotic within it, so that each second is judged by itself.
+SECOND = 10**9
+# Seconds at the beginning that are not judged: the tool comes to its speed, and members are at rest before.
+SETTLING = 30
+# An alarm of the twin about its inputs, its comparison or the program is not one of the tool.
+DRILLING, LOW = 0, 1
+WITHIN = 60
+TENTHS = 10
+
+
+def at(config, key, value):
+    """Sets a dotted key."""
+    *parents, last = key.split(".")
+    for parent in parents:
+        config = config.setdefault(parent, {})
+    config[last] = value
+
+
+def get(config, key):
+    for part in key.split("."):
+        config = config[part]
+    return config
+
+
+# Another structure than the twin assumes, by name: what it does to a configuration.
+STRUCTURES = {
+    "friction in the pipe acts around and along by itself": lambda c: at(c, "contact.inner.friction", "separate"),
+    "joints of constant velocity": lambda c: (at(c, "tool.joint.kind", "ball_cage"), get(c, "tool.joint").pop("friction", 0)),
+    "joints with play of 0.5 deg": lambda c: at(c, "tool.joint.play_deg", 0.5),
+    "a bit whose torque falls with its speed, without cutting": lambda c: at(c, "rock.law", "weakening"),
+    "a string of two sections": lambda c: at(
+        c,
+        "string.sections",
+        [
+            {"length": 700.0, "outer_diameter": 0.0889, "inner_diameter": 0.0702},
+            {"length": 500.0, "outer_diameter": 0.0730, "inner_diameter": 0.0546},
+        ],
+    ),
+    "a stiff drive": lambda c: at(c, "string.top_drive.tuning", "stiff"),
+    "a hole 2 mm larger": lambda c: at(c, "well.hole_diameter", get(c, "well.hole_diameter") + 0.002),
+    "a guide that lies on the wall without sticking": lambda c: at(c, "contact.outer.friction", "vector"),
+    "pins without friction that falls, and a coarse mesh": lambda c: at(c, "tool.elements_per_link", 4),
+    "half of the step": lambda c: at(c, "solver.time_step", 0.00025),
+}
+
+
+def widened(distribution, rng):
+    """A value from a distribution of the configuration, half as wide again."""
+    [(law, ends)] = distribution.items()
+    low, high = ends["low"], ends["high"]
+    if law == "log_normal":
+        low, high, back = math.log(low), math.log(high), math.exp
+    else:
+        back = float
+    middle, half = (low + high) / 2, 1.5 * (high - low) / 2
+    if law in ("normal", "log_normal"):
+        # Half of the width is 1.645 standard deviations where 90 % lie within. Nothing beyond twice that exists.
+        return back(middle + max(-2.0, min(2.0, rng.gauss(0, 1 / 1.645))) * half)
+    return back(rng.uniform(low, middle + half))
+
+
+def hidden_rig(config, rng):
+    """A configuration of another structure with other parameters, with the names of its structures."""
+    for entry in config.pop("uncertainty")["keys"]:
+        value = widened(entry["distribution"], rng)
+        for key in [entry["key"], *entry.get("also", [])]:
+            try:
+                present = get(config, key)
+            except KeyError:
+                present = {"contact.inner.friction_axial": 0.2, "contact.outer.friction_axial": 0.3}.get(key)
+            form = entry.get("form", "value")
+            if form != "value" and present is None:
+                continue
+            at(config, key, {"value": value, "factor": (present or 0) * value, "offset": (present or 0) + value}[form])
+    config.pop("ensemble", None)
+    names = rng.sample(sorted(STRUCTURES), 3)
+    for name in names:
+        STRUCTURES[name](config)
+    return names
+
+
+def plan(seconds, rng):
+    """Speed (r/min) and weight (kN) by the second: changes every 30 to 120 s, and once off bottom."""
+    rows, next_change, lifted = [], 0, rng.randrange(seconds // 2, max(seconds - 60, seconds // 2 + 1))
+    speed = weight = 0.0
+    for second in range(seconds):
+        if second >= next_change:
+            speed, weight = rng.choice([30.0, 40.0, 50.0, 60.0, 70.0]), rng.choice([6.0, 8.0, 10.0, 14.0, 18.0])
+            next_change = second + rng.randrange(30, 120)
+        on_bottom = second >= 10 and not lifted <= second < lifted + 25
+        rows.append((speed, weight if on_bottom else 0.0))
+    return rows
+
+
+class Sensor:
+    """What a sensor shows of a true value: factor, tare, noise, drift, quantum; a delay in whole seconds; dropouts."""
+
+    def __init__(self, rng, factor, tare, noise, drift, quantum, delay):
+        self.rng, self.noise, self.quantum, self.delay = rng, noise, quantum, delay
+        self.factor, self.tare = 1 + rng.uniform(-factor, factor), rng.uniform(-tare, tare)
+        self.drift, self.drifted = drift, 0.0
+
+    def shows(self, value):
+        # A walk whose standard deviation after an hour is `drift`.
+        self.drifted += self.rng.gauss(0, self.drift / 60)
+        if self.rng.random() < 0.01:
+            return None
+        shown = self.factor * value + self.tare + self.drifted + self.rng.gauss(0, self.noise)
+        return round(shown / self.quantum) * self.quantum
+
+
+def run(command, log):
+    with log.open("w") as to:
+        done = subprocess.run([str(part) for part in command], stdout=to, stderr=subprocess.STDOUT, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{command[1]} ended with {done.returncode}: {log.read_text()[-500:]}")
+
+
+def messages(bag, wanted):
+    """Messages of the twin by short name and second of their stamp; of each second the last one."""
+    found = defaultdict(dict)
+    with AnyReader([bag]) as reader:
+        of = {c.id: c.topic.rsplit("/", 1)[-1] for c in reader.connections if "/twin/" in f"/{c.topic}"}
+        ours = [c for c in reader.connections if of.get(c.id) in wanted]
+        for connection, stamp, data in reader.messages(connections=ours):
+            message = reader.deserialize(data, connection.msgtype)
+            header = message.header.stamp
+            found[of[connection.id]][(header.sec * SECOND + header.nanosec) // SECOND] = message
+    return found
+
+
+def standing(found, seconds):
+    """Ids of the alarms of the tool that stand, by the second."""
+    by_second, present = {}, frozenset()
+    for second in seconds:
+        if second in found["alarms"]:
+            present = frozenset(
+                alarm.id for alarm in found["alarms"][second].alarms if alarm.active and alarm.category == DRILLING
+            )
+        by_second[second] = present
+    return by_second
+
+
+def one(number, options):
+    """Runs a hidden rig and the twin on its log; figures by second."""
+    rng = random.Random(f"{options.seed} {number}")
+    folder = options.out / f"rig_{number:03}"
+    result = folder.with_suffix(".json")
+    if result.exists():
+        return json.loads(result.read_text())
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    yaml = YAML(typ="safe")
+    config = yaml.load(options.config.read_text())
+    names = hidden_rig(config, rng)
+    with (folder / "hidden.yaml").open("w") as to:
+        yaml.dump(config, to)
+    rows = plan(options.seconds, rng)
+    (folder / "plan.csv").write_text(
+        "time_s,rpm,wob\n" + "".join(f"{second},{speed},{weight}\n" for second, (speed, weight) in enumerate(rows))
+    )
+    columns = (
+        'separator: ","\ncolumns:\n  time: {column: time_s, format: seconds}\n'
+        "  rotary_speed: {column: rpm, unit: r/min}\n  weight_on_bit: {direct: {column: wob, unit: kN}}\n"
+    )
+    (folder / "plan.yaml").write_text(columns)
+    binary = options.binary
+    run(
+        [binary, "replay", folder / "plan.csv", "--mapping", folder / "plan.yaml", "--config", folder / "hidden.yaml"]
+        + ["--out", folder / "truth"],
+        folder / "truth.log",
+    )
+    truth = messages(folder / "truth", TOPICS)
+
+    # What the rig's sensors show of it.
+    speed = Sensor(rng, 0.01, 0.0, 0.2, 0.0, 0.1, 0)
+    weight = Sensor(rng, 0.05, 2.0, 0.4, 0.2, 0.1, 0)
+    torque = Sensor(rng, 0.05, 50.0, 15.0, 5.0, 1.0, rng.randrange(0, 3))
+    first = min(truth["transfer"])
+    lines = ["time_s,rpm,wob,torque"]
+    for second, (rpm, kn) in enumerate(rows):
+        at_surface = truth["transfer"].get(first + second - torque.delay)
+        shown = torque.shows(at_surface.surface_torque) if at_surface else None
+        # A driller zeroes the weight off bottom, and never puts on less than nothing.
+        shown_weight = weight.shows(kn) if kn > 0 else 0.0
+        values = [speed.shows(rpm), None if shown_weight is None else max(shown_weight, 0.0), shown]
+        lines.append(",".join([str(second), *("" if value is None else f"{value:.3f}" for value in values)]))
+    (folder / "rig.csv").write_text("\n".join(lines) + "\n")
+    (folder / "rig.yaml").write_text(columns + "  torque: {column: torque, unit: N.m}\n")
+    run(
+        [binary, "replay", folder / "rig.csv", "--mapping", folder / "rig.yaml", "--config", options.config]
+        + ["--members", options.members, "--out", folder / "twin"],
+        folder / "twin.log",
+    )
+    twin = messages(folder / "twin", TOPICS)
+    figures = compared(truth, twin, first, names)
+    result.write_text(json.dumps(figures))
+    # Bags of a rig take a hundred megabytes; what is judged is in the figures.
+    shutil.rmtree(folder / "truth")
+    shutil.rmtree(folder / "twin")
+    return figures
+
+
+def field(message, path):
+    return getattr(message, path.split("/")[1])
+
+
+def compared(truth, twin, first, names):
+    """What is judged of one rig: for each second the truth, band and the twin's own figure; alarms with their chances."""
+    begins = min(twin["bands"], default=0)
+    offset = min(twin["transfer"]) - first
+    seconds = [second for second in sorted(twin["bands"]) if second - offset in truth["transfer"] and second > begins + SETTLING]
+    bands = defaultdict(list)
+    for second in seconds:
+        message = twin["bands"][second]
+        of = {band.name: band for band in message.bands}
+        for name, path in JUDGED.items():
+            topic = path.split("/")[0]
+            band, real, own = of.get(path), truth[topic].get(second - offset), twin[topic].get(second)
+            if band is not None and real is not None and own is not None and math.isfinite(band.p5):
+                since = second - first - offset
+                row = [since, field(real, path), band.p5, band.p50, band.p95, field(own, path), message.effective]
+                bands[name].append(row)
+    # The next minute: whether an alarm of the tool stands within it in the hidden rig.
+    real = standing(truth, range(first, first + len(truth["transfer"]) + 1))
+    own = standing(twin, range(first + offset, first + offset + len(twin["transfer"]) + 1))
+    last = max(real)
+    alarms = []
+    for second in seconds[::10]:
+        now = second - offset
+        if now + WITHIN <= last:
+            came = any(real[later] for later in range(now, now + WITHIN))
+            alarms.append([twin["bands"][second].any_alarm, bool(own.get(second)), came])
+    disagrees = sum(
+        any(alarm.id == "rig_disagrees" and alarm.active for alarm in message.alarms) for message in twin["alarms"].values()
+    )
+    return {"structures": names, "bands": bands, "alarms": alarms, "disagrees": disagrees, "seconds": len(seconds)}
+
+
+def wilson(share, count):
+    """95 % interval of a share of `count`."""
+    if count == 0:
+        return math.nan, math.nan
+    z = 1.96
+    middle = (share + z * z / (2 * count)) / (1 + z * z / count)
+    half = z / (1 + z * z / count) * math.sqrt(share * (1 - share) / count + z * z / (4 * count * count))
+    return middle - half, middle + half
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else math.nan
+
+
+def tables(rigs, options):
+    """Scores as Markdown. A rig counts as one: its seconds are not independent."""
+    out = [
+        f"{len(rigs)} hidden rigs of {options.seconds} s, seed {options.seed}, {options.members} plausible tools each.",
+        "",
+        "| figure | truth within the 90 % band, mean of rigs | standard error | first third | last third | width, last over "
+        "first third | twin's own figure off by (mean share) |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for name in JUDGED:
+        held, early, late, ratio, error = [], [], [], [], []
+        for rig in rigs:
+            rows = rig["bands"].get(name, [])
+            if not rows:
+                continue
+            inside = [low <= real <= high for _, real, low, _, high, _, _ in rows]
+            third = max(len(rows) // 3, 1)
+            held.append(mean(inside))
+            early.append(mean(inside[:third]))
+            late.append(mean(inside[-third:]))
+            # Widths in parts of the middle, since the plan moves both.
+            width = [(high - low) / abs(middle) if middle else math.nan for _, _, low, middle, high, _, _ in rows]
+            known = [[value for value in part if math.isfinite(value)] for part in (width[:third], width[-third:])]
+            ratio.append(mean(known[1]) / mean(known[0]) if known[0] and known[1] else math.nan)
+            error.append(mean(abs(own - real) / abs(real) for _, real, _, _, _, own, _ in rows if real))
+        spread = math.sqrt(mean((value - mean(held)) ** 2 for value in held) / max(len(held) - 1, 1)) if held else math.nan
+        finite = [value for value in ratio if math.isfinite(value)]
+        out.append(
+            f"| {name} | {mean(held):.2f} | {spread:.2f} | {mean(early):.2f} | {mean(late):.2f} | {mean(finite):.2f} | "
+            f"{mean(error):.2f} |"
+        )
+    alarms = [row for rig in rigs for row in rig["alarms"] if math.isfinite(row[0])]
+    climate = mean(came for _, _, came in alarms)
+    brier = [
+        ("plausible tools", mean((chance - came) ** 2 for chance, _, came in alarms)),
+        ("the twin alone", mean((own - came) ** 2 for _, own, came in alarms)),
+        ("climate", mean((climate - came) ** 2 for _, _, came in alarms)),
+    ]
+    out += ["", f"An alarm of the tool within the next minute, {len(alarms)} instants, it came in {climate:.2f} of them:", ""]
+    out += ["| forecast | Brier score |", "| --- | --- |", *(f"| {name} | {score:.3f} |" for name, score in brier), ""]
+    out += ["| chance said | instants | came | 95 % |", "| --- | --- | --- | --- |"]
+    for tenth in range(TENTHS):
+        rows = [came for chance, _, came in alarms if tenth <= min(chance * TENTHS, TENTHS - 0.5) < tenth + 1]
+        if rows:
+            low, high = wilson(mean(rows), len(rows))
+            said = f"{tenth / TENTHS:.1f} to {(tenth + 1) / TENTHS:.1f}"
+            out.append(f"| {said} | {len(rows)} | {mean(rows):.2f} | {low:.2f} to {high:.2f} |")
+    disagreeing = sum(rig["disagrees"] > 0 for rig in rigs)
+    out += ["", f"`rig_disagrees` stood at some time on {disagreeing} of {len(rigs)} rigs."]
+    return "\n".join(out) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    root = Path(__file__).resolve().parents[2]
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--rigs", type=int, default=60)
+    parser.add_argument("--seconds", type=int, default=600)
+    parser.add_argument("--members", type=int, default=16)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--binary", type=Path, default=root / "target/release/flexdrill")
+    parser.add_argument("--config", type=Path, default=root / "config/rig.yaml")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+
+    def safe(number):
+        try:
+            return one(number, options)
+        except RuntimeError as error:
+            print(f"rig {number}: {error}", file=sys.stderr)
+            return None
+
+    with ThreadPoolExecutor(options.jobs) as pool:
+        rigs = list(pool.map(safe, range(options.rigs)))
+    failed = sum(rig is None for rig in rigs)
+    text = tables([rig for rig in rigs if rig], options)
+    if failed:
+        text += f"\n{failed} rigs could not be computed: their messages are above, and they are in no table.\n"
+    (options.out / "scores.md").write_text(text)
+    print(text)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
