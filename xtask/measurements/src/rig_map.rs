@@ -32,7 +32,7 @@ struct Guide {
 
 const GUIDES: [Guide; 3] = [
     Guide {
-        name: "as shipped: two spines, made with a radius of 3.45 m",
+        name: "as shipped: two spines, 3.45 m",
         changes: Vec::new,
     },
     Guide {
