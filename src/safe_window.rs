@@ -358,6 +358,8 @@ mod tests {
             horizon: 30.0,
             members: 20,
             run_all: false,
+            first_alarm: false,
+            plausible: false,
             seed: 1,
             priority: Priority::Medium,
             limit: 0.1,

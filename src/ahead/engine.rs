@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 
 use super::chance::{Band, Chance};
-use super::goal::{Candidate, Goal, MOST_RUN_UP};
+use super::goal::{Candidate, Ends, Goal, MOST_RUN_UP};
 use super::member::{DISTURBANCE, Ended, Figure, Horizon, Member, Watched};
 use super::set_point::{SetPoint, Wavering};
 use crate::alarms::AlarmId;
@@ -15,6 +15,7 @@ use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::{BuildError, QualityLevel, Run, RunInputs, Simulation};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
+use flexdrill_uncertainty::Readings;
 
 /// Why no member can begin.
 #[derive(Debug, thiserror::Error)]
@@ -24,10 +25,26 @@ pub enum StartError {
     Build(#[from] BuildError),
 }
 
-/// The state that all members begin from.
+/// Why a member has no tool.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoTool {
+    /// What would have come is unknown: in words.
+    Unknown(String),
+    /// A stop was requested.
+    Stopped,
+}
+
+/// Gives the state that a member of a number begins from; it looks at the flag that stops it.
+type Tools = Arc<dyn Fn(u32, &AtomicBool) -> Result<Start, NoTool> + Send + Sync>;
+
+/// The state that all members begin from, or each its own.
 pub struct Start {
     config: Arc<Config>,
     run: Run,
+    /// What the rig shows of speed and weight.
+    readings: Readings,
+    /// The tool of each member; none where all are of this one.
+    tools: Option<Tools>,
     /// How the rig's inputs waver about what is set.
     wavering: Arc<[[f64; 4]]>,
 }
@@ -37,8 +54,25 @@ impl Start {
     pub fn new(config: Arc<Config>, simulation: Simulation, applied: &RunInputs) -> Self {
         Self {
             run: Run::resumed(simulation, applied),
+            readings: Readings::default(),
+            tools: None,
             config,
             wavering: Arc::default(),
+        }
+    }
+
+    /// The same state on a rig whose sensors show something else than what acts.
+    #[must_use]
+    pub fn on_rig(self, readings: Readings) -> Self {
+        Self { readings, ..self }
+    }
+
+    /// Members are other tools: `tools` gives the state that a member of a number begins from, the same for each candidate.
+    #[must_use]
+    pub fn with_tools(self, tools: impl Fn(u32, &AtomicBool) -> Result<Self, NoTool> + Send + Sync + 'static) -> Self {
+        Self {
+            tools: Some(Arc::new(tools)),
+            ..self
         }
     }
 
@@ -101,7 +135,7 @@ impl Start {
         if candidate.weight_ramp > 0.0 {
             slew[1] = kn_to_n(candidate.weight_ramp);
         }
-        RunInputs {
+        self.readings.acting(&RunInputs {
             inputs: Inputs {
                 rotary_speed: rpm_to_rad_per_s(candidate.rotary_speed),
                 weight_on_bit: kn_to_n(candidate.weight_on_bit),
@@ -109,7 +143,7 @@ impl Start {
             },
             slew,
             ..applied
-        }
+        })
     }
 }
 
@@ -292,18 +326,10 @@ fn work(
         if decided[candidate].load(Ordering::Relaxed) {
             continue;
         }
-        let member_run = if *way <= OWN_WAY {
-            let fork = disturbed(&start.run, goal.seed, candidate, member);
-            let watched = Watched::new(fork, &start.config, stop);
-            let own = watched.run_up(&start.target(&goal.candidates[candidate]), MOST_RUN_UP);
-            own.map(|(run, _)| run)
-        } else {
-            Ok(disturbed(there, goal.seed, candidate, member))
-        };
-        let wavering = start.wavering(goal.seed, candidate, member);
-        let result = member_run.and_then(|run| {
-            let watched = Watched::new(run, &start.config, stop).wavering(wavering);
-            watched.judge(Horizon::Of(goal.horizon), |_| false)
+        // A way that was made once is that of the tool that all members share.
+        let shared = (*way > OWN_WAY && start.tools.is_none()).then_some(there);
+        let result = with_tool(start, member, stop, |start| {
+            judged(start, goal, candidate, member, shared, stop)
         });
         let report = Report {
             candidate,
@@ -314,6 +340,50 @@ fn work(
             return;
         }
     }
+}
+
+/// Lends the state that a member begins from.
+fn with_tool<T>(
+    start: &Start,
+    member: u32,
+    stop: &AtomicBool,
+    work: impl FnOnce(&Start) -> Result<T, Ended>,
+) -> Result<T, Ended> {
+    match &start.tools {
+        None => work(start),
+        Some(tools) => match tools(member, stop) {
+            Ok(own) => work(&own),
+            Err(NoTool::Unknown(why)) => Err(Ended::NoTool(why)),
+            Err(NoTool::Stopped) => Err(Ended::Stopped),
+        },
+    }
+}
+
+/// One member: on its way from `start`, or from the end of a way that was made once, then judged.
+fn judged(
+    start: &Start,
+    goal: &Goal,
+    candidate: usize,
+    member: u32,
+    shared: Option<&Run>,
+    stop: &AtomicBool,
+) -> Result<Member, Ended> {
+    let fork = disturbed(shared.unwrap_or(&start.run), goal.seed, candidate, member);
+    let there = match shared {
+        Some(_) => fork,
+        None => {
+            let watched = Watched::new(fork, &start.config, stop);
+            watched
+                .run_up(&start.target(&goal.candidates[candidate]), MOST_RUN_UP)?
+                .0
+        }
+    };
+    let wavering = start.wavering(goal.seed, candidate, member);
+    let watched = Watched::new(there, &start.config, stop).wavering(wavering);
+    let ends = goal.ends.priority();
+    watched.judge(Horizon::Of(goal.horizon), |alarms| {
+        ends.is_some_and(|least| alarms.iter().any(|called| called.worst >= Some(least)))
+    })
 }
 
 /// A member's own run: `run` with the disturbance of its number.
@@ -376,18 +446,22 @@ fn yield_to_others() {
 /// The number of members that are enough, if the first ones that ended are; all of them where all ended.
 fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal) -> Option<u32> {
     let mut seen = vec![0; AlarmId::ALL.len()];
-    let mut of = 0;
+    let (mut any, mut of) = (0, 0);
     for (number, (member, result)) in (0..goal.members).zip(members) {
         if number != *member {
             return None;
         }
         if let Ok(result) = result {
             of += 1;
+            any += u32::from(result.saw(goal.ends));
             for (seen, called) in seen.iter_mut().zip(&result.alarms) {
                 *seen += u32::from(called.worst.is_some());
             }
         }
-        let decided = || seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some());
+        let decided = || match goal.ends {
+            Ends::Horizon => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
+            Ends::FirstAlarm(_) => Chance::new(any, of).decided().is_some(),
+        };
         if number + 1 == goal.members || (!goal.run_all && decided()) {
             return Some(number + 1);
         }
@@ -411,12 +485,17 @@ fn told(goal: &Goal, gathered: &[Gathered]) -> Progress {
 
 fn answer(goal: &Goal, gathered: &[Gathered], stopped: bool) -> Answer {
     Answer {
-        candidates: goal.candidates.iter().zip(gathered).map(summed).collect(),
+        candidates: goal
+            .candidates
+            .iter()
+            .zip(gathered)
+            .map(|(candidate, gathered)| summed(candidate, gathered, goal.ends))
+            .collect(),
         stopped,
     }
 }
 
-fn summed((candidate, gathered): (&Candidate, &Gathered)) -> CandidateAnswer {
+fn summed(candidate: &Candidate, gathered: &Gathered, ends: Ends) -> CandidateAnswer {
     let counted = gathered.enough.map_or(gathered.members.len(), |enough| enough as usize);
     let results: Vec<&Result<Member, Ended>> = gathered.members.values().take(counted).collect();
     let members: Vec<&Member> = results.iter().filter_map(|result| result.as_ref().ok()).collect();
@@ -430,20 +509,26 @@ fn summed((candidate, gathered): (&Candidate, &Gathered)) -> CandidateAnswer {
             *seen += u32::from(called.worst.is_some());
         }
     }
+    // A member that ended with an alarm has no figures of its whole horizon.
+    let whole = members.iter().filter(|member| !member.saw(ends));
+    let saw = of - whole.clone().count() as u32;
     CandidateAnswer {
         candidate: *candidate,
         run_up: *gathered.run_up.as_ref().unwrap_or(&f64::NAN),
         members: counted as u32,
         failed: failures.count() as u32,
         failure: failure.map_or(String::new(), sentence),
-        decided: seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
+        decided: match ends {
+            Ends::Horizon => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
+            Ends::FirstAlarm(_) => Chance::new(saw, of).decided().is_some(),
+        },
         alarms: alarm_chances(&members),
         any_alarm: any_alarm(&members),
         any_by_priority: Priority::ALL.map(|least| {
             let saw = |member: &&&Member| member.alarms.iter().any(|called| called.worst >= Some(least));
             members.iter().filter(saw).count() as u32
         }),
-        figures: Figure::ALL.map(|figure| Band::of(members.iter().map(|member| member.figures[figure as usize]))),
+        figures: Figure::ALL.map(|figure| Band::of(whole.clone().map(|member| member.figures[figure as usize]))),
         quality: [QualityLevel::Good, QualityLevel::Degraded, QualityLevel::Poor].map(of_quality),
     }
 }
@@ -481,6 +566,7 @@ pub(super) fn any_alarm(members: &[&Member]) -> Chance {
 pub(super) fn sentence(ended: &Ended) -> String {
     match ended {
         Ended::Failed(failure) => format!("a step failed, so that the rest is unknown: {failure}"),
+        Ended::NoTool(why) => why.clone(),
         Ended::NotReached => format!(
             "speed or weight did not reach the candidate's within {MOST_RUN_UP} s; give a faster ramp or a nearer candidate"
         ),

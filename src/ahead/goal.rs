@@ -1,5 +1,6 @@
 //! What is asked.
 
+use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_text::{beyond, six_digits};
 
@@ -40,8 +41,31 @@ pub struct Goal {
     pub members: u32,
     /// Whether all members run, also where a part of them decides every alarm.
     pub run_all: bool,
+    /// Where a member ends, and what decides a candidate.
+    pub ends: Ends,
     /// Of the disturbances.
     pub seed: u64,
+}
+
+/// Where a member ends, and what decides a candidate.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Ends {
+    /// A member ends with the horizon; a candidate once every alarm is decided.
+    #[default]
+    Horizon,
+    /// A member ends with the first alarm of this priority or a higher one, and has no figures then; a candidate once any
+    /// such alarm is decided.
+    FirstAlarm(Priority),
+}
+
+impl Ends {
+    /// The priority of the alarm that ends a member; none where the horizon does.
+    pub const fn priority(self) -> Option<Priority> {
+        match self {
+            Self::Horizon => None,
+            Self::FirstAlarm(priority) => Some(priority),
+        }
+    }
 }
 
 /// Why a goal is refused.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::goal::Ends;
 use super::measured::Measured;
 use super::set_point::Wavering;
 use super::trace::Trace;
@@ -100,6 +101,14 @@ pub(super) struct Member {
     pub judged: f64,
 }
 
+impl Member {
+    /// Whether it saw the alarm that ends a member.
+    pub fn saw(&self, ends: Ends) -> bool {
+        let least = ends.priority();
+        least.is_some() && self.alarms.iter().any(|called| called.worst >= least)
+    }
+}
+
 /// How long a member is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Horizon {
@@ -126,6 +135,8 @@ pub(super) enum Ended {
     Failed(StepFailure),
     /// The speed or the weight did not reach the candidate's.
     NotReached,
+    /// There is no such tool: in words.
+    NoTool(String),
     /// A stop was requested.
     Stopped,
 }

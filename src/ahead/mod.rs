@@ -33,9 +33,11 @@ mod trace;
 
 pub use advice::{SearchProgress, Searched, search};
 pub use chance::{Band, Chance};
-pub use engine::{AlarmChance, Answer, CandidateAnswer, Progress, Start, StartError, keep_priority, look_ahead};
+pub use engine::{
+    AlarmChance, Answer, CandidateAnswer, NoTool, Progress, Start, StartError, keep_priority, look_ahead,
+};
 pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, forecast, widened};
-pub use goal::{Candidate, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
+pub use goal::{Candidate, Ends, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use held::Held;
 pub use member::{DISTURBANCE, Figure};
 pub use set_point::SetPoint;

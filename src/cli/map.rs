@@ -12,11 +12,13 @@ use crate::cli::output::say;
 use crate::map::study::{self, Question};
 use crate::map::{picture, table};
 use flexdrill_alarms::Priority;
+use flexdrill_config::Config;
 use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::envelope::Envelope;
 use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, WEIGHT_ON_BIT};
 use flexdrill_sweep::plan::{HORIZONS, MOST_MEMBERS};
 use flexdrill_sweep::spec::evenly;
+use flexdrill_uncertainty::Priors;
 
 /// Maps the chance of every alarm over rotary speed and weight on bit, or over another pair of keys.
 ///
@@ -51,6 +53,14 @@ pub struct MapArgs {
     /// Run all members, also where the first ones decide every alarm (six without any): 20 exclude chances above 16 %.
     #[arg(long)]
     run_all: bool,
+    /// End a member with its first alarm that counts, and a cell once members decide whether one comes: several times less
+    /// time where alarms come. Only members without any have figures then.
+    #[arg(long)]
+    first_alarm: bool,
+    /// Members are plausible tools, drawn from `uncertainty` of the configuration: clear means clear for what is not known of
+    /// the tool and its rig.
+    #[arg(long)]
+    plausible: bool,
     /// Model time that each member is judged over (s).
     #[arg(long, default_value_t = 60.0, value_parser = numbers::seconds)]
     horizon: f64,
@@ -127,6 +137,9 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
     let (config, _) = built_in::load(&args.config)?;
     let config = flexdrill_bench::changed(config, None, &args.set)?;
     let question = question(args)?;
+    if question.plausible {
+        can_be_drawn(&config, &question)?;
+    }
     let plan = study::plan(&args.config.display().to_string(), &config, &question)?;
     let stop = signals::stop_flag()?;
     keep_priority();
@@ -147,6 +160,31 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
         anyhow::bail!("{why}");
     }
     Ok(())
+}
+
+/// Whether the configuration says what is not known of its tool, and leaves the axes to the map.
+fn can_be_drawn(config: &Config, question: &Question) -> anyhow::Result<()> {
+    let priors = Priors::of(config)?;
+    if priors.entries().is_empty() && priors.sensors().is_empty() {
+        return Err(WrongUse::new(
+            "--plausible: the configuration has no section uncertainty, so that all members would be one tool; leave \
+             --plausible out, or state what is not known (config/rig.yaml has an example)",
+        )
+        .into());
+    }
+    let drawn = |key: &str| {
+        config
+            .uncertainty
+            .as_ref()
+            .is_some_and(|stated| stated.position(key).is_some())
+    };
+    match question.axes.iter().find(|(key, _)| drawn(key)) {
+        Some((key, _)) => Err(WrongUse::new(format!(
+            "--plausible: {key} is an axis of the map, and uncertainty.keys draws it too; take it out of one of them"
+        ))
+        .into()),
+        None => Ok(()),
+    }
 }
 
 /// Why nothing is known, where no member of any run ended.
@@ -198,6 +236,8 @@ fn question(args: &MapArgs) -> anyhow::Result<Question> {
         horizon: args.horizon,
         members: args.members,
         run_all: args.run_all,
+        first_alarm: args.first_alarm,
+        plausible: args.plausible,
         seed: args.seed,
         running_rpm: args.running_rpm,
         running_time: flexdrill_sweep::spec::RUNNING_TIME,

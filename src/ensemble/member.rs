@@ -8,11 +8,10 @@ use crate::alarms::{AlarmBook, AlarmId};
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
-use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::LiveParameters;
 use flexdrill_core::twin::{Run, RunInputs, Simulation, Snapshot};
 use flexdrill_outputs::figures::OverTools;
-use flexdrill_uncertainty::{Channel, Member as Drawn, SensorError};
+use flexdrill_uncertainty::{Member as Drawn, Readings};
 
 /// Time between two choices of the step's refinement (s): that of the live run.
 const CHOICE: f64 = 5e-3;
@@ -25,8 +24,7 @@ pub(super) struct Member {
     /// Friction and bit as drawn, which no change of the twin's moves.
     live: LiveParameters,
     /// Errors of the sensors of the inputs.
-    speed: Option<SensorError>,
-    weight: Option<SensorError>,
+    readings: Readings,
     run: Run,
     snapshot: Snapshot,
     alarms: AlarmBook,
@@ -56,10 +54,9 @@ impl Member {
     /// Why there is no such tool, in words.
     pub(super) fn new(drawn: &Drawn, applied: &RunInputs) -> Result<Self, String> {
         let config = Arc::new(drawn.config.clone());
-        let sensor = |channel| drawn.sensors.iter().copied().find(|sensor| sensor.channel == channel);
-        let (speed, weight) = (sensor(Channel::RotarySpeed), sensor(Channel::WeightIndicator));
+        let readings = Readings::of(drawn);
         let live = config.live();
-        let acts = taken(applied, live, speed, weight);
+        let acts = taken(applied, live, readings);
         let settings = config
             .simulation()
             .with(|settings| settings.initial_inputs = acts.inputs);
@@ -71,8 +68,7 @@ impl Member {
             run: Run::resumed(simulation, &RunInputs { refinement, ..acts }),
             alarms: AlarmBook::fresh(Arc::clone(&config), time),
             live,
-            speed,
-            weight,
+            readings,
             snapshot,
             figures: OverTools::default(),
             peaks: Default::default(),
@@ -125,7 +121,7 @@ impl Member {
 
     fn apply(&mut self, inputs: &RunInputs) {
         let refinement = self.run.applied().refinement;
-        let acts = taken(inputs, self.live, self.speed, self.weight);
+        let acts = taken(inputs, self.live, self.readings);
         self.run.apply(&RunInputs { refinement, ..acts });
         if inputs.reset {
             self.run.look(&mut self.snapshot);
@@ -160,32 +156,11 @@ impl Member {
     }
 }
 
-/// What acts on a member where `applied` acts on the twin: the rig's readings are those of its sensors.
-fn taken(
-    applied: &RunInputs,
-    live: LiveParameters,
-    speed: Option<SensorError>,
-    weight: Option<SensorError>,
-) -> RunInputs {
-    let factor = |sensor: Option<SensorError>| sensor.map_or(1.0, |sensor| sensor.factor);
-    let tare = weight.map_or(0.0, |sensor| sensor.tare);
-    let inputs = applied.inputs;
-    // A reading of nothing is a bit off bottom, which the block shows too.
-    let weight_on_bit = match inputs.weight_on_bit {
-        reading if reading > 0.0 => ((reading - tare) / factor(weight)).max(0.0),
-        reading => reading,
-    };
-    let mut slew = applied.slew;
-    slew[0] /= factor(speed);
-    slew[1] /= factor(weight);
+/// What acts on a member where `applied` acts on the twin: the rig's readings are those of its sensors, friction and bit its
+/// drawn ones.
+fn taken(applied: &RunInputs, live: LiveParameters, readings: Readings) -> RunInputs {
     RunInputs {
-        inputs: Inputs {
-            rotary_speed: inputs.rotary_speed / factor(speed),
-            weight_on_bit,
-            ..inputs
-        },
-        slew,
         live,
-        ..*applied
+        ..readings.acting(applied)
     }
 }

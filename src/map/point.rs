@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::ahead::{Candidate, CandidateAnswer, Figure, Goal, Start as Begin, look_ahead};
+use crate::ahead::{Candidate, CandidateAnswer, Ends, Figure, Goal, NoTool, Start as Begin, look_ahead};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -13,19 +13,12 @@ use flexdrill_outputs::schedule;
 use flexdrill_sweep::map::{self, AlarmCount, Start};
 use flexdrill_sweep::plan::Running;
 use flexdrill_sweep::{Outcome, Plan, Point};
+use flexdrill_uncertainty::{Priors, Readings};
 
 /// Model time between two looks at the refinement that the motion asks for (s), as in the node.
 const PERIOD: f64 = 5e-3;
 /// Longest way to the speed that a start comes from (s), as for a look-ahead's candidate.
 const LONGEST_WAY: f64 = 300.0;
-
-/// Why a run has no members.
-enum Ended {
-    /// What would have come is unknown.
-    Unknown(String),
-    /// A stop was requested.
-    Stopped,
-}
 
 /// Computes a point of a plan whose configuration is `base`; nothing when `stop` is set. What fails is part of the
 /// outcome.
@@ -41,45 +34,69 @@ pub fn run(plan: &Plan, base: &Config, point: &Point, stop: &AtomicBool) -> Opti
         weight_ramp: 0.0,
     };
     let running = (point.start == Start::Running).then_some(&plan.runs.running);
-    let begin = match begin(&config, running, candidate.weight_on_bit, stop) {
-        Ok(begin) => begin,
-        Err(Ended::Unknown(why)) => return Some(unknown(plan, why)),
-        Err(Ended::Stopped) => return None,
+    let mut start = match begin(&config, running, candidate.weight_on_bit, Readings::default(), stop) {
+        Ok(start) => start,
+        Err(NoTool::Unknown(why)) => return Some(unknown(plan, why)),
+        Err(NoTool::Stopped) => return None,
     };
+    if plan.runs.plausible {
+        let priors = match Priors::of(&config) {
+            Ok(priors) => priors,
+            Err(error) => return Some(unknown(plan, error.to_string())),
+        };
+        // Members of a number are the same tool in all cells: what differs between cells is speed and weight alone.
+        let (seed, running) = (point.seed, running.copied());
+        start = start.with_tools(move |member, stop| {
+            let drawn = priors.member(seed, u64::from(member));
+            let drawn = drawn.map_err(|error| NoTool::Unknown(error.to_string()))?;
+            let (readings, config) = (Readings::of(&drawn), Arc::new(drawn.config));
+            begin(&config, running.as_ref(), candidate.weight_on_bit, readings, stop)
+        });
+    }
     let goal = Goal {
         candidates: vec![candidate],
         horizon: plan.runs.horizon,
         members: plan.runs.members,
         run_all: plan.runs.run_all,
+        ends: plan.runs.first_alarm.map_or(Ends::Horizon, Ends::FirstAlarm),
         seed: point.seed,
     };
-    let answer = look_ahead(&begin, &goal, 1, stop, |_| {});
+    let answer = look_ahead(&start, &goal, 1, stop, |_| {});
     if answer.stopped {
         return None;
     }
     answer.candidates.first().map(outcome)
 }
 
-/// The state that a point starts from: at rest without weight, or running under the weight.
-fn begin(config: &Arc<Config>, running: Option<&Running>, kn: f64, stop: &AtomicBool) -> Result<Begin, Ended> {
+/// The state that a point starts from: at rest without weight, or running under the weight that the rig shows.
+fn begin(
+    config: &Arc<Config>,
+    running: Option<&Running>,
+    kn: f64,
+    readings: Readings,
+    stop: &AtomicBool,
+) -> Result<Begin, NoTool> {
     let mut settings = config.simulation();
     settings.initial_inputs = Inputs {
         rotary_speed: 0.0,
         weight_on_bit: 0.0,
         ..settings.initial_inputs
     };
-    let simulation = Simulation::new(&config.tool(), &settings).map_err(|error| Ended::Unknown(error.to_string()))?;
+    let simulation = Simulation::new(&config.tool(), &settings).map_err(|error| NoTool::Unknown(error.to_string()))?;
     let mut run = Run::new(simulation, schedule(config, &config.outputs.rates));
+    let slew = run.applied().slew;
     if let Some(running) = running {
         let target = Inputs {
             rotary_speed: rpm_to_rad_per_s(running.rpm),
             weight_on_bit: kn_to_n(kn),
             ..run.applied().inputs
         };
-        run.apply(&RunInputs {
+        let acts = readings.acting(&RunInputs {
             inputs: target,
             ..run.applied()
         });
+        run.apply(&acts);
+        let target = acts.inputs;
         let arrived = |run: &Run| {
             let applied = run.simulation().applied();
             applied.rotary_speed == target.rotary_speed && applied.weight_set == target.weight_on_bit
@@ -87,7 +104,7 @@ fn begin(config: &Arc<Config>, running: Option<&Running>, kn: f64, stop: &Atomic
         while !arrived(&run) {
             if run.simulation().time() > LONGEST_WAY {
                 let why = format!("speed or weight did not reach the start's within {LONGEST_WAY} s");
-                return Err(Ended::Unknown(why));
+                return Err(NoTool::Unknown(why));
             }
             advance(&mut run, stop)?;
         }
@@ -96,13 +113,15 @@ fn begin(config: &Arc<Config>, running: Option<&Running>, kn: f64, stop: &Atomic
             advance(&mut run, stop)?;
         }
     }
-    Ok(Begin::new(Arc::clone(config), run.simulation().fork(), &run.applied()))
+    // What a candidate asks for has the configured slew limits as the rig shows them.
+    let applied = RunInputs { slew, ..run.applied() };
+    Ok(Begin::new(Arc::clone(config), run.simulation().fork(), &applied).on_rig(readings))
 }
 
 /// Advances by a period.
-fn advance(run: &mut Run, stop: &AtomicBool) -> Result<(), Ended> {
+fn advance(run: &mut Run, stop: &AtomicBool) -> Result<(), NoTool> {
     if stop.load(Ordering::Relaxed) {
-        return Err(Ended::Stopped);
+        return Err(NoTool::Stopped);
     }
     let refinement = run.wanted_refinement();
     if refinement != run.applied().refinement {
@@ -114,7 +133,7 @@ fn advance(run: &mut Run, stop: &AtomicBool) -> Result<(), Ended> {
     let steps = (PERIOD / run.simulation().settings().time_step).round().max(1.0) as u64;
     for _ in 0..steps {
         if let StepOutcome::Failed(failure) = run.advance() {
-            return Err(Ended::Unknown(format!(
+            return Err(NoTool::Unknown(format!(
                 "a step failed, so that the rest is unknown: {failure}"
             )));
         }

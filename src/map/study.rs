@@ -24,6 +24,10 @@ pub struct Question {
     pub members: u32,
     /// Whether all of these run, also where the first ones decide every alarm.
     pub run_all: bool,
+    /// Whether a member ends with its first alarm that counts, and a cell is decided by any of these.
+    pub first_alarm: bool,
+    /// Whether members are plausible tools.
+    pub plausible: bool,
     /// Seed of the disturbances.
     pub seed: u64,
     /// State that the start from running comes from; its speed is the highest of the axes if not given.
@@ -75,6 +79,8 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
             horizon: question.horizon,
             members: question.members,
             run_all: question.run_all,
+            first_alarm: question.first_alarm.then_some(question.priority),
+            plausible: question.plausible,
             // A start at a running tool comes from the highest speed of the map by default, the state with most motion.
             running: Running {
                 rpm: question
@@ -244,6 +250,8 @@ fn assemble(
         horizon: plan.runs.horizon,
         members: plan.runs.members,
         run_all: plan.runs.run_all,
+        first_alarm: plan.runs.first_alarm.is_some(),
+        plausible: plan.runs.plausible,
         seed: question.seed,
         priority: question.priority,
         limit: question.limit,
@@ -327,6 +335,8 @@ mod tests {
             horizon: 30.0,
             members: 20,
             run_all: true,
+            first_alarm: false,
+            plausible: false,
             seed: 1,
             running_rpm: None,
             running_time: 10.0,

@@ -1,6 +1,6 @@
 //! What a look-ahead is asked and answers, as messages of the action `~/what_if`.
 
-use crate::ahead::{AlarmChance as Seen, Answer, Candidate, CandidateAnswer, Figure, Goal, Progress};
+use crate::ahead::{AlarmChance as Seen, Answer, Candidate, CandidateAnswer, Ends, Figure, Goal, Progress};
 use crate::alarms::priority_code;
 use flexdrill_messages::unique_identifier_msgs::UUID;
 use flexdrill_messages::{
@@ -16,6 +16,7 @@ pub(super) fn goal(asked: &WhatIfGoal) -> Goal {
         horizon: asked.horizon,
         members: asked.members,
         run_all: asked.run_all,
+        ends: Ends::Horizon,
         seed: asked.seed,
     }
 }

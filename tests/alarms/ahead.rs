@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::with_off_delay;
 use crate::random::Random;
-use flexdrill::ahead::{Answer, Candidate, Figure, Goal, GoalError, Start, keep_priority, look_ahead, search};
+use flexdrill::ahead::{Answer, Candidate, Ends, Figure, Goal, GoalError, Start, keep_priority, look_ahead, search};
 use flexdrill::alarms::{AlarmBook, AlarmId, Knob, Trial};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
@@ -76,6 +76,7 @@ fn goal(candidates: Vec<Candidate>, members: u32) -> Goal {
         horizon: 15.0,
         members,
         run_all: false,
+        ends: Ends::Horizon,
         seed: 7,
     }
 }

@@ -6,12 +6,14 @@ use std::process::{Command, Output, Stdio};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
+use flexdrill::ahead::keep_priority;
 use flexdrill::map::point;
 use flexdrill::map::study::{self, Question};
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
-use flexdrill_sweep::Directory;
 use flexdrill_sweep::map::{Map, Origin, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
+use flexdrill_sweep::{Directory, Outcome};
+use flexdrill_uncertainty::{Channel, Priors};
 
 fn flexdrill(arguments: &[&str], folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"));
@@ -221,6 +223,7 @@ fn settings_under_which_every_run_fails_leave_nothing_clear() {
 
 /// The members of one run of the short tool in calm drilling, of at most seven, and what the map says of them.
 fn members(run_all: bool) -> (u32, u32) {
+    keep_priority();
     let config = Config::load("tests/data/small.yaml").unwrap();
     let question = Question {
         axes: [
@@ -230,6 +233,8 @@ fn members(run_all: bool) -> (u32, u32) {
         horizon: 10.0,
         members: 7,
         run_all,
+        first_alarm: false,
+        plausible: false,
         seed: 1,
         running_rpm: None,
         running_time: 1.0,
@@ -410,4 +415,117 @@ fn maps_of_other_keys_are_made_and_wrong_axes_are_refused() {
         assert!(text(&output).contains(part), "{part}: {}", text(&output));
         assert!(!other.exists(), "{part}");
     }
+}
+
+/// What is not known of the short tool in the test below.
+const NOT_KNOWN: &str = "
+uncertainty:
+  keys:
+    - key: contact.outer.friction_tangential
+      also: [contact.outer.friction_axial]
+      distribution: {uniform: {low: 0.05, high: 0.6}}
+      source: test
+  sensors: {weight_indicator: {factor_error: 0.2, tare_range_kn: 1.0}}
+";
+
+/// A question for one point of a tool: 40 r/min, 6 kN from rest.
+fn one_point(config: &Config, members: u32, plausible: bool, first_alarm: bool) -> Outcome {
+    // As `flexdrill map` does: idle work would not come to an end on a busy machine.
+    keep_priority();
+    let question = Question {
+        axes: [
+            (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
+            (WEIGHT_ON_BIT.to_owned(), vec![6.0, 8.0]),
+        ],
+        horizon: 10.0,
+        members,
+        run_all: true,
+        first_alarm,
+        plausible,
+        seed: 5,
+        running_rpm: None,
+        running_time: 1.0,
+        priority: Priority::Low,
+        limit: 0.1,
+        share: 1.0,
+    };
+    let plan = study::plan("small.yaml", config, &question).unwrap();
+    point::run(&plan, config, &plan.points()[0], &AtomicBool::new(false)).unwrap()
+}
+
+fn median(outcome: &Outcome, figure: &str) -> f64 {
+    let figure = outcome.figures.iter().find(|of| of.name == figure).unwrap();
+    figure.quantiles.unwrap()[1]
+}
+
+/// The members of a map over plausible tools are the draws of the priors: the median of three is the middle one of three
+/// runs whose configurations have the drawn friction, under the weight that the drawn indicator shows as 6 kN.
+#[test]
+fn a_map_over_plausible_tools_runs_the_draws() {
+    let text = std::fs::read_to_string("tests/data/small.yaml").unwrap();
+    let config = Config::from_text("small.yaml", &(text + NOT_KNOWN)).unwrap();
+    let together = one_point(&config, 3, true, false);
+    assert_eq!((together.members, together.failed), (3, 0), "{}", together.failure);
+    let priors = Priors::of(&config).unwrap();
+    let mut single: Vec<f64> = (0..3)
+        .map(|number| {
+            let drawn = priors.member(5, number).unwrap();
+            let error = drawn
+                .sensors
+                .iter()
+                .find(|of| of.channel == Channel::WeightIndicator)
+                .unwrap();
+            let acts = (6.0 - error.tare / 1e3) / error.factor;
+            let plain = &drawn.config;
+            let question = Question {
+                axes: [
+                    (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
+                    (WEIGHT_ON_BIT.to_owned(), vec![acts, 9.0]),
+                ],
+                horizon: 10.0,
+                members: 1,
+                run_all: true,
+                first_alarm: false,
+                plausible: false,
+                seed: 5,
+                running_rpm: None,
+                running_time: 1.0,
+                priority: Priority::Low,
+                limit: 0.1,
+                share: 1.0,
+            };
+            let plan = study::plan("drawn.yaml", plain, &question).unwrap();
+            let outcome = point::run(&plan, plain, &plan.points()[0], &AtomicBool::new(false)).unwrap();
+            median(&outcome, "guide_wall_force")
+        })
+        .collect();
+    single.sort_by(f64::total_cmp);
+    let [least, middle, most] = single[..] else { panic!() };
+    // The draws part the force by tens of percent. The disturbances of members, other ones here, and slew limits that the
+    // indicator scales move its largest value of ten seconds by less than a twentieth.
+    assert!(most > 1.1 * least, "{single:?}");
+    let found = median(&together, "guide_wall_force");
+    assert!((found / middle - 1.0).abs() < 0.05, "{found} against {single:?}");
+}
+
+/// Where an alarm is sure to come a member ends with it, and has no figures of the time behind.
+#[test]
+fn a_member_may_end_with_its_first_alarm() {
+    let text = std::fs::read_to_string("tests/data/small.yaml").unwrap();
+    // Any swing of the bit's speed is stick-slip.
+    let sure = "\nstick_slip: {levels: {watch: 1.0e-6, warning: 0.9, critical: 1.0}}\n";
+    let config = Config::from_text("small.yaml", &(text + sure)).unwrap();
+    let alarming = |first_alarm| one_point(&config, 4, false, first_alarm);
+    let (whole, short) = (alarming(false), alarming(true));
+    assert_eq!((whole.any_alarm[0], short.any_alarm[0]), (4, 4), "{whole:?}");
+    assert!(whole.figures.iter().any(|figure| figure.quantiles.is_some()));
+    assert!(short.figures.iter().all(|figure| figure.quantiles.is_none()));
+    let first = |outcome: &Outcome| {
+        outcome
+            .alarms
+            .iter()
+            .filter_map(|count| count.first)
+            .fold(f64::INFINITY, f64::min)
+    };
+    assert_eq!(first(&whole), first(&short));
 }

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use flexdrill::ahead::{Candidate, Goal};
+use flexdrill::ahead::{Candidate, Ends, Goal};
 use flexdrill::messages::generated::{
     TYPES, action_msgs, builtin_interfaces, diagnostic_msgs, flexdrill as ours, geometry_msgs, lifecycle_msgs,
     rcl_interfaces, rosgraph_msgs, sensor_msgs, service_msgs, simulation_interfaces, std_msgs, std_srvs, tf2_msgs,
@@ -353,6 +353,7 @@ fn goal(body: &[u8]) -> bool {
             horizon: asked.horizon,
             members: asked.members,
             run_all: asked.run_all,
+            ends: Ends::Horizon,
             seed: asked.seed,
         };
         match goal.check(&CONFIG) {

@@ -54,6 +54,13 @@ pub struct Map {
     pub members: u32,
     /// Whether all of these ran, also where the first ones decided every alarm.
     pub run_all: bool,
+    /// Whether a member ended with its first alarm of [`Map::priority`] or above: only members without any have figures.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub first_alarm: bool,
+    /// Whether members are plausible tools, drawn from `uncertainty` of the configuration; otherwise they are the tool of the
+    /// configuration.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub plausible: bool,
     /// Seed of the members' disturbances.
     pub seed: u64,
     /// Priority from which on an alarm counts for [`OfStart::chance`] and [`Cell::verdict`].
@@ -387,9 +394,15 @@ impl Map {
         let why = match self.run_all {
             _ if least == self.members => "",
             true => "; the others failed",
+            false if self.first_alarm => "; a run ends early once its members decide whether an alarm comes",
             false => "; a run ends early once its members decide every alarm",
         };
-        let members = if self.members == 1 { "member" } else { "members" };
+        let members = match (self.plausible, self.members) {
+            (true, 1) => "plausible tool",
+            (true, _) => "plausible tools",
+            (false, 1) => "member",
+            (false, _) => "members",
+        };
         let mut text = format!("In each run {ended} of at most {} {members} ended{why}.", self.members);
         if let Some((least, chance)) = self.excluded() {
             let excludes = format!(

@@ -76,6 +76,8 @@ fn map() -> Map {
         horizon: 30.0,
         members: 3,
         run_all: false,
+        first_alarm: false,
+        plausible: false,
         seed: 1,
         priority: Priority::Low,
         limit: 0.1,

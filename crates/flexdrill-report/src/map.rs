@@ -74,7 +74,7 @@ fn facts(map: &Map) -> Markup {
             dt { (map.y.name) } dd { (span(&map.y)) }
             dt { "Runs" } dd {
                 (map.runs) " of " (map.cells.len() * map.starts.len()) ", each judged over " (number(map.horizon))
-                " s, at most " (counted(map.members.into(), "member")) @if map.run_all { ", all of them run" } ", seed " (map.seed)
+                " s, at most " (counted(map.members.into(), if map.plausible { "plausible tool" } else { "member" })) @if map.run_all { ", all of them run" } ", seed " (map.seed)
             }
             dt { "Alarms" } dd {
                 "of " (map.priority.name()) " priority or higher, expected where their chance is above "

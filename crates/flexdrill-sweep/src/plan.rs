@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use flexdrill_alarms::Priority;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -61,6 +62,12 @@ pub struct Runs {
     pub members: u32,
     /// Whether all of these run, also where the first ones decide every alarm.
     pub run_all: bool,
+    /// Priority of the alarm with which a member ends, and which decides a point; none where members run over the horizon.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_alarm: Option<Priority>,
+    /// Whether members are plausible tools, drawn from `uncertainty` of the configuration.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub plausible: bool,
     /// The state that [`Start::Running`] comes from.
     pub running: Running,
     /// Alarms that a point counts, by identifier.
@@ -130,6 +137,13 @@ impl Plan {
         }
         let amount = format!("{FORMAT} {} {} {}", runs.horizon, runs.members, runs.run_all);
         hash_text(&mut shared, &amount);
+        // Points of plans without these keep their names.
+        if let Some(least) = runs.first_alarm {
+            hash_text(&mut shared, least.name());
+        }
+        if runs.plausible {
+            hash_text(&mut shared, "plausible");
+        }
         let keys: Vec<&String> = self.keys.iter().collect();
         hash_text(&mut shared, &serde_json::to_string(&keys).unwrap_or_default());
         let mut points = Vec::with_capacity(self.len());

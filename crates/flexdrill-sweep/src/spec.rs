@@ -302,6 +302,8 @@ impl Spec {
                 horizon: self.horizon,
                 members: self.members,
                 run_all: self.run_all,
+                first_alarm: None,
+                plausible: false,
                 running: Running {
                     rpm: self
                         .running

@@ -482,6 +482,11 @@ fn a_point_is_named_by_all_that_determines_it() {
         ("horizon", changed(&|plan| plan.runs.horizon = 20.000_000_1)),
         ("members", changed(&|plan| plan.runs.members = 4)),
         ("run_all", changed(&|plan| plan.runs.run_all = true)),
+        (
+            "first_alarm",
+            changed(&|plan| plan.runs.first_alarm = Some(Priority::Low)),
+        ),
+        ("plausible", changed(&|plan| plan.runs.plausible = true)),
     ] {
         assert!(first.iter().all(|id| !other.contains(id)), "{what}");
     }

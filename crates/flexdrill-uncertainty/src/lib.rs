@@ -9,7 +9,7 @@
 //! - [`law`]: a distribution cut off at limits: its quantiles.
 //! - [`priors`]: all entries of a configuration, with the correlation of their draws.
 //! - [`sensors`]: the errors of the rig's sensors, by channel.
-//! - [`member`]: the draws.
+//! - [`member`]: the draws; [`readings`]: what acts on one where the rig shows a reading.
 //! - [`posterior`]: what a calibration has found, as a sample in a file.
 //! - [`effects`]: the table of what each prior moves, as `flexdrill sensitivity` writes it.
 
@@ -20,6 +20,7 @@ pub mod member;
 pub mod posterior;
 pub mod priors;
 mod random;
+pub mod readings;
 pub mod sensors;
 
 pub use effects::Effects;
@@ -28,4 +29,5 @@ pub use law::Law;
 pub use member::Member;
 pub use posterior::{Posterior, PosteriorError};
 pub use priors::{Entry, Priors};
+pub use readings::Readings;
 pub use sensors::{Channel, Sensor, SensorError};
