@@ -73,6 +73,10 @@ class Map:
     """Members per cell and start, at most; `members` has how many ran."""
     run_all: bool
     """Whether all of these ran, also where the first ones decided every alarm."""
+    first_alarm: bool
+    """Whether a member ended with its first alarm that counts."""
+    plausible: bool
+    """Whether members are plausible tools, drawn from what is not known, and not the tool of the configuration."""
     seed: int
     priority: str
     """Priority from which on an alarm counts for `chance` and `verdict`."""
@@ -202,6 +206,8 @@ def read_map(path: PathLike) -> Map:
         horizon_s=whole.number("horizon", 0.0),
         most_members=most_members,
         run_all=whole.flag("run_all"),
+        first_alarm=whole.flag("first_alarm", missing=False),
+        plausible=whole.flag("plausible", missing=False),
         seed=whole.count("seed", 0, 2**64 - 1),
         priority=whole.text("priority", PRIORITIES),
         limit=whole.number("limit", 0.0, 1.0),

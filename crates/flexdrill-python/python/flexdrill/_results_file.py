@@ -75,8 +75,10 @@ class Entry:
         value = self._get(name, "a number or null")
         return np.nan if value is None else self._number(name, value, least, most)
 
-    def flag(self, name: str) -> bool:
-        """A truth value."""
+    def flag(self, name: str, missing: Optional[bool] = None) -> bool:
+        """A truth value; `missing` where the file has none, if it may have none."""
+        if missing is not None and name not in self.values:
+            return missing
         value = self._get(name, "true or false")
         if not isinstance(value, bool):
             raise self.wrong(name, value, "true or false")
