@@ -39,7 +39,7 @@ pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};
 pub use request::Request;
-pub use rig::{Followed, in_words};
+pub use rig::{Followed, Judged, in_words};
 pub use set::AlarmSet;
 pub(crate) use tool::called_at;
 
@@ -51,7 +51,6 @@ use crate::messages::{AlarmEvent, AlarmList, Bands, CdrError, Residuals, to_cdr_
 use flexdrill_alarms::{
     AlarmSystem, Event, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time,
 };
-use flexdrill_calibration::monitor::Compared;
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
 use flexdrill_core::twin::Snapshot;
 use flexdrill_motion::HazardKind;
@@ -215,12 +214,13 @@ impl AlarmBook {
         self.keep(events);
     }
 
-    /// Observes the comparison of rig and twin at the stamp of its snapshot. A standing alarm outlasts connections and
+    /// Observes the comparison of the rig with the twin, or with plausible tools, at the stamp of its snapshot. A standing alarm outlasts connections and
     /// other times in which nothing can be judged; a condition that has not annunciated begins again after them.
     /// `followed` is the friction that the twin has followed the rig to.
-    pub fn observe_rig(&mut self, compared: &Compared, followed: &Followed, bit_depth: f64, stamp: Time) {
-        let differs =
-            rig::finding(compared, bit_depth).filter(|finding| finding.priority.is_some() || !followed.is_far());
+    pub fn observe_rig(&mut self, judged: Judged<'_>, followed: &Followed, bit_depth: f64, stamp: Time) {
+        let differs = judged
+            .finding(bit_depth)
+            .filter(|finding| finding.priority.is_some() || !followed.is_far());
         match differs.or_else(|| followed.finding()) {
             Some(finding) => {
                 self.rig_judged = stamp;

@@ -4,13 +4,14 @@ use super::finding::Finding;
 use super::sentence::number;
 use flexdrill_alarms::{Priority, Time};
 use flexdrill_calibration::monitor::{Compared, LEVELS};
+use flexdrill_calibration::plausible::{self, Tools};
 use flexdrill_calibration::residual::{Cause, RigQuantity};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 
 /// Time without steady motion for which a standing alarm remains (ns): a connection lasts some minutes.
 pub(super) const OUTLASTS: Time = 600_000_000_000;
 /// Causes in a sentence.
-const NAMED: usize = 3;
+const NAMED: usize = 4;
 
 /// A quantity as the driller reads it: name, unit, factor from SI, digits.
 fn display(quantity: RigQuantity) -> (&'static str, &'static str, f64, usize) {
@@ -32,7 +33,7 @@ pub const fn in_words(cause: Cause) -> &'static str {
         Cause::BitTakesMore => "the rock takes more torque than the twin assumes",
         Cause::WeightLost => "part of the weight does not arrive at the bit",
         Cause::WeightSensor => "the weight or the hook load is measured wrongly",
-        Cause::TorqueSensor => "the offset of the torque sensor has changed",
+        Cause::TorqueSensor => "the torque is measured wrongly",
         Cause::SpeedSensor => "a rotary speed is measured wrongly",
         Cause::DownholeSensor => "a sensor in the hole has an offset",
     }
@@ -70,6 +71,8 @@ pub struct Followed {
     pub factors: [f64; 2],
     /// Whether a limit stops the following.
     pub at_limit: bool,
+    /// Whether it follows plausible tools, which know how far friction can be.
+    pub by_tools: bool,
 }
 
 impl Default for Followed {
@@ -78,6 +81,7 @@ impl Default for Followed {
         Self {
             factors: [1.0; 2],
             at_limit: false,
+            by_tools: false,
         }
     }
 }
@@ -89,7 +93,7 @@ impl Followed {
 
     /// Whether the comparison with the rig says little, because the twin was moved far to agree with it.
     pub(super) fn is_far(&self) -> bool {
-        self.at_limit || !(1.0 / FAR..=FAR).contains(&self.ratio())
+        self.at_limit || !self.by_tools && !(1.0 / FAR..=FAR).contains(&self.ratio())
     }
 
     /// The finding on it, where it is far.
@@ -123,6 +127,104 @@ impl Followed {
     }
 }
 
+/// What the rig is compared with.
+#[derive(Debug, Clone, Copy)]
+pub enum Judged<'a> {
+    /// The twin alone.
+    Twin(&'a Compared),
+    /// Plausible tools; `None` where they have not come to an instant that can be judged.
+    Tools(Option<&'a plausible::Compared>),
+}
+
+impl Judged<'_> {
+    /// The finding; `None` while nothing can be judged. `bit_depth` (m) is NaN where the rig does not give it.
+    pub(super) fn finding(&self, bit_depth: f64) -> Option<Finding> {
+        match self {
+            Self::Twin(compared) => finding(compared, bit_depth),
+            Self::Tools(compared) => by_tools((*compared)?, bit_depth),
+        }
+    }
+}
+
+/// The finding on a comparison with plausible tools.
+fn by_tools(compared: &plausible::Compared, bit_depth: f64) -> Option<Finding> {
+    // Nothing comparable is not the same as agreement: `None` leaves the alarm as it stands.
+    if !compared.is_judged() {
+        return None;
+    }
+    let Some(found) = compared.disagreement() else {
+        return Some(Finding::default());
+    };
+    let (name, unit, factor, digits) = display(found.quantity);
+    let write = |value: f64| number(factor * value, digits).unwrap_or_else(|| "a value out of range".to_owned());
+    let range = |[low, high]: [f64; 2]| format!("{} to {} {unit}", write(low), write(high));
+    let all = found.readings.all.map(range);
+    // The range that does not hold the value comes first. A reader must see whether any plausible tool explains it.
+    let ranges = match (found.tools, all) {
+        (Tools::Fitting, Some(all)) => format!(
+            "the plausible tools that fit what was measured before show {}, all {} of them {all}",
+            range(found.range),
+            compared.tools,
+        ),
+        (Tools::Fitting, None) => format!(
+            "the plausible tools that fit what was measured before show {}",
+            range(found.range)
+        ),
+        (Tools::All, _) => format!("all {} plausible tools show {}", compared.tools, range(found.range)),
+    };
+    let consequence = match found.tools {
+        Tools::All => {
+            "No plausible tool describes the rig at present; the twin's other alarms may be wrong or missing."
+        }
+        Tools::Fitting => {
+            "Something has changed since, which the twin does not know yet; its other alarms may be wrong."
+        }
+    };
+    let (causes, distance) = (compared.causes(), found.readings.distance(found.range));
+    Some(Finding {
+        priority: Some(if found.much { Priority::Medium } else { Priority::Low }),
+        value: factor * distance,
+        threshold: factor * found.readings.limit(LEVELS[0]).copysign(distance),
+        unit,
+        evidence: format!(
+            "{name} {}: {} {unit} measured; {ranges}.",
+            state(compared.drilling, bit_depth),
+            write(found.readings.measured)
+        ),
+        cause: in_one(&causes),
+        consequence: consequence.to_owned(),
+        what_to_do: what_to_do(causes.first().copied()).to_owned(),
+        what_the_engineer_can_do: ENGINEER.to_owned(),
+        ..Finding::default()
+    })
+}
+
+/// What an engineer can do about a disagreement.
+const ENGINEER: &str = "Compare the residuals of all quantities on and off bottom. Check the sensors of torque, hook load \
+                        and weight. If they are right, fit friction and bit to a log of today with flexdrill calibrate.";
+
+/// What the rig does, and where.
+fn state(drilling: bool, bit_depth: f64) -> String {
+    let state = if drilling {
+        "while drilling"
+    } else {
+        "while rotating off bottom"
+    };
+    let depth = number(bit_depth, 0).map_or(String::new(), |depth| format!(" at a bit depth of {depth} m"));
+    format!("{state}{depth}")
+}
+
+/// The likely causes in a sentence: what is measured does not tell those apart that are left, so that they are one.
+fn in_one(causes: &[Cause]) -> String {
+    // The causes come in the order of likelihood, and the driller acts on the first.
+    let causes: Vec<&str> = causes.iter().take(NAMED).map(|cause| in_words(*cause)).collect();
+    let apart = match causes.len() {
+        0 | 1 => "",
+        _ => "; what is measured does not tell these apart",
+    };
+    format!("Likely {}{apart}.", causes.join(", or "))
+}
+
 /// The finding on a comparison; `None` while nothing can be judged. `bit_depth` (m) is NaN where the rig does not give it.
 pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
     // Nothing comparable is not the same as agreement: `None` leaves the alarm as it stands.
@@ -137,19 +239,6 @@ pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
     let (name, unit, factor, digits) = display(quantity);
     // Both texts and figures leave in the display's unit, so that the alarm shows what the trend shows.
     let write = |value: f64| number(factor * value, digits).unwrap_or_else(|| "a value out of range".to_owned());
-    let state = if compared.drilling {
-        "drilling"
-    } else {
-        "rotating off bottom"
-    };
-    let depth = number(bit_depth, 0).map_or(String::new(), |depth| format!(" at a bit depth of {depth} m"));
-    // The causes come in the order of likelihood, and the driller acts on the first.
-    let causes: Vec<&str> = compared
-        .causes
-        .iter()
-        .take(NAMED)
-        .map(|cause| in_words(*cause))
-        .collect();
     Some(Finding {
         priority: Some(priority),
         value: factor * worst.difference(),
@@ -157,18 +246,17 @@ pub(super) fn finding(compared: &Compared, bit_depth: f64) -> Option<Finding> {
         threshold: factor * worst.limit(LEVELS[0]).copysign(worst.difference()),
         unit,
         evidence: format!(
-            "{name} while {state}{depth}: {} {unit} measured, {} to {} {unit} expected.",
+            "{name} {}: {} {unit} measured, {} to {} {unit} expected.",
+            state(compared.drilling, bit_depth),
             write(worst.measured),
             write(worst.predicted - worst.band()),
             write(worst.predicted + worst.band()),
         ),
-        cause: format!("Likely {}.", causes.join(", or ")),
-        consequence: "The model does not describe the tool at present; its other alarms may be wrong or missing.".to_owned(),
-        what_to_do: what_to_do(compared.causes.first().copied()).to_owned(),
-        what_the_engineer_can_do: "Compare the residuals of all quantities on and off bottom. Check the sensors of torque, \
-                                   hook load and weight. If they are right, fit friction and bit to a log of today with \
-                                   flexdrill calibrate."
+        cause: in_one(&compared.causes),
+        consequence: "The model does not describe the tool at present; its other alarms may be wrong or missing."
             .to_owned(),
+        what_to_do: what_to_do(compared.causes.first().copied()).to_owned(),
+        what_the_engineer_can_do: ENGINEER.to_owned(),
         ..Finding::default()
     })
 }
@@ -233,6 +321,7 @@ mod tests {
         let at = |factor: f64, at_limit: bool| Followed {
             factors: [factor, 1.0],
             at_limit,
+            by_tools: false,
         };
         for near in [0.8, 1.0, 1.25] {
             assert_eq!(at(near, false).finding(), None, "{near}");

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::evidence::{Compared, Errors, WINDOW, channel, unexplained};
-use super::member::{Member, Second};
-use super::message::message;
+use super::judgement::{Friction, Judgement};
+use super::member::Member;
 use super::place::{Place, State, Threads, in_parallel};
 use crate::residuals::predicted;
 use flexdrill_calibration::residual::RigQuantity;
@@ -59,6 +59,8 @@ pub struct Found {
     pub begun: u64,
     /// All but the header and the instant at which the members began.
     pub bands: Bands,
+    /// What the members say of the rig.
+    pub judgement: Judgement,
 }
 
 /// A piece of model time.
@@ -83,41 +85,50 @@ pub(super) struct Counts {
 }
 
 /// A member that is prepared to take a place.
-struct Prepared {
+pub(super) struct Prepared {
     takes: usize,
     /// The member that it is near.
     near: usize,
-    place: Place,
+    pub(super) place: Place,
 }
 
 /// A choice of members that stay, and of those that are prepared.
-struct Choice {
+pub(super) struct Choice {
     /// Logarithms of the members' weights when it was made, where it was made by weights; otherwise it only replaces those
     /// that failed.
     by_weights: Option<Vec<f64>>,
-    prepared: Vec<Prepared>,
+    pub(super) prepared: Vec<Prepared>,
 }
 
 /// The ensemble of a run.
 pub struct Ensemble {
-    config: Arc<Config>,
+    /// The configuration in force, but for the friction that `calibration.follow` moves.
+    pub(super) config: Arc<Config>,
+    /// The newest one that was told.
+    told: Arc<Config>,
     /// What a calibration has found, where members are drawn from it.
     posterior: Option<Arc<Posterior>>,
     priors: Priors,
-    errors: Errors,
+    pub(super) errors: Errors,
+    /// What the priors say of the friction that `calibration.follow` moves.
+    pub(super) friction: Friction,
     seed: u64,
     /// What acts at `at`, once that is known.
     acts: Option<RunInputs>,
-    generation: Generation,
-    places: Vec<Place>,
-    choice: Option<Choice>,
-    renewals: u32,
+    pub(super) generation: Generation,
+    pub(super) places: Vec<Place>,
+    /// Members that others have replaced, and that run on as the outermost of those drawn before anything was measured.
+    pub(super) outermost: Vec<Place>,
+    pub(super) choice: Option<Choice>,
+    pub(super) renewals: u32,
     /// Ticks that all members have come to.
-    at: u64,
+    pub(super) at: u64,
     /// Ticks that the twin has come to.
     reached: u64,
     applied: VecDeque<(u64, RunInputs, Arc<Config>)>,
     compared: VecDeque<(u64, Compared)>,
+    /// The newest comparison that members were weighed by.
+    pub(super) newest: Option<Compared>,
 }
 
 impl Ensemble {
@@ -137,9 +148,11 @@ impl Ensemble {
         };
         Ok(Some(Self {
             errors: Errors::of(config, &priors),
+            friction: Friction::of(config, &priors),
             priors,
             posterior: posterior.filter(|_| stated.posterior().is_some()),
             config: Arc::clone(config),
+            told: Arc::clone(config),
             seed: stated.seed,
             acts: None,
             generation: Generation {
@@ -148,12 +161,14 @@ impl Ensemble {
                 why: "the plausible tools have not begun yet".to_owned(),
             },
             places: Vec::new(),
+            outermost: Vec::new(),
             choice: None,
             renewals: 0,
             at: 0,
             reached: 0,
             applied: VecDeque::new(),
             compared: VecDeque::new(),
+            newest: None,
         }))
     }
 
@@ -208,11 +223,11 @@ impl Ensemble {
         }
         self.take_applied(begun + 1);
         self.places = (0..u64::from(generation.members))
-            .map(|number| Place {
-                drawn: self.priors.member(self.seed, number).map_err(|error| error.to_string()),
-                state: State::Unborn,
-            })
+            .map(|number| self.priors.member(self.seed, number).map_err(|error| error.to_string()))
+            .map(|drawn| Place::new(drawn, true))
             .collect();
+        self.outermost.clear();
+        self.newest = None;
         // What was compared before says nothing of members that begin now.
         self.compared.retain(|(ticks, _)| *ticks > begun);
         self.generation = Generation { begun, ..generation };
@@ -269,7 +284,8 @@ impl Ensemble {
         };
         let prepared = self.choice.iter_mut().flat_map(|choice| &mut choice.prepared);
         let prepared = prepared.map(|prepared| &mut prepared.place);
-        in_parallel(self.places.iter_mut().chain(prepared).collect(), threads, |place| {
+        let places = self.places.iter_mut().chain(&mut self.outermost).chain(prepared);
+        in_parallel(places.collect(), threads, |place| {
             if !stop.load(Ordering::Relaxed) {
                 place.advance(&slice, &begins);
             }
@@ -287,6 +303,7 @@ impl Ensemble {
         to.is_multiple_of(PER_SECOND * length).then(|| Found {
             ticks: to,
             begun: self.generation.begun,
+            judgement: self.judgement(),
             bands: self.message(),
         })
     }
@@ -295,7 +312,8 @@ impl Ensemble {
     fn take_applied(&mut self, to: u64) -> Vec<(u64, RunInputs)> {
         let mut applied = Vec::new();
         while let Some((ticks, inputs, config)) = self.applied.pop_front_if(|(ticks, ..)| *ticks < to) {
-            if !Arc::ptr_eq(&config, &self.config) {
+            if !Arc::ptr_eq(&config, &self.told) {
+                self.told = Arc::clone(&config);
                 self.reconfigure(config);
             }
             self.acts = Some(RunInputs { reset: false, ..inputs });
@@ -306,6 +324,15 @@ impl Ensemble {
 
     /// Adopts a configuration that was changed while the twin runs. Members keep what they have drawn.
     fn reconfigure(&mut self, config: Arc<Config>) {
+        // What follows the members must not move them.
+        let begun = ("calibration.friction_factor", self.config.calibration.friction_factor);
+        let held = (config.calibration.follow)
+            .then(|| config.with_live_values("the plausible tools", [begun]).ok())
+            .flatten();
+        let config = held.map_or(config, Arc::new);
+        if config == self.config {
+            return;
+        }
         // A change that leaves nothing to draw from is refused by the check of the configuration.
         if let Ok(priors) = Priors::of(&config) {
             self.errors = Errors::of(&config, &priors);
@@ -320,6 +347,7 @@ impl Ensemble {
         for place in self
             .places
             .iter_mut()
+            .chain(&mut self.outermost)
             .chain(prepared.map(|prepared| &mut prepared.place))
         {
             if let Ok(drawn) = &mut place.drawn
@@ -335,7 +363,7 @@ impl Ensemble {
     }
 
     fn members(&mut self, mut each: impl FnMut(&mut Member)) {
-        for place in &mut self.places {
+        for place in self.places.iter_mut().chain(&mut self.outermost) {
             if let State::Runs(member) = &mut place.state {
                 each(member);
             }
@@ -346,6 +374,7 @@ impl Ensemble {
     fn weigh(&mut self, to: u64) {
         while let Some((_, compared)) = self.compared.pop_front_if(|(ticks, _)| *ticks <= to) {
             let errors = self.errors;
+            self.newest = Some(compared);
             self.members(|member| {
                 let computed = predicted(member.snapshot());
                 member.windows.add(&errors, &compared, &computed);
@@ -383,7 +412,7 @@ impl Ensemble {
     }
 
     /// Weights of the members; 0 for those that failed.
-    fn weights(&self) -> Vec<f64> {
+    pub(super) fn weights(&self) -> Vec<f64> {
         let logs = self.logs();
         match logs.iter().all(|log| log.is_nan()) {
             true => vec![0.0; logs.len()],
@@ -415,14 +444,16 @@ impl Ensemble {
                 }
             }
         }
+        let mut replaced = Vec::new();
         for Prepared { takes, near, mut place } in choice.prepared {
             // A child of a member that has failed since has nothing that weighs it.
             match (&mut place.state, evidence.get(near).cloned().flatten()) {
                 (State::Runs(member), Some(evidence)) => member.windows.evidence = evidence,
                 _ => place.state = State::Failed,
             }
-            self.places[takes] = place;
+            replaced.push(std::mem::replace(&mut self.places[takes], place));
         }
+        self.keep_outermost(replaced);
     }
 
     /// Chooses which members stay where few carry most of the weight or some failed, and prepares others near those.
@@ -462,36 +493,11 @@ impl Ensemble {
         let prepared = gone.zip(others).map(|(takes, child)| Prepared {
             takes,
             near: child.parent,
-            place: Place {
-                drawn: self.priors.at(child.at).map_err(|error| error.to_string()),
-                state: State::Unborn,
-            },
+            place: Place::new(self.priors.at(child.at).map_err(|error| error.to_string()), false),
         });
         self.choice = Some(Choice {
             prepared: prepared.collect(),
             by_weights: few.then(|| self.logs()),
         });
-    }
-
-    fn message(&mut self) -> Bands {
-        let shares = self.weights();
-        let counts = Counts {
-            members: self.generation.members,
-            failed: self.places.iter().filter(|place| place.has_failed()).count() as u32,
-            prepared: self.choice.as_ref().map_or(0, |choice| choice.prepared.len() as u32),
-            effective: effective_number(&shares),
-            renewals: self.renewals,
-            why: self.generation.why.clone(),
-        };
-        let second = |place: &mut Place| match &mut place.state {
-            State::Runs(member) => Some(member.second()),
-            _ => None,
-        };
-        // Those that are prepared begin each second, too: their first one that counts must not have the minute before.
-        for prepared in self.choice.iter_mut().flat_map(|choice| &mut choice.prepared) {
-            second(&mut prepared.place);
-        }
-        let seconds: Vec<(f64, Option<Second>)> = shares.into_iter().zip(self.places.iter_mut().map(second)).collect();
-        message(&counts, &seconds)
     }
 }

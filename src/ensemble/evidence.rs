@@ -5,7 +5,7 @@
 //! ([`flexdrill_ensemble::Evidence`]).
 
 use flexdrill_calibration::monitor::MonitorSettings;
-use flexdrill_calibration::residual::RigQuantity;
+use flexdrill_calibration::residual::{Expected, Residual, RigQuantity, Watch};
 use flexdrill_config::Config;
 use flexdrill_ensemble::{Evidence, Measurement};
 use flexdrill_uncertainty::{Channel, Priors};
@@ -30,8 +30,12 @@ const RANGE: f64 = 1.645;
 /// A comparison of the rig with the twin, once per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compared {
+    /// Time since the comparison before (s).
+    pub step: f64,
     /// Whether speed and weight are steady and all inputs are good.
     pub steady: bool,
+    /// Whether the bit drills.
+    pub drilling: bool,
     /// What the rig has measured since the comparison before, by [`RigQuantity::ALL`] (SI); NaN where nothing came.
     pub measured: [f64; RigQuantity::COUNT],
     /// What the twin computes (SI).
@@ -42,14 +46,16 @@ pub struct Compared {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Errors {
     of: [OneError; RigQuantity::COUNT],
+    /// Time of the sliding means that the alarm is judged by (s).
+    mean: f64,
 }
 
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 struct OneError {
-    noise: f64,
-    /// Of the twin, as a share and at least.
-    model: f64,
-    least: f64,
+    /// Of sensor and twin, but for the offset.
+    expected: Expected,
+    /// Age of the newest sample (s) beyond which the quantity counts as not measured.
+    longest_age: f64,
     /// Standard deviation of the sensor's offset about `tare`.
     offset: f64,
     tare: f64,
@@ -83,30 +89,29 @@ pub(super) const fn channel(quantity: RigQuantity) -> Channel {
 impl Errors {
     pub(super) fn of(config: &Config, priors: &Priors) -> Self {
         let stated = MonitorSettings::stated(&flexdrill_calibration::stated(config));
-        let mut of = [OneError::default(); RigQuantity::COUNT];
-        for quantity in RigQuantity::ALL {
-            let expected = &stated.expected[quantity as usize];
+        let of = RigQuantity::ALL.map(|quantity| {
+            let expected = stated.expected[quantity as usize];
             let sensor = priors
                 .sensors()
                 .iter()
                 .find(|sensor| sensor.channel == channel(quantity));
-            of[quantity as usize] = OneError {
-                noise: expected.noise,
-                model: expected.model,
-                least: expected.least,
+            OneError {
+                expected,
+                longest_age: stated.longest_age[quantity as usize],
                 offset: sensor.map_or(0.0, |sensor| sensor.tare_range / RANGE),
                 tare: stated.tare[quantity as usize],
                 drift: expected.drift * (CORRELATED / 3600.0).sqrt(),
-            };
-        }
-        Self { of }
+            }
+        });
+        Self { of, mean: stated.mean }
     }
 }
 
 impl OneError {
     /// What residuals are divided by where the twin computes `predicted`.
     fn scale(&self, predicted: f64) -> f64 {
-        (self.model * predicted).hypot(self.least).hypot(self.offset)
+        let Expected { model, least, .. } = self.expected;
+        (model * predicted).hypot(least).hypot(self.offset)
     }
 }
 
@@ -117,6 +122,10 @@ pub(super) struct Windows {
     /// Factors of the member's sensors, by [`RigQuantity::ALL`].
     factors: [f64; RigQuantity::COUNT],
     sums: [Sums; RigQuantity::COUNT],
+    /// Sliding means of what is measured and of the member's readings, as the twin has them.
+    watches: [Option<Watch>; RigQuantity::COUNT],
+    /// The newest means of readings that were known; NaN before.
+    newest: [f64; RigQuantity::COUNT],
 }
 
 /// Sums of the present window, all over the scale of the second.
@@ -140,28 +149,54 @@ impl Windows {
             evidence: Evidence::new(&[1.0; RigQuantity::COUNT]),
             factors: RigQuantity::ALL.map(factor),
             sums: Default::default(),
+            watches: Default::default(),
+            newest: [f64::NAN; RigQuantity::COUNT],
         }
     }
 
-    /// Forgets the present window, after a reset of the model.
+    /// Forgets the present window and means, after a reset of the model.
     pub(super) fn restart(&mut self) {
         self.sums = Default::default();
+        self.watches = Default::default();
+    }
+
+    /// The sliding means of a quantity `hours` after the tares of the sensors were known, with the error that this member
+    /// shares with all others; `None` while they are not filled.
+    pub(super) fn mean(&self, errors: &Errors, quantity: RigQuantity, hours: f64) -> Option<Residual> {
+        let error = &errors.of[quantity as usize];
+        let watch = self.watches[quantity as usize].as_ref()?;
+        let of = watch.residual(&error.expected, error.longest_age, hours)?;
+        Some(Residual {
+            error: of.error.hypot(error.offset),
+            ..of
+        })
+    }
+
+    /// The newest mean of the member's readings of a quantity, whenever it was known; NaN before.
+    pub(super) fn newest(&self, quantity: RigQuantity) -> f64 {
+        self.newest[quantity as usize]
     }
 
     /// Takes a second in which the member computes `computed`.
     pub(super) fn add(&mut self, errors: &Errors, compared: &Compared, computed: &[f64; RigQuantity::COUNT]) {
         if !compared.steady {
+            self.watches = Default::default();
             return;
         }
         for (index, error) in errors.of.iter().enumerate() {
             let scale = error.scale(compared.predicted[index]);
             // The offset of the sensor about its tare is part of the scale, since all windows share it.
             let reading = self.factors[index] * computed[index] + error.tare;
+            let watch = self.watches[index].get_or_insert(Watch::new(errors.mean));
+            watch.push(compared.step, compared.measured[index], reading);
+            if let Some(of) = watch.residual(&error.expected, error.longest_age, 0.0) {
+                self.newest[index] = of.predicted;
+            }
             let residual = (compared.measured[index] - reading) / scale;
             if residual.is_finite() {
                 let sums = &mut self.sums[index];
                 sums.residuals += residual;
-                sums.noise += (error.noise / scale).powi(2);
+                sums.noise += (error.expected.noise / scale).powi(2);
                 sums.drift += (error.drift / scale).powi(2);
                 sums.seconds += 1.0;
             }
@@ -192,6 +227,6 @@ impl Windows {
             self.evidence.add(index, &measurement);
         }
         self.evidence.fade(WINDOW, LASTING);
-        self.restart();
+        self.sums = Default::default();
     }
 }

@@ -1,13 +1,39 @@
 //! Bands and chances of a second, as a message.
 
-use super::engine::Counts;
+use super::engine::{Counts, Ensemble};
 use super::member::Second;
+use super::place::{Place, State};
 use crate::alarms::{AlarmId, priority_code};
 use flexdrill_alarms::Priority;
-use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS};
+use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS, effective_number};
 use flexdrill_messages::{AlarmChance, Bands, FigureBand};
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::figures::OverTools;
+
+impl Ensemble {
+    /// What the members do in the second that ends.
+    pub(super) fn message(&mut self) -> Bands {
+        let shares = self.weights();
+        let counts = Counts {
+            members: self.generation.members,
+            failed: self.places.iter().filter(|place| place.has_failed()).count() as u32,
+            prepared: self.choice.as_ref().map_or(0, |choice| choice.prepared.len() as u32),
+            effective: effective_number(&shares),
+            renewals: self.renewals,
+            why: self.generation.why.clone(),
+        };
+        let second = |place: &mut Place| match &mut place.state {
+            State::Runs(member) => Some(member.second()),
+            _ => None,
+        };
+        // Those that are prepared begin each second, too: their first one that counts must not have the minute before.
+        for prepared in self.choice.iter_mut().flat_map(|choice| &mut choice.prepared) {
+            second(&mut prepared.place);
+        }
+        let seconds: Vec<(f64, Option<Second>)> = shares.into_iter().zip(self.places.iter_mut().map(second)).collect();
+        message(&counts, &seconds)
+    }
+}
 
 /// The message of a second, but for its times. Members are given with their weight; `None` failed.
 pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)]) -> Bands {

@@ -2,7 +2,8 @@
 //!
 //! A member is a tool with parameters drawn from what is not known (`uncertainty`), on a rig whose weight indicator and speed
 //! sensor have errors (`member`). What the rig measures weighs the members (`evidence`); where few carry most of the weight,
-//! tools near those few replace the others (`engine`). What the members compute becomes bands and chances (`message`).
+//! tools near those few replace the others (`engine`). What the members compute becomes bands and chances (`message`), the
+//! ranges that the alarm `rig_disagrees` is judged by, and the friction that `calibration.follow` moves to (`judgement`).
 //!
 //! All of it is a function of the configuration, of what acts on the twin, of what the rig measured and of the number of
 //! members, evaluated in slices of model time behind the twin, by a clock on threads of idle work (`running`). A replay of a
@@ -10,6 +11,7 @@
 
 mod engine;
 mod evidence;
+mod judgement;
 mod member;
 mod message;
 mod place;
@@ -20,6 +22,7 @@ mod tests;
 
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
+pub use judgement::{Friction, Judgement};
 pub use place::Threads;
 pub use posterior::named_by;
 pub use running::{Pace, Running};

@@ -21,6 +21,8 @@ pub struct Threads {
 pub(super) struct Place {
     pub(super) drawn: Result<Drawn, String>,
     pub(super) state: State,
+    /// Whether it was drawn before anything was measured.
+    pub(super) first: bool,
 }
 
 /// What has become of it.
@@ -32,6 +34,23 @@ pub(super) enum State {
 }
 
 impl Place {
+    /// A member that is not built yet.
+    pub(super) fn new(drawn: Result<Drawn, String>, first: bool) -> Self {
+        Self {
+            drawn,
+            state: State::Unborn,
+            first,
+        }
+    }
+
+    /// The member that runs.
+    pub(super) fn member(&self) -> Option<&Member> {
+        match &self.state {
+            State::Runs(member) => Some(member),
+            _ => None,
+        }
+    }
+
     pub(super) fn has_failed(&self) -> bool {
         matches!(self.state, State::Failed)
     }

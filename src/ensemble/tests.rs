@@ -289,7 +289,9 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
     for (second, (_, values)) in measured.iter().enumerate() {
         let ticks = SECOND * (second as u64 + 1);
         let mut compared = Compared {
+            step: 1.0,
             steady: second >= 10,
+            drilling: true,
             measured: [f64::NAN; RigQuantity::COUNT],
             predicted: *values,
         };
@@ -339,7 +341,9 @@ fn a_sensor_that_shows_what_no_plausible_tool_does_is_not_believed() {
         for (second, (_, values)) in twin.iter().enumerate() {
             let ticks = SECOND * (second as u64 + 1);
             let mut compared = Compared {
+                step: 1.0,
                 steady: second >= 10,
+                drilling: true,
                 measured: [f64::NAN; RigQuantity::COUNT],
                 predicted: *values,
             };
@@ -472,7 +476,9 @@ fn members_that_begin_later_know_nothing_of_what_was_measured_before() {
     ensemble.hear(told(config, acts(config, 0, 60.0, 8.0)));
     for second in 1..20 {
         let compared = Compared {
+            step: 1.0,
             steady: true,
+            drilling: true,
             measured: [1e3; RigQuantity::COUNT],
             predicted: [1.0; RigQuantity::COUNT],
         };

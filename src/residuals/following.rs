@@ -2,14 +2,20 @@
 
 use flexdrill_calibration::BAND;
 use flexdrill_calibration::follow::{Follow, FollowSettings, Frozen, Instant};
-use flexdrill_calibration::following::{Following, FollowingSettings, Held};
+use flexdrill_calibration::following::{Estimated, Following, FollowingSettings, Held, Moved};
 use flexdrill_config::{Config, FOLLOWED};
 
+use crate::ensemble::Friction;
 use crate::messages;
 use flexdrill_outputs::ParameterChange;
 
 /// Who asks for a change by following, for the log and the recording.
 pub const FOLLOW: &str = "calibration.follow";
+
+/// Why nothing follows plausible tools.
+const TOO_FEW: &str =
+    "the plausible tools say nothing of friction: too few of them run or have weight, or they are late";
+const NOT_DRAWN: &str = "the plausible tools all have the same friction, since it is not in the section uncertainty";
 
 /// Values of the parameters that follow, in the order of [`FOLLOWED`] as every array here.
 pub fn followed(config: &Config) -> [f64; 2] {
@@ -37,6 +43,8 @@ pub(super) struct Estimate {
     rules: FollowingSettings,
     /// Values at the start of the run.
     configured: [f64; 2],
+    /// Distance from the configured tare within which 90 % of the tares lie (N m).
+    tare_range: f64,
     /// Values in force.
     applied: [f64; 2],
     /// The factor that the motion has ([`Config::motion_factor`]).
@@ -66,6 +74,7 @@ impl Estimate {
             settings,
             rules,
             configured,
+            tare_range: config.calibration.torque_tare_range_nm,
             applied: configured,
             in_motion: config.motion_factor(),
             stopped: false,
@@ -99,20 +108,70 @@ impl Estimate {
     /// Takes a sample and adds to the message what it means.
     pub(super) fn push(&mut self, instant: &Instant, message: messages::Residuals) -> Pushed {
         let frozen = self.follow.push(instant);
-        let (applied, follow) = (self.applied, &self.follow);
+        let estimated = Estimated::from(&self.follow);
+        let bands = [0, 1].map(|k| [-1.0, 1.0].map(|side| estimated.values[k] + side * estimated.halves[k]));
+        let applied = self.applied;
         let moved = self
             .following
             .as_mut()
-            .map(|following| following.step(instant.step, applied, follow, frozen));
-        let [factor, tare] = [follow.factor(), follow.tare()];
-        let [of_factor, of_tare] = follow.deviations().map(|deviation| BAND * deviation);
+            .map(|following| following.step(instant.step, applied, estimated, frozen));
+        self.pushed(moved, [estimated.values, bands[0], bands[1]], frozen, None, message)
+    }
+
+    /// The same where plausible tools run with the twin: they are the estimate, by what the rig measures weighs of them, and
+    /// there is no other one. `friction` is what they say; `None` where they say nothing.
+    pub(super) fn push_by_tools(
+        &mut self,
+        instant: &Instant,
+        friction: Option<Friction>,
+        message: messages::Residuals,
+    ) -> Pushed {
+        let frozen = instant.unusable();
+        let [_, tare] = self.applied;
+        let of_tare = [-1.0, 1.0].map(|side| self.configured[1] + side * self.tare_range);
+        let Some(Friction { mean, band, prior }) = friction else {
+            let unknown = [[f64::NAN, tare], [f64::NAN; 2], of_tare];
+            return self.pushed(None, unknown, frozen, Some(TOO_FEW), message);
+        };
+        let known = [[mean, tare], band, of_tare];
+        if prior[0] >= prior[1] {
+            return self.pushed(None, known, frozen, Some(NOT_DRAWN), message);
+        }
+        // What no tool was drawn with is not followed, however well it fits.
+        let [low, high] = self.rules.limits[0];
+        let low = prior[0].clamp(low, high);
+        let limits = [[low, prior[1].clamp(low, high)], self.rules.limits[1]];
+        // The tare is among what the tools hold for possible, and does not follow.
+        let estimated = Estimated {
+            values: [mean, tare],
+            halves: [0.5 * (band[1] - band[0]), 0.0],
+        };
+        let applied = self.applied;
+        let moved = self.following.as_mut().map(|following| {
+            following.set_limits(limits);
+            following.step(instant.step, applied, estimated, frozen)
+        });
+        self.pushed(moved, known, frozen, None, message)
+    }
+
+    /// Adds what is known and what moves to a message. `known` has the estimates of factor and tare (N m), and the band of each;
+    /// `why` says why nothing can move.
+    fn pushed(
+        &mut self,
+        moved: Option<Moved>,
+        [[factor, tare], of_factor, of_tare]: [[f64; 2]; 3],
+        frozen: Option<Frozen>,
+        why: Option<&str>,
+        message: messages::Residuals,
+    ) -> Pushed {
+        let applied = self.applied;
         let message = messages::Residuals {
             friction_factor: factor,
-            friction_factor_low: factor - of_factor,
-            friction_factor_high: factor + of_factor,
+            friction_factor_low: of_factor[0],
+            friction_factor_high: of_factor[1],
             torque_tare: tare,
-            torque_tare_low: tare - of_tare,
-            torque_tare_high: tare + of_tare,
+            torque_tare_low: of_tare[0],
+            torque_tare_high: of_tare[1],
             estimate_frozen: frozen.map_or("", frozen_in_words).to_owned(),
             following: self.following.is_some(),
             applied_friction_factor: applied[0],
@@ -120,8 +179,9 @@ impl Estimate {
             applied_torque_tare: applied[1],
             configured_torque_tare: self.configured[1],
             following_held: match moved {
-                None => "calibration.follow is off".to_owned(),
+                _ if self.following.is_none() => "calibration.follow is off".to_owned(),
                 Some(moved) => moved.held.map_or_else(String::new, held_in_words),
+                None => why.unwrap_or_default().to_owned(),
             },
             ..message
         };

@@ -6,22 +6,26 @@
 //! samples, so that a replay of the recording compares the same numbers.
 
 mod following;
+mod tools;
 
 use flexdrill_calibration::follow::Instant;
 use flexdrill_calibration::monitor::{Compared, Monitor, MonitorSettings, Reading};
+use flexdrill_calibration::plausible;
 use flexdrill_calibration::residual::{Residual, RigQuantity};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputState, MeasuredKind};
 use flexdrill_core::twin::{Frame, Snapshot};
 use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
-use crate::alarms::{Followed, in_words};
+use crate::alarms::{Followed, Judged, in_words};
+use crate::ensemble::Judgement;
 use crate::messages;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Measured;
 pub use flexdrill_config::FOLLOWED;
 use following::Estimate;
 pub use following::{FOLLOW, changes, followed};
+use tools::{Said, Tools};
 
 /// Model time between two comparisons (s).
 const INTERVAL: f64 = 1.0;
@@ -90,8 +94,13 @@ impl Samples {
 /// What a comparison gives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// For the alarm.
+    /// Time since the comparison before (s).
+    pub step: f64,
+    /// The rig against the twin.
     pub compared: Compared,
+    /// The rig against plausible tools, a little earlier, where the alarm is judged by them: `Some(None)` while they have not
+    /// come to an instant that can be judged.
+    pub tools: Option<Option<plausible::Compared>>,
     /// For publication.
     pub message: messages::Residuals,
     /// The values of [`FOLLOWED`] in force and those that are to be, where they follow the rig.
@@ -103,6 +112,14 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// For the alarm: what the rig is compared with.
+    pub fn judged(&self) -> Judged<'_> {
+        match &self.tools {
+            Some(tools) => Judged::Tools(tools.as_ref()),
+            None => Judged::Twin(&self.compared),
+        }
+    }
+
     /// The friction that the twin has followed the rig to.
     pub fn followed(&self) -> Followed {
         if !self.message.following {
@@ -114,6 +131,7 @@ impl Comparison {
                 self.message.configured_friction_factor,
             ],
             at_limit: self.at_limit,
+            by_tools: self.tools.is_some(),
         }
     }
 }
@@ -123,6 +141,8 @@ pub struct RigComparison {
     monitor: Monitor,
     settings: MonitorSettings,
     estimate: Estimate,
+    /// Plausible tools, where they run with the twin.
+    tools: Option<Tools>,
     time_step: f64,
     /// Stamps of the newest samples that were taken (ns).
     taken: [i64; RigQuantity::COUNT],
@@ -139,11 +159,24 @@ impl RigComparison {
         Self {
             monitor: Monitor::new(settings),
             estimate: Estimate::new(config),
+            tools: None,
             settings,
             time_step: config.solver.time_step,
             taken: [i64::MIN; RigQuantity::COUNT],
             last: None,
             heard: false,
+        }
+    }
+
+    /// Plausible tools run with the twin. The alarm is judged by them, and friction follows them.
+    pub fn judge_by_tools(&mut self) {
+        self.tools = Some(Tools::new(self.time_step));
+    }
+
+    /// Takes what plausible tools say of the second that ends at these ticks.
+    pub fn hear_tools(&mut self, ticks: u64, judgement: Judgement) {
+        if let Some(tools) = &mut self.tools {
+            tools.hear(ticks, judgement);
         }
     }
 
@@ -221,9 +254,26 @@ impl RigComparison {
             good,
             steady: compared.steady,
         };
-        let pushed = self.estimate.push(&instant, message(header, &compared, samples));
+        let said = self.tools.as_mut().map(|tools| tools.at(frame.ticks));
+        let message = message(header, &compared, samples);
+        let pushed = match &said {
+            None => self.estimate.push(&instant, message),
+            Some(said) => {
+                let friction = match said {
+                    Said::Judgement(judgement) => judgement.friction,
+                    Said::Later | Said::Nothing => None,
+                };
+                self.estimate.push_by_tools(&instant, friction, message)
+            }
+        };
         Some(Comparison {
+            step,
             compared,
+            tools: match said {
+                None | Some(Said::Nothing) => None,
+                Some(Said::Later) => Some(None),
+                Some(Said::Judgement(judgement)) => Some(judgement.compared),
+            },
             message: pushed.message,
             moved: pushed.moved,
             stopped: pushed.stopped,

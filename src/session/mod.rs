@@ -88,6 +88,7 @@ impl Session {
     /// Takes plausible tools that run with it; [`Session::publish_bands`] publishes what they do.
     pub fn run_with(&mut self, ensemble: Running) {
         self.ensemble = Some(ensemble);
+        self.rig.judge_by_tools();
     }
 
     /// Begins the outputs of a run whose tick 0 is at `start` (ns since 1970, on the rig's clock): says what the run is.
@@ -243,13 +244,16 @@ impl Session {
         let (compared, followed) = (&comparison.compared, comparison.followed());
         if let Some(ensemble) = &self.ensemble {
             let compared = ensemble::Compared {
+                step: comparison.step,
                 steady: compared.steady,
+                drilling: compared.drilling,
                 measured: samples.values,
                 predicted: predicted(&frame.snapshot),
             };
             ensemble.tell(Told::Compared(frame.ticks, compared));
         }
-        self.alarms.observe_rig(compared, &followed, samples.bit_depth, stamp);
+        self.alarms
+            .observe_rig(comparison.judged(), &followed, samples.bit_depth, stamp);
         self.alarms.observe_adjusted(&comparison.message, stamp);
         host.compared(&comparison);
         let residuals = self.residuals.insert(comparison.message);
@@ -276,6 +280,7 @@ impl Session {
             ticks,
             begun: from,
             mut bands,
+            judgement,
         }) = self.ensemble.as_mut().and_then(Running::take)
         {
             // Members run only once the instant of the first step is known.
@@ -287,6 +292,7 @@ impl Session {
             let (_, begun) = *self.begun.insert(known.unwrap_or((from, begun)));
             bands.begun = Time::from_nanoseconds(begun);
             self.alarms.observe_tools(&bands);
+            self.rig.hear_tools(ticks, judgement);
             host.send(Encoded {
                 topic: &topics::BANDS,
                 stamp,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use flexdrill::alarms::{AlarmBook, AlarmId, Followed};
+use flexdrill::alarms::{AlarmBook, AlarmId, Followed, Judged};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill_alarms::Priority;
 use flexdrill_calibration::monitor::Compared;
@@ -44,8 +44,9 @@ impl Bench {
         for _ in 0..seconds {
             self.now += SECOND;
             self.book.advance(self.now);
+            let compared = compared(measured);
             self.book
-                .observe_rig(&compared(measured), &Followed::default(), 1234.0, self.now);
+                .observe_rig(Judged::Twin(&compared), &Followed::default(), 1234.0, self.now);
         }
         self.book.active(AlarmId::RigDisagrees)
     }

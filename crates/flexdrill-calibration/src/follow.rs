@@ -68,6 +68,21 @@ pub struct Instant {
     pub steady: bool,
 }
 
+impl Instant {
+    /// Why nothing can be learned from this instant, whatever is estimated; `None` where something can.
+    pub fn unusable(&self) -> Option<Frozen> {
+        if !self.good {
+            return Some(Frozen::BadInput);
+        }
+        if !self.steady {
+            return Some(Frozen::NotSteady);
+        }
+        let all = [self.step, self.measured, self.predicted, self.friction, self.applied];
+        let missing = all.iter().any(|value| !value.is_finite()) || self.step <= 0.0 || self.applied <= 0.0;
+        missing.then_some(Frozen::Missing)
+    }
+}
+
 /// Why a sample changed nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frozen {
@@ -127,21 +142,9 @@ impl Follow {
 
     /// Takes a sample, or says why it changed nothing.
     pub fn push(&mut self, instant: &Instant) -> Option<Frozen> {
-        if !instant.good {
-            return Some(Frozen::BadInput);
-        }
-        if !instant.steady {
-            return Some(Frozen::NotSteady);
-        }
-        let all = [
-            instant.step,
-            instant.measured,
-            instant.predicted,
-            instant.friction,
-            instant.applied,
-        ];
-        if all.iter().any(|value| !value.is_finite()) || instant.step <= 0.0 || instant.applied <= 0.0 {
-            return Some(Frozen::Missing);
+        let unusable = instant.unusable();
+        if unusable.is_some() {
+            return unusable;
         }
         let s = &self.settings;
         let hours = instant.step / 3600.0;

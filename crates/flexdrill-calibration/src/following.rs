@@ -7,6 +7,24 @@
 use crate::BAND;
 use crate::follow::{Follow, Frozen};
 
+/// What is known of factor and tare (N m): arrays of both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimated {
+    /// The estimates.
+    pub values: [f64; 2],
+    /// Halves of their 90 % bands.
+    pub halves: [f64; 2],
+}
+
+impl From<&Follow> for Estimated {
+    fn from(follow: &Follow) -> Self {
+        Self {
+            values: [follow.factor(), follow.tare()],
+            halves: follow.deviations().map(|deviation| BAND * deviation),
+        }
+    }
+}
+
 /// Share of the half band within which parameters stay: the estimate wanders within its band without a reason.
 const CALM: f64 = 0.25;
 
@@ -62,9 +80,14 @@ impl Following {
         }
     }
 
+    /// Replaces the limits of factor and tare.
+    pub fn set_limits(&mut self, limits: [[f64; 2]; 2]) {
+        self.settings.limits = limits;
+    }
+
     /// The next move of `applied` (factor and tare in force), `step` seconds after the comparison before. `frozen` is what
     /// the estimate has said of the newest sample.
-    pub fn step(&mut self, step: f64, applied: [f64; 2], estimate: &Follow, frozen: Option<Frozen>) -> Moved {
+    pub fn step(&mut self, step: f64, applied: [f64; 2], estimate: Estimated, frozen: Option<Frozen>) -> Moved {
         let held = |held| Moved {
             to: None,
             held: Some(held),
@@ -75,14 +98,16 @@ impl Following {
         }
         let s = &self.settings;
         // Half of the 90 % band. Moving to an uncertain estimate would carry its scatter into every force of the twin.
-        let half = estimate.deviations().map(|deviation| BAND * deviation);
+        let Estimated {
+            values: wanted,
+            halves: half,
+        } = estimate;
         if half[0] > s.bands[0] {
             return held(Held::FactorUncertain(half[0], s.bands[0]));
         }
         if half[1] > s.bands[1] {
             return held(Held::TareUncertain(half[1], s.bands[1]));
         }
-        let wanted = [estimate.factor(), estimate.tare()];
         // The limits bound the target and not the step, so that the reason can say which parameter has no more room.
         let target = [0, 1].map(|k| wanted[k].clamp(s.limits[k][0], s.limits[k][1]));
         let ahead = [0, 1].map(|k| target[k] - applied[k]);
@@ -175,7 +200,9 @@ mod tests {
             };
             change(&mut instant);
             let frozen = self.follow.push(&instant);
-            let moved = self.following.step(instant.step, self.applied, &self.follow, frozen);
+            let moved = self
+                .following
+                .step(instant.step, self.applied, Estimated::from(&self.follow), frozen);
             if let Some(to) = moved.to {
                 for (k, rate) in SETTINGS.rates.into_iter().enumerate() {
                     // A billionth is more than rounding.

@@ -7,7 +7,8 @@
 //! While drilling:
 //! - [`follow`]: the recursive estimate of friction and tare. [`following`]: the twin's parameters on their way to it,
 //!   within limits.
-//! - [`residual`]: measured less predicted with its band. [`monitor`]: the comparison of rig and twin.
+//! - [`residual`]: measured less predicted with its band. [`monitor`]: the comparison of rig and twin. [`plausible`]: of the
+//!   rig and plausible tools.
 //!   [`stated`](fn@stated): errors of sensors and twin, as the configuration has them.
 //!
 //! From a log:
@@ -35,6 +36,7 @@ pub mod following;
 pub mod identify;
 pub mod monitor;
 pub mod noise;
+pub mod plausible;
 mod random;
 pub mod residual;
 pub mod smoother;

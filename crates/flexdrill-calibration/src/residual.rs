@@ -79,8 +79,14 @@ impl Residual {
 
     /// The difference beyond which the twin's error is surely larger than `level` times half of its own 90 % band.
     pub fn limit(&self, level: f64) -> f64 {
-        level * BAND * self.error + CERTAIN * self.scatter
+        limit(self.error, self.scatter, level)
     }
+}
+
+/// The distance beyond which an error with the standard deviation `error` is surely larger than `level` times half of its 90 %
+/// band, of a mean with this `scatter`.
+pub(crate) fn limit(error: f64, scatter: f64, level: f64) -> f64 {
+    level * BAND * error + CERTAIN * scatter
 }
 
 /// Sliding means of measured and predicted values: exponential, in a time. Samples need not come regularly.
@@ -165,7 +171,7 @@ pub enum Cause {
     WeightLost,
     /// Weight or hook load is measured wrongly.
     WeightSensor,
-    /// The offset of the torque sensor has changed.
+    /// The torque is measured wrongly.
     TorqueSensor,
     /// A speed is measured wrongly.
     SpeedSensor,
@@ -211,9 +217,9 @@ pub fn causes(ratios: &[Option<f64>; RigQuantity::COUNT], drilling: bool) -> Vec
         }
         // A torque at the bit that is measured removes the bit from the causes of the torque at the surface.
         all.extend::<&[Cause]>(match (torque, bit_torque) {
-            (Side::High, Side::Unknown) => &[FrictionHigher, BitTakesMore, WeightSensor],
+            (Side::High, Side::Unknown) => &[FrictionHigher, BitTakesMore, WeightSensor, TorqueSensor],
             (Side::High, Side::Within | Side::Low) => &[FrictionHigher, TorqueSensor],
-            (Side::Low, Side::Unknown) => &[BitTakesLess, WeightLost, FrictionLower, WeightSensor],
+            (Side::Low, Side::Unknown) => &[BitTakesLess, WeightLost, FrictionLower, WeightSensor, TorqueSensor],
             (Side::Low, Side::Within | Side::High) => &[FrictionLower, TorqueSensor],
             _ => &[],
         });

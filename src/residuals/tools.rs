@@ -1,0 +1,134 @@
+//! What plausible tools say of the rig, at an age at which a node and a replay both have it.
+
+use std::collections::VecDeque;
+
+use crate::ensemble::Judgement;
+
+/// Age of what is judged (s). A replay computes plausible tools up to ten seconds behind its run, a node mostly one or two:
+/// both have the same second at this age.
+const AGE: f64 = 11.0;
+/// Time between two seconds of plausible tools (s).
+const SECOND: f64 = 1.0;
+/// Time after which plausible tools that say nothing are waited for no longer (s): members that begin again have means of
+/// their own by then.
+const PATIENCE: f64 = 60.0;
+
+/// What plausible tools say at an instant.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Said {
+    /// They run and have not come to it. What stands remains.
+    Later,
+    /// Too few of them run, or they are too late: the twin is judged alone.
+    Nothing,
+    /// This.
+    Judgement(Judgement),
+}
+
+/// Plausible tools that run with the twin.
+#[derive(Debug, Clone)]
+pub(super) struct Tools {
+    time_step: f64,
+    /// Ticks and what was said of them, the oldest first.
+    seconds: VecDeque<(u64, Judgement)>,
+    /// Ticks from which on nothing was said.
+    silent: Option<u64>,
+}
+
+impl Tools {
+    pub(super) fn new(time_step: f64) -> Self {
+        Self {
+            time_step,
+            seconds: VecDeque::new(),
+            silent: None,
+        }
+    }
+
+    /// Takes what they say of the second that ends at these ticks.
+    pub(super) fn hear(&mut self, ticks: u64, judgement: Judgement) {
+        self.seconds.push_back((ticks, judgement));
+    }
+
+    /// What is judged at these ticks: what they said of one second, [`AGE`] ago.
+    pub(super) fn at(&mut self, ticks: u64) -> Said {
+        let passed = |since: u64| ticks.saturating_sub(since) as f64 * self.time_step;
+        // Ticks are whole, ages are sums of rounded steps.
+        let margin = 0.5 * self.time_step;
+        while let Some((of, _)) = self.seconds.front()
+            && passed(*of) > AGE + SECOND - margin
+        {
+            self.seconds.pop_front();
+        }
+        let known = self.seconds.front().filter(|(of, _)| passed(*of) > AGE - margin);
+        match known {
+            Some((_, judgement)) => {
+                self.silent = None;
+                match judgement.compared {
+                    Some(_) => Said::Judgement(judgement.clone()),
+                    None => Said::Nothing,
+                }
+            }
+            None => match passed(*self.silent.get_or_insert(ticks)) {
+                waited if waited > PATIENCE => Said::Nothing,
+                _ => Said::Later,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_calibration::plausible::Compared;
+    use flexdrill_calibration::residual::RigQuantity;
+
+    const STEP: f64 = 0.01;
+
+    fn judgement(tools: u32) -> Judgement {
+        Judgement {
+            compared: Some(Compared {
+                readings: [None; RigQuantity::COUNT],
+                drilling: true,
+                tools,
+            }),
+            friction: None,
+        }
+    }
+
+    /// What is judged follows from instants, whenever messages come within the age.
+    #[test]
+    fn a_second_is_judged_at_its_age_however_late_it_came() {
+        let of = |delay: u64| {
+            let mut tools = Tools::new(STEP);
+            (0..40_u64)
+                .map(|second| {
+                    if second >= delay {
+                        tools.hear(100 * (second - delay), judgement((second - delay) as u32));
+                    }
+                    // A comparison need not be at a whole second.
+                    tools.at(100 * second + 37)
+                })
+                .collect::<Vec<_>>()
+        };
+        let soon = of(1);
+        assert_eq!(soon, of(10));
+        for (second, said) in soon.iter().enumerate() {
+            match second {
+                0..=10 => assert_eq!(*said, Said::Later),
+                _ => assert_eq!(*said, Said::Judgement(judgement(second as u32 - 11)), "{second}"),
+            }
+        }
+    }
+
+    #[test]
+    fn few_tools_leave_the_twin_and_silent_ones_are_waited_for_a_minute() {
+        let mut tools = Tools::new(STEP);
+        tools.hear(0, Judgement::default());
+        assert_eq!(tools.at(1100), Said::Nothing);
+        for second in 12..=72 {
+            assert_eq!(tools.at(100 * second), Said::Later, "{second}");
+        }
+        assert_eq!(tools.at(7301), Said::Nothing);
+        tools.hear(7000, judgement(8));
+        assert_eq!(tools.at(8100), Said::Judgement(judgement(8)));
+    }
+}
