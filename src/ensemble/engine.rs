@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::evidence::{Compared, Errors, WINDOW, channel, unexplained};
-use super::judgement::{Friction, Judgement};
+use super::judgement::prior_of_friction;
 use super::member::Member;
 use super::place::{Place, State, Threads, in_parallel};
-use crate::residuals::predicted;
+use crate::residuals::{Judgement, predicted};
 use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_config::{Config, Members};
 use flexdrill_core::twin::RunInputs;
@@ -110,8 +110,8 @@ pub struct Ensemble {
     posterior: Option<Arc<Posterior>>,
     priors: Priors,
     pub(super) errors: Errors,
-    /// What the priors say of the friction that `calibration.follow` moves.
-    pub(super) friction: Friction,
+    /// The friction that the priors hold for possible.
+    pub(super) prior_friction: [f64; 2],
     seed: u64,
     /// What acts at `at`, once that is known.
     acts: Option<RunInputs>,
@@ -148,7 +148,7 @@ impl Ensemble {
         };
         Ok(Some(Self {
             errors: Errors::of(config, &priors),
-            friction: Friction::of(config, &priors),
+            prior_friction: prior_of_friction(config, &priors),
             priors,
             posterior: posterior.filter(|_| stated.posterior().is_some()),
             config: Arc::clone(config),
@@ -324,12 +324,7 @@ impl Ensemble {
 
     /// Adopts a configuration that was changed while the twin runs. Members keep what they have drawn.
     fn reconfigure(&mut self, config: Arc<Config>) {
-        // What follows the members must not move them.
-        let begun = ("calibration.friction_factor", self.config.calibration.friction_factor);
-        let held = (config.calibration.follow)
-            .then(|| config.with_live_values("the plausible tools", [begun]).ok())
-            .flatten();
-        let config = held.map_or(config, Arc::new);
+        let config = self.unfollowed(config);
         if config == self.config {
             return;
         }

@@ -124,7 +124,7 @@ pub(super) struct Windows {
     sums: [Sums; RigQuantity::COUNT],
     /// Sliding means of what is measured and of the member's readings, as the twin has them.
     watches: [Option<Watch>; RigQuantity::COUNT],
-    /// The newest means of readings that were known; NaN before.
+    /// Means of the readings over about the last [`WINDOW`] of steady seconds, however long ago; NaN before.
     newest: [f64; RigQuantity::COUNT],
 }
 
@@ -172,7 +172,7 @@ impl Windows {
         })
     }
 
-    /// The newest mean of the member's readings of a quantity, whenever it was known; NaN before.
+    /// The mean of the member's readings of a quantity over the newest steady seconds, however long ago; NaN before.
     pub(super) fn newest(&self, quantity: RigQuantity) -> f64 {
         self.newest[quantity as usize]
     }
@@ -189,8 +189,10 @@ impl Windows {
             let reading = self.factors[index] * computed[index] + error.tare;
             let watch = self.watches[index].get_or_insert(Watch::new(errors.mean));
             watch.push(compared.step, compared.measured[index], reading);
-            if let Some(of) = watch.residual(&error.expected, error.longest_age, 0.0) {
-                self.newest[index] = of.predicted;
+            if compared.measured[index].is_finite() && reading.is_finite() {
+                let newest = &mut self.newest[index];
+                let toward = (reading - *newest) / WINDOW;
+                *newest = if newest.is_finite() { *newest + toward } else { reading };
             }
             let residual = (compared.measured[index] - reading) / scale;
             if residual.is_finite() {

@@ -4,62 +4,36 @@
 //! The range of all tools must not follow what is measured. Where members are replaced by others that fit, the outermost of
 //! those that were drawn first run on: they show what all of them would do at another speed and weight, too.
 
+use std::sync::Arc;
+
 use super::engine::Ensemble;
 use super::place::Place;
+use crate::residuals::{Friction, Judgement};
 use flexdrill_calibration::plausible::{Compared, Readings};
 use flexdrill_calibration::residual::{Residual, RigQuantity};
 use flexdrill_config::Config;
 use flexdrill_ensemble::{Band, LEAST_MEMBERS};
 use flexdrill_uncertainty::Priors;
 
-/// What members say of the rig at the end of a second.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Judgement {
-    /// The rig against all tools and those that fit; `None` where too few tools run to speak of.
-    pub compared: Option<Compared>,
-    /// The friction that they have by their weights; `None` where too few of them have weight.
-    pub friction: Option<Friction>,
-}
-
-/// Friction of both layers over that of the configuration, as `calibration.friction_factor` has it: for a tool whose layers
-/// differ, the mean of both.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Friction {
-    /// Mean of the tools by their weights.
-    pub mean: f64,
-    /// Its quantiles of 5 and 95 %.
-    pub band: [f64; 2],
-    /// The same before anything was measured. Both ends are equal where friction is not drawn.
-    pub prior: [f64; 2],
-}
-
-impl Friction {
-    /// What is known before anything is measured: each distribution of a friction at its own quantiles, which bound what their
-    /// mean can be.
-    pub(super) fn of(config: &Config, priors: &Priors) -> Self {
-        let is_friction = |name: &str| {
-            let of_layer = name.starts_with("contact.") && name.contains(".friction_");
-            of_layer || name == "calibration.friction_factor"
-        };
-        let configured = config.calibration.friction_factor;
-        let at = |p: f64| {
-            let draws: Vec<f64> = (priors.entries().iter())
-                .map(|entry| {
-                    let has_friction = entry.keys().iter().any(|key| is_friction(&key.name));
-                    entry.draw(if has_friction { p } else { 0.5 })
-                })
-                .collect();
-            // Medians that exclude each other leave the configured value, which nothing moves away from.
-            let drawn = priors.config(&draws).ok();
-            drawn.map_or(configured, |drawn| factor(config, &drawn))
-        };
-        let [low, mean, high] = [0.05, 0.5, 0.95].map(at);
-        Self {
-            mean,
-            band: [low, high],
-            prior: [low, high],
-        }
-    }
+/// The quantiles of 5 and 95 % of friction before anything is measured, as [`Friction::prior`]: each distribution of a friction
+/// at its own quantiles, which bound what their mean can be.
+pub(super) fn prior_of_friction(config: &Config, priors: &Priors) -> [f64; 2] {
+    let is_friction = |name: &str| {
+        let of_layer = name.starts_with("contact.") && name.contains(".friction_");
+        of_layer || name == "calibration.friction_factor"
+    };
+    let at = |p: f64| {
+        let draws: Vec<f64> = (priors.entries().iter())
+            .map(|entry| {
+                let has_friction = entry.keys().iter().any(|key| is_friction(&key.name));
+                entry.draw(if has_friction { p } else { 0.5 })
+            })
+            .collect();
+        // Medians that exclude each other leave the configured value, which nothing moves away from.
+        let drawn = priors.config(&draws).ok();
+        drawn.map_or(config.calibration.friction_factor, |drawn| factor(config, &drawn))
+    };
+    [0.05, 0.95].map(at)
 }
 
 /// The factor on the friction of a configuration that gives a drawn one that of its layers, as a mean.
@@ -81,6 +55,13 @@ fn factor(config: &Config, drawn: &Config) -> f64 {
 }
 
 impl Ensemble {
+    /// A configuration without the friction that follows the members: it must not move them.
+    pub(super) fn unfollowed(&self, config: Arc<Config>) -> Arc<Config> {
+        let begun = ("calibration.friction_factor", self.config.calibration.friction_factor);
+        let held = (config.calibration.follow).then(|| config.with_live_values("the plausible tools", [begun]).ok());
+        held.flatten().map_or(config, Arc::new)
+    }
+
     /// What the members say of the rig now.
     pub(super) fn judgement(&self) -> Judgement {
         let shares = self.weights();
@@ -134,7 +115,7 @@ impl Ensemble {
         Some(Friction {
             mean: factors.iter().map(|(share, factor)| share * factor).sum::<f64>() / sum,
             band: [band[0], band[2]],
-            prior: self.friction.prior,
+            prior: self.prior_friction,
         })
     }
 

@@ -22,7 +22,6 @@ mod tests;
 
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
-pub use judgement::{Friction, Judgement};
 pub use place::Threads;
 pub use posterior::named_by;
 pub use running::{Pace, Running};

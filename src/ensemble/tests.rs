@@ -3,6 +3,8 @@ use std::sync::{Arc, LazyLock};
 
 use super::*;
 use crate::messages::Bands;
+use crate::residuals::Judgement;
+use flexdrill_calibration::plausible::Tools;
 use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
@@ -69,17 +71,18 @@ fn generation(members: u32) -> Generation {
 }
 
 /// All slices that are due.
-fn found(ensemble: &mut Ensemble, count: usize) -> Vec<Bands> {
+fn seconds(ensemble: &mut Ensemble, count: usize) -> Vec<Found> {
     let threads = Threads { count, idle: false };
     let mut all = Vec::new();
     while ensemble.is_due() {
-        all.extend(
-            ensemble
-                .slice(threads, &AtomicBool::new(false))
-                .map(|found| found.bands),
-        );
+        all.extend(ensemble.slice(threads, &AtomicBool::new(false)));
     }
     all
+}
+
+/// The bands of all slices that are due.
+fn found(ensemble: &mut Ensemble, count: usize) -> Vec<Bands> {
+    seconds(ensemble, count).into_iter().map(|found| found.bands).collect()
 }
 
 /// p5, p50 and p95 of a figure.
@@ -281,7 +284,7 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
     let seconds = 140;
     let measured = run(&rig, &plan, seconds);
     let mut random = fastrand::Rng::with_seed(4);
-    let mut all = Vec::new();
+    let (mut all, mut judged) = (Vec::new(), Vec::new());
     let mut ensemble = ensemble(config);
     ensemble.hear(told(config, plan[0]));
     ensemble.hear(Told::Reached(1));
@@ -299,13 +302,17 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
         compared.measured[RigQuantity::SurfaceTorque as usize] = values[RigQuantity::SurfaceTorque as usize] + noise;
         ensemble.hear(Told::Compared(ticks, compared));
         ensemble.hear(Told::Reached(ticks));
-        all.extend(found(&mut ensemble, 2));
+        for found in seconds(&mut ensemble, 2) {
+            all.push(found.bands);
+            judged.push(found.judgement);
+        }
     }
     let known = OverTools::known();
     let torque = known
         .iter()
         .position(|known| known.name == "transfer/pipe_guide_friction_torque")
         .unwrap();
+    judged_by_all_and_by_those_that_fit(&judged);
     let (prior, last) = (&all[15], all.last().unwrap());
     let (before, after) = (
         band(prior, "transfer/pipe_guide_friction_torque"),
@@ -322,6 +329,41 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
     // middle by 0.57 of the way. Twelve members scatter about that.
     assert!(after[2] - after[0] < 0.85 * (before[2] - before[0]), "{said}");
     assert!(before[1] - after[1] > 0.3 * (before[1] - truth), "{said}");
+}
+
+/// What the members of that run say of the rig: its torque is within what all of them do in every second, and its friction,
+/// 0.25 of 0.4, within the band that they have by their weights. Members that fit replace the others after two minutes; the
+/// range of all remains, since what was measured must not narrow it.
+fn judged_by_all_and_by_those_that_fit(judged: &[Judgement]) {
+    let torque = RigQuantity::SurfaceTorque as usize;
+    let readings = |second: usize| judged[second].compared.as_ref().unwrap().readings[torque];
+    let range = |second: usize| {
+        let [low, high] = readings(second).unwrap().all.unwrap();
+        high - low
+    };
+    // Steady from the tenth second on; a mean over 20 s is filled to 0.6 after 18 more.
+    assert_eq!((readings(20), readings(35).is_some()), (None, true));
+    for (second, judgement) in judged.iter().enumerate().skip(35) {
+        let compared = judgement.compared.as_ref().unwrap();
+        let outside = compared.disagreement().filter(|found| found.tools == Tools::All);
+        assert_eq!(outside, None, "{second}");
+    }
+    // Of twelve members between 0.2 and 0.6, and at the same motion: the outermost two stay, whose means ripple by a percent.
+    let [before, after] = [110, 139].map(range);
+    assert!(
+        (after / before - 1.0).abs() < 0.1,
+        "{before} N m before members were replaced, {after} N m after"
+    );
+    assert!(judged[139].compared.as_ref().unwrap().tools > 12, "none was kept");
+    // 90 % of a uniform distribution from 0.2 to 0.6 over 0.4.
+    let known = judged.iter().rev().find_map(|judgement| judgement.friction).unwrap();
+    assert!(
+        (known.prior[0] - 0.55).abs() < 1e-9 && (known.prior[1] - 1.45).abs() < 1e-9,
+        "{known:?}"
+    );
+    assert!((known.band[0]..=known.band[1]).contains(&0.625), "{known:?}");
+    // The prior's mean is 1: the weights move it towards the truth, as they move the bands.
+    assert!(known.mean < 0.9, "{known:?}");
 }
 
 /// Sensors that lie: a torque of no plausible tool, one at the limit of its gauge, and one whose sign is swapped. The

@@ -5,7 +5,7 @@ use flexdrill_calibration::follow::{Follow, FollowSettings, Frozen, Instant};
 use flexdrill_calibration::following::{Estimated, Following, FollowingSettings, Held, Moved};
 use flexdrill_config::{Config, FOLLOWED};
 
-use crate::ensemble::Friction;
+use super::tools::Friction;
 use crate::messages;
 use flexdrill_outputs::ParameterChange;
 
@@ -357,6 +357,82 @@ mod tests {
         // A client without following sets what it says.
         let set = config(&[]).with_live_values("a client", [(FOLLOWED[0], 0.7)]).unwrap();
         assert_eq!(set.live().inner_friction[0], 0.7 * was[0]);
+    }
+
+    /// Plausible tools that come to a friction by their weights, with this band, of a prior from 0.75 to 1.25.
+    fn friction(mean: f64, half: f64) -> Friction {
+        Friction {
+            mean,
+            band: [mean - half, mean + half],
+            prior: [0.75, 1.25],
+        }
+    }
+
+    #[test]
+    fn the_value_in_force_follows_plausible_tools_within_what_was_possible_and_no_faster() {
+        let config = config(&[("calibration.follow", true.into())]);
+        for (mean, end) in [(1.1, 1.1), (0.9, 0.9), (1.6, 1.25), (0.5, 0.75)] {
+            let mut estimate = Estimate::new(&config);
+            let mut now = config.clone();
+            let mut stopped = Vec::new();
+            for second in 0..1200 {
+                // The torque is that of twice the friction: it is the tools that are followed, and nothing else.
+                let sample = instant(second, estimate.motion_factor(), 2.0);
+                let pushed = estimate.push_by_tools(&sample, Some(friction(mean, 0.1)), messages::Residuals::default());
+                stopped.extend(pushed.stopped);
+                let Some([from, to]) = pushed.moved else { continue };
+                // 0.02 per minute.
+                assert!(
+                    (to[0] - from[0]).abs() <= 0.02 / 60.0 + 1e-12 && to[1] == from[1],
+                    "{from:?} {to:?}"
+                );
+                let changes = changes(from, to);
+                let values = changes.iter().map(|change| (&change.name, change.value));
+                now = now.with_live_values("following", values).unwrap();
+                estimate.reconfigure(&now);
+            }
+            assert!((followed(&now)[0] - end).abs() < 1e-9, "{mean}: {:?}", followed(&now));
+            assert_eq!(followed(&now)[1], followed(&config)[1]);
+            assert_eq!(stopped.len(), usize::from(mean != end), "{mean}: {stopped:?}");
+        }
+    }
+
+    #[test]
+    fn plausible_tools_that_know_little_or_nothing_are_not_followed_and_the_message_says_why() {
+        let config = config(&[("calibration.follow", true.into())]);
+        let mut estimate = Estimate::new(&config);
+        let same = Friction {
+            prior: [1.0; 2],
+            ..friction(1.0, 0.0)
+        };
+        for (known, words) in [
+            (None, TOO_FEW),
+            (Some(same), NOT_DRAWN),
+            (
+                Some(friction(1.2, 0.3)),
+                "the friction factor is known to +-0.30 only, +-0.15 is required",
+            ),
+        ] {
+            let sample = instant(0, 1.0, 1.0);
+            let Pushed { message, moved, .. } = estimate.push_by_tools(&sample, known, messages::Residuals::default());
+            assert_eq!(moved, None);
+            assert!(message.following_held.starts_with(words), "{}", message.following_held);
+            assert_eq!(message.friction_factor.is_finite(), known.is_some());
+        }
+        let unsteady = Instant {
+            steady: false,
+            ..instant(0, 1.0, 1.0)
+        };
+        let known = Some(friction(1.2, 0.1));
+        let Pushed { message, moved, .. } = estimate.push_by_tools(&unsteady, known, messages::Residuals::default());
+        assert_eq!(
+            (moved, message.following_held.as_str()),
+            (None, "the motion is not steady")
+        );
+        assert_eq!(
+            [message.friction_factor_low, message.friction_factor_high],
+            [1.2 - 0.1, 1.2 + 0.1]
+        );
     }
 
     #[test]

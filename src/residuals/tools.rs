@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::ensemble::Judgement;
+use flexdrill_calibration::plausible::Compared;
 
 /// Age of what is judged (s). A replay computes plausible tools up to ten seconds behind its run, a node mostly one or two:
 /// both have the same second at this age.
@@ -13,7 +13,28 @@ const SECOND: f64 = 1.0;
 /// their own by then.
 const PATIENCE: f64 = 60.0;
 
-/// What plausible tools say at an instant.
+/// What plausible tools say of the rig at the end of a second.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Judgement {
+    /// The rig against all tools and those that fit; `None` where too few tools run to speak of.
+    pub compared: Option<Compared>,
+    /// The friction that they have by their weights; `None` where too few of them have weight.
+    pub friction: Option<Friction>,
+}
+
+/// Friction of both layers over that of the configuration, as `calibration.friction_factor` has it: for a tool whose layers
+/// differ, the mean of both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// Mean of the tools by their weights.
+    pub mean: f64,
+    /// Its quantiles of 5 and 95 %.
+    pub band: [f64; 2],
+    /// The same before anything was measured. Both ends are equal where friction is not drawn.
+    pub prior: [f64; 2],
+}
+
+/// What is heard of plausible tools at an instant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Said {
     /// They run and have not come to it. What stands remains.
@@ -78,7 +99,6 @@ impl Tools {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_calibration::plausible::Compared;
     use flexdrill_calibration::residual::RigQuantity;
 
     const STEP: f64 = 0.01;

@@ -7,6 +7,7 @@ use flexdrill::alarms::{AlarmBook, AlarmId, Followed, Judged};
 use flexdrill::messages::std_msgs::Header;
 use flexdrill_alarms::Priority;
 use flexdrill_calibration::monitor::Compared;
+use flexdrill_calibration::plausible::{self, Readings};
 use flexdrill_calibration::residual::{Residual, RigQuantity, causes};
 use flexdrill_config::Config;
 
@@ -88,4 +89,87 @@ fn a_disagreement_must_last_and_outlasts_a_connection_but_not_a_trip() {
     assert!(bench.observe(Some(200.0), 15).is_some());
     assert!(bench.observe(None, 590).is_some());
     assert_eq!(bench.observe(None, 60), None);
+}
+
+/// Plausible tools that show 280 to 350 N m, those that fit 300 to 320 N m.
+fn by_tools(measured: f64) -> plausible::Compared {
+    let mut readings = [None; RigQuantity::COUNT];
+    readings[RigQuantity::SurfaceTorque as usize] = Some(Readings {
+        measured,
+        all: Some([280.0, 350.0]),
+        fitting: Some([300.0, 320.0]),
+        error: 10.0,
+        scatter: 0.0,
+    });
+    plausible::Compared {
+        readings,
+        drilling: true,
+        tools: 14,
+    }
+}
+
+/// The alarm names the value, the range that does not hold it, whether any plausible tool explains it, and causes as one.
+#[test]
+fn what_plausible_tools_do_not_explain_is_an_alarm_that_says_which() {
+    let config = Config::load(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("config/rig.yaml")).unwrap();
+    let mut book = AlarmBook::fresh(Arc::new(config), 0);
+    let mut now = 0;
+    let mut observe = |judged: Judged<'_>, followed: &Followed, seconds: i64| {
+        for _ in 0..seconds {
+            now += SECOND;
+            book.advance(now);
+            book.observe_rig(judged, followed, 1234.0, now);
+        }
+        let list = book.list(Header::default());
+        let alarm = list.alarms.into_iter().find(|alarm| alarm.id == "rig_disagrees");
+        (book.active(AlarmId::RigDisagrees), alarm)
+    };
+    // Friction that followed the tools within what they hold for possible is no alarm, however far.
+    let followed = Followed {
+        factors: [1.4, 1.0],
+        at_limit: false,
+        by_tools: true,
+    };
+    // The limit is 1.5 times 1.645 x 10 N m beyond a range.
+    assert_eq!(observe(Judged::Tools(Some(&by_tools(344.0))), &followed, 60).0, None);
+    let (priority, alarm) = observe(Judged::Tools(Some(&by_tools(346.0))), &followed, 15);
+    assert_eq!(priority, Some(Priority::Low));
+    let alarm = alarm.unwrap();
+    assert!(
+        alarm.evidence.contains(
+            "Surface torque while drilling at a bit depth of 1234 m: 346 N m measured; the plausible tools that fit what was \
+             measured before show 300 to 320 N m, all 14 of them 280 to 350 N m."
+        ),
+        "{alarm:?}"
+    );
+    // Outside of all: by 52 N m, of which 49 is much.
+    let outside = by_tools(402.0);
+    let (priority, alarm) = observe(Judged::Tools(Some(&outside)), &followed, 15);
+    assert_eq!(priority, Some(Priority::Medium));
+    let alarm = alarm.unwrap();
+    assert!(
+        alarm
+            .evidence
+            .contains("402 N m measured; all 14 plausible tools show 280 to 350 N m."),
+        "{alarm:?}"
+    );
+    for words in [
+        "friction has risen",
+        "torque is measured wrongly",
+        "does not tell these apart",
+    ] {
+        assert!(alarm.cause.contains(words), "{words}: {}", alarm.cause);
+    }
+    // While they have not come to an instant that can be judged, what stands remains.
+    assert_eq!(observe(Judged::Tools(None), &followed, 300).0, Some(Priority::Medium));
+    assert_eq!(observe(Judged::Tools(Some(&by_tools(310.0))), &followed, 35).0, None);
+    // Friction at the end of what was possible is one.
+    let stopped = Followed {
+        at_limit: true,
+        ..followed
+    };
+    assert_eq!(
+        observe(Judged::Tools(Some(&by_tools(310.0))), &stopped, 15).0,
+        Some(Priority::Low)
+    );
 }

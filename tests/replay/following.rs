@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use flexdrill::messages::{Alarm, AlarmEvent, AppliedInputs, Message, Residuals, SessionInfo, Transfer};
+use flexdrill::messages::{Alarm, AlarmEvent, AppliedInputs, Bands, Message, Residuals, SessionInfo, Transfer};
 use flexdrill_config::Config;
 
 /// Friction of the rig over that of the twin.
@@ -292,4 +292,68 @@ fn a_limit_stops_it_and_bad_input_freezes_it() {
         .clone()
         .all(|pair| pair[0].applied_friction_factor == pair[1].applied_friction_factor);
     assert!(missing.count() >= 3 && still, "{all:?}");
+}
+
+/// A torque sensor that shows half more than the truth, which none of eight plausible tools does whose friction is within a
+/// quarter of the configured one and takes a third of the torque. The alarm comes and stands to the end, although friction follows: it follows the tools, which do not believe the sensor.
+#[test]
+fn a_fault_that_no_plausible_tool_has_is_an_alarm_and_is_not_followed_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let path = |name: &str| folder.join(name);
+    let torque = rig(folder);
+    let faulty = |second: u32| 1.5 * torque(second);
+    let seconds = SECONDS + 20;
+    let rig_log = log(folder, "log", seconds, Some(&faulty));
+    let plain = config(folder, "plain.yaml", &[("calibration.follow", true.into())]);
+    let text = std::fs::read_to_string(&plain).unwrap()
+        + "
+uncertainty:
+  keys:
+    - key: contact.inner.friction_tangential
+      also: [contact.inner.friction_axial]
+      distribution: {uniform: {low: 0.3, high: 0.5}}
+      source: a test
+ensemble: {members: 8}
+";
+    std::fs::write(&plain, text).unwrap();
+    let said = replay(&rig_log, &path("on"), Some(&plain), &[]);
+    let bands: Vec<Bands> = messages(&path("on"), "twin/bands");
+    assert!(
+        bands.len() > 90 && bands.iter().all(|bands| bands.members == 8),
+        "{said}"
+    );
+
+    let events: Vec<AlarmEvent> = messages(&path("on"), "twin/alarm_events");
+    let of_rig: Vec<&AlarmEvent> = events
+        .iter()
+        .filter(|event| event.id == "rig_disagrees" && event.change != AlarmEvent::ADJUSTED)
+        .collect();
+    let first = of_rig.first().unwrap();
+    let ended = of_rig.iter().any(|event| event.change == AlarmEvent::RETURNED);
+    assert!(!ended, "{of_rig:?}");
+    let begun = bands[0].begun.to_nanoseconds();
+    let after = (first.header.stamp.to_nanoseconds() - begun) as f64 * 1e-9 - f64::from(DRILLS);
+    // The motion is steady after 15 s and the mean filled after 20 more; plausible tools are judged 11 s late, and the alarm
+    // waits for 10 s. The weight takes some seconds to come.
+    assert!((0.0..70.0).contains(&after), "{after} s after it drills");
+    assert!(
+        first.evidence.contains("all 8 plausible tools show"),
+        "{}",
+        first.evidence
+    );
+
+    let all: Vec<Residuals> = messages(&path("on"), "twin/residuals");
+    for message in &all {
+        assert!(message.following, "{message:?}");
+        // 90 % of 0.3 to 0.5 of the inner layer over 0.4, and the outer layer as configured: 1 -+ 0.1125 in the mean.
+        assert!((message.applied_friction_factor - 1.0).abs() < 0.1126, "{message:?}");
+        assert_eq!(message.applied_torque_tare, 0.0);
+    }
+    // A replay of the recording repeats it to the bit.
+    replay(&path("on"), &path("again"), None, &[]);
+    let (first, second) = (bytes(&path("on"), &[]), bytes(&path("again"), &[]));
+    for (topic, recorded) in &first {
+        assert!(Some(recorded) == second.get(topic), "{topic} differs");
+    }
 }

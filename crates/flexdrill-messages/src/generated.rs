@@ -1556,7 +1556,8 @@ pub mod flexdrill {
         /// Measured depth of the bit, from the rig's own zero (m); NaN where the rig does not give it.
         pub bit_depth: f64,
         /// Running estimate, from the surface torque in steady motion, of calibration.friction_factor: the friction in both layers
-        /// over that of contact.inner and contact.outer, with its 90 % band.
+        /// over that of contact.inner and contact.outer, with its 90 % band. Where plausible tools run
+        /// with the twin, it is theirs by their weights; NaN where they say nothing.
         pub friction_factor: f64,
         pub friction_factor_low: f64,
         pub friction_factor_high: f64,

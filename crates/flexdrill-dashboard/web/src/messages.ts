@@ -1275,7 +1275,8 @@ export interface Residuals {
   bit_depth: number;
   /**
    * Running estimate, from the surface torque in steady motion, of calibration.friction_factor: the friction in both layers
-   * over that of contact.inner and contact.outer, with its 90 % band.
+   * over that of contact.inner and contact.outer, with its 90 % band. Where plausible tools run
+   * with the twin, it is theirs by their weights; NaN where they say nothing.
    */
   friction_factor: number;
   friction_factor_low: number;
