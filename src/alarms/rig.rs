@@ -214,13 +214,13 @@ fn state(drilling: bool, bit_depth: f64) -> String {
     format!("{state}{depth}")
 }
 
-/// The likely causes in a sentence: what is measured does not tell those apart that are left, so that they are one.
+/// The likely causes in a sentence. What is measured has separated those that it can: several are named as one.
 fn in_one(causes: &[Cause]) -> String {
     // The causes come in the order of likelihood, and the driller acts on the first.
     let causes: Vec<&str> = causes.iter().take(NAMED).map(|cause| in_words(*cause)).collect();
     let apart = match causes.len() {
         0 | 1 => "",
-        _ => "; what is measured does not tell these apart",
+        _ => "; what is measured cannot separate these",
     };
     format!("Likely {}{apart}.", causes.join(", or "))
 }

@@ -104,8 +104,8 @@ pub(super) struct Choice {
 pub struct Ensemble {
     /// The configuration in force, but for the friction that `calibration.follow` moves.
     pub(super) config: Arc<Config>,
-    /// The newest one that was told.
-    told: Arc<Config>,
+    /// The newest one that was heard of.
+    heard: Arc<Config>,
     /// What a calibration has found, where members are drawn from it.
     posterior: Option<Arc<Posterior>>,
     priors: Priors,
@@ -152,7 +152,7 @@ impl Ensemble {
             priors,
             posterior: posterior.filter(|_| stated.posterior().is_some()),
             config: Arc::clone(config),
-            told: Arc::clone(config),
+            heard: Arc::clone(config),
             seed: stated.seed,
             acts: None,
             generation: Generation {
@@ -312,8 +312,8 @@ impl Ensemble {
     fn take_applied(&mut self, to: u64) -> Vec<(u64, RunInputs)> {
         let mut applied = Vec::new();
         while let Some((ticks, inputs, config)) = self.applied.pop_front_if(|(ticks, ..)| *ticks < to) {
-            if !Arc::ptr_eq(&config, &self.told) {
-                self.told = Arc::clone(&config);
+            if !Arc::ptr_eq(&config, &self.heard) {
+                self.heard = Arc::clone(&config);
                 self.reconfigure(config);
             }
             self.acts = Some(RunInputs { reset: false, ..inputs });

@@ -72,7 +72,7 @@ impl Ensemble {
         let compared = Compared {
             readings: RigQuantity::ALL.map(|quantity| self.readings(quantity, &shares)),
             drilling: self.newest.is_some_and(|newest| newest.drilling),
-            tools: (running + self.outermost.len()) as u32,
+            tools: self.generation.members,
         };
         Judgement {
             compared: Some(compared),

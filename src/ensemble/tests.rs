@@ -71,7 +71,7 @@ fn generation(members: u32) -> Generation {
 }
 
 /// All slices that are due.
-fn seconds(ensemble: &mut Ensemble, count: usize) -> Vec<Found> {
+fn found_seconds(ensemble: &mut Ensemble, count: usize) -> Vec<Found> {
     let threads = Threads { count, idle: false };
     let mut all = Vec::new();
     while ensemble.is_due() {
@@ -82,7 +82,10 @@ fn seconds(ensemble: &mut Ensemble, count: usize) -> Vec<Found> {
 
 /// The bands of all slices that are due.
 fn found(ensemble: &mut Ensemble, count: usize) -> Vec<Bands> {
-    seconds(ensemble, count).into_iter().map(|found| found.bands).collect()
+    found_seconds(ensemble, count)
+        .into_iter()
+        .map(|found| found.bands)
+        .collect()
 }
 
 /// p5, p50 and p95 of a figure.
@@ -302,7 +305,7 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
         compared.measured[RigQuantity::SurfaceTorque as usize] = values[RigQuantity::SurfaceTorque as usize] + noise;
         ensemble.hear(Told::Compared(ticks, compared));
         ensemble.hear(Told::Reached(ticks));
-        for found in seconds(&mut ensemble, 2) {
+        for found in found_seconds(&mut ensemble, 2) {
             all.push(found.bands);
             judged.push(found.judgement);
         }
@@ -313,6 +316,7 @@ fn what_the_rig_measures_narrows_the_bands_about_it() {
         .position(|known| known.name == "transfer/pipe_guide_friction_torque")
         .unwrap();
     judged_by_all_and_by_those_that_fit(&judged);
+    assert!(!ensemble.outermost.is_empty(), "none of the first runs on");
     let (prior, last) = (&all[15], all.last().unwrap());
     let (before, after) = (
         band(prior, "transfer/pipe_guide_friction_torque"),
@@ -354,7 +358,6 @@ fn judged_by_all_and_by_those_that_fit(judged: &[Judgement]) {
         (after / before - 1.0).abs() < 0.1,
         "{before} N m before members were replaced, {after} N m after"
     );
-    assert!(judged[139].compared.as_ref().unwrap().tools > 12, "none was kept");
     // 90 % of a uniform distribution from 0.2 to 0.6 over 0.4.
     let known = judged.iter().rev().find_map(|judgement| judgement.friction).unwrap();
     assert!(
@@ -362,8 +365,10 @@ fn judged_by_all_and_by_those_that_fit(judged: &[Judgement]) {
         "{known:?}"
     );
     assert!((known.band[0]..=known.band[1]).contains(&0.625), "{known:?}");
-    // The prior's mean is 1: the weights move it towards the truth, as they move the bands.
-    assert!(known.mean < 0.9, "{known:?}");
+    // The same members as at the beginning or others near those that fit: weights alone move the mean towards the truth, by
+    // more than rounding does.
+    let first = judged[0].friction.unwrap();
+    assert!(known.mean < first.mean - 0.02, "{first:?}, {known:?}");
 }
 
 /// Sensors that lie: a torque of no plausible tool, one at the limit of its gauge, and one whose sign is swapped. The

@@ -13,6 +13,9 @@ const SECOND: f64 = 1.0;
 /// their own by then.
 const PATIENCE: f64 = 60.0;
 
+/// Seconds that are kept at most, while nothing is judged.
+const MOST: usize = 64;
+
 /// What plausible tools say of the rig at the end of a second.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Judgement {
@@ -66,6 +69,9 @@ impl Tools {
 
     /// Takes what they say of the second that ends at these ticks.
     pub(super) fn hear(&mut self, ticks: u64, judgement: Judgement) {
+        if self.seconds.len() >= MOST {
+            self.seconds.pop_front();
+        }
         self.seconds.push_back((ticks, judgement));
     }
 

@@ -156,7 +156,7 @@ fn what_plausible_tools_do_not_explain_is_an_alarm_that_says_which() {
     for words in [
         "friction has risen",
         "torque is measured wrongly",
-        "does not tell these apart",
+        "cannot separate these",
     ] {
         assert!(alarm.cause.contains(words), "{words}: {}", alarm.cause);
     }

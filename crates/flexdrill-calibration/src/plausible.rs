@@ -83,7 +83,7 @@ pub struct Compared {
     pub readings: [Option<Readings>; RigQuantity::COUNT],
     /// Whether the bit drills.
     pub drilling: bool,
-    /// How many tools were computed.
+    /// How many tools were drawn before anything was measured.
     pub tools: u32,
 }
 
