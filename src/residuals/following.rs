@@ -13,9 +13,14 @@ use flexdrill_outputs::ParameterChange;
 pub const FOLLOW: &str = "calibration.follow";
 
 /// Why nothing follows plausible tools.
-const TOO_FEW: &str =
-    "the plausible tools say nothing of friction: too few of them run or have weight, or they are late";
+const TOO_FEW: &str = "the plausible tools say nothing of friction: too few of them run or have weight";
+/// The same, and why nothing was estimated. A replay finds it in a recording, and leaves out what the run did not have.
+pub(super) const LATE: &str = "the plausible tools have not come to the second that is due";
 const NOT_DRAWN: &str = "the plausible tools all have the same friction, since it is not in the section uncertainty";
+
+/// Plausible tools that have not come to the second that is due.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Late;
 
 /// Values of the parameters that follow, in the order of [`FOLLOWED`] as every array here.
 pub fn followed(config: &Config) -> [f64; 2] {
@@ -119,19 +124,25 @@ impl Estimate {
     }
 
     /// The same where plausible tools run with the twin: they are the estimate, by what the rig measures weighs of them, and
-    /// there is no other one. `friction` is what they say; `None` where they say nothing.
+    /// there is no other one. `known` is what they say; `None` where they say nothing of friction.
     pub(super) fn push_by_tools(
         &mut self,
         instant: &Instant,
-        friction: Option<Friction>,
+        known: Result<Option<Friction>, Late>,
         message: messages::Residuals,
     ) -> Pushed {
         let frozen = instant.unusable();
         let [_, tare] = self.applied;
         let of_tare = [-1.0, 1.0].map(|side| self.configured[1] + side * self.tare_range);
-        let Some(Friction { mean, band, prior }) = friction else {
-            let unknown = [[f64::NAN, tare], [f64::NAN; 2], of_tare];
-            return self.pushed(None, unknown, frozen, Some(TOO_FEW), message);
+        let unknown = [[f64::NAN, tare], [f64::NAN; 2], of_tare];
+        let Friction { mean, band, prior } = match known {
+            Ok(Some(friction)) => friction,
+            Ok(None) => return self.pushed(None, unknown, frozen, Some(TOO_FEW), message),
+            Err(Late) => {
+                let mut pushed = self.pushed(None, unknown, frozen, Some(LATE), message);
+                LATE.clone_into(&mut pushed.message.estimate_frozen);
+                return pushed;
+            }
         };
         let known = [[mean, tare], band, of_tare];
         if prior[0] >= prior[1] {
@@ -378,7 +389,8 @@ mod tests {
             for second in 0..1200 {
                 // The torque is that of twice the friction: it is the tools that are followed, and nothing else.
                 let sample = instant(second, estimate.motion_factor(), 2.0);
-                let pushed = estimate.push_by_tools(&sample, Some(friction(mean, 0.1)), messages::Residuals::default());
+                let pushed =
+                    estimate.push_by_tools(&sample, Ok(Some(friction(mean, 0.1))), messages::Residuals::default());
                 stopped.extend(pushed.stopped);
                 let Some([from, to]) = pushed.moved else { continue };
                 // 0.02 per minute.
@@ -406,10 +418,11 @@ mod tests {
             ..friction(1.0, 0.0)
         };
         for (known, words) in [
-            (None, TOO_FEW),
-            (Some(same), NOT_DRAWN),
+            (Err(Late), LATE),
+            (Ok(None), TOO_FEW),
+            (Ok(Some(same)), NOT_DRAWN),
             (
-                Some(friction(1.2, 0.3)),
+                Ok(Some(friction(1.2, 0.3))),
                 "the friction factor is known to +-0.30 only, +-0.15 is required",
             ),
         ] {
@@ -417,14 +430,16 @@ mod tests {
             let Pushed { message, moved, .. } = estimate.push_by_tools(&sample, known, messages::Residuals::default());
             assert_eq!(moved, None);
             assert!(message.following_held.starts_with(words), "{}", message.following_held);
-            assert_eq!(message.friction_factor.is_finite(), known.is_some());
+            assert_eq!(message.friction_factor.is_finite(), matches!(known, Ok(Some(_))));
+            assert_eq!(message.estimate_frozen == LATE, known.is_err());
         }
         let unsteady = Instant {
             steady: false,
             ..instant(0, 1.0, 1.0)
         };
         let known = Some(friction(1.2, 0.1));
-        let Pushed { message, moved, .. } = estimate.push_by_tools(&unsteady, known, messages::Residuals::default());
+        let Pushed { message, moved, .. } =
+            estimate.push_by_tools(&unsteady, Ok(known), messages::Residuals::default());
         assert_eq!(
             (moved, message.following_held.as_str()),
             (None, "the motion is not steady")

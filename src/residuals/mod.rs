@@ -72,6 +72,8 @@ pub struct Samples {
     pub values: [f64; RigQuantity::COUNT],
     /// Measured depth of the bit (m), the newest that is known.
     pub bit_depth: f64,
+    /// A recorded run had plausible tools, which came too late for this comparison.
+    pub tools_late: bool,
 }
 
 impl Samples {
@@ -87,6 +89,7 @@ impl Samples {
         Self {
             values,
             bit_depth: message.bit_depth,
+            tools_late: message.estimate_frozen == following::LATE,
         }
     }
 }
@@ -218,6 +221,7 @@ impl RigComparison {
         Samples {
             values,
             bit_depth: depth.map_or(f64::NAN, |depth| depth.value),
+            tools_late: false,
         }
     }
 
@@ -254,16 +258,17 @@ impl RigComparison {
             good,
             steady: compared.steady,
         };
-        let said = self.tools.as_mut().map(|tools| tools.at(frame.ticks));
+        let late = samples.tools_late;
+        let said = self.tools.as_mut().map(|tools| tools.at(frame.ticks, late));
         let message = message(header, &compared, samples);
         let pushed = match &said {
             None => self.estimate.push(&instant, message),
             Some(said) => {
-                let friction = match said {
-                    Said::Judgement(judgement) => judgement.friction,
-                    Said::Later | Said::Nothing => None,
+                let known = match said {
+                    Said::Judgement(judgement) => Ok(judgement.friction),
+                    Said::Later | Said::Nothing => Err(following::Late),
                 };
-                self.estimate.push_by_tools(&instant, friction, message)
+                self.estimate.push_by_tools(&instant, known, message)
             }
         };
         Some(Comparison {
@@ -272,7 +277,8 @@ impl RigComparison {
             tools: match said {
                 None | Some(Said::Nothing) => None,
                 Some(Said::Later) => Some(None),
-                Some(Said::Judgement(judgement)) => Some(judgement.compared),
+                // Too few tools run to speak of what none of them does.
+                Some(Said::Judgement(judgement)) => judgement.compared.map(Some),
             },
             message: pushed.message,
             moved: pushed.moved,

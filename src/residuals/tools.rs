@@ -42,7 +42,7 @@ pub struct Friction {
 pub(super) enum Said {
     /// They run and have not come to it. What stands remains.
     Later,
-    /// Too few of them run, or they are too late: the twin is judged alone.
+    /// They have not come to it for long: the twin is judged alone.
     Nothing,
     /// This.
     Judgement(Judgement),
@@ -75,8 +75,9 @@ impl Tools {
         self.seconds.push_back((ticks, judgement));
     }
 
-    /// What is judged at these ticks: what they said of one second, [`AGE`] ago.
-    pub(super) fn at(&mut self, ticks: u64) -> Said {
+    /// What is judged at these ticks: what they said of one second, [`AGE`] ago. A recorded run that had it too late is
+    /// repeated `without` it.
+    pub(super) fn at(&mut self, ticks: u64, without: bool) -> Said {
         let passed = |since: u64| ticks.saturating_sub(since) as f64 * self.time_step;
         // Ticks are whole, ages are sums of rounded steps.
         let margin = 0.5 * self.time_step;
@@ -86,13 +87,10 @@ impl Tools {
             self.seconds.pop_front();
         }
         let known = self.seconds.front().filter(|(of, _)| passed(*of) > AGE - margin);
-        match known {
+        match known.filter(|_| !without) {
             Some((_, judgement)) => {
                 self.silent = None;
-                match judgement.compared {
-                    Some(_) => Said::Judgement(judgement.clone()),
-                    None => Said::Nothing,
-                }
+                Said::Judgement(judgement.clone())
             }
             None => match passed(*self.silent.get_or_insert(ticks)) {
                 waited if waited > PATIENCE => Said::Nothing,
@@ -131,7 +129,7 @@ mod tests {
                         tools.hear(100 * (second - delay), judgement((second - delay) as u32));
                     }
                     // A comparison need not be at a whole second.
-                    tools.at(100 * second + 37)
+                    tools.at(100 * second + 37, false)
                 })
                 .collect::<Vec<_>>()
         };
@@ -146,15 +144,16 @@ mod tests {
     }
 
     #[test]
-    fn few_tools_leave_the_twin_and_silent_ones_are_waited_for_a_minute() {
+    fn silent_tools_are_waited_for_a_minute_and_a_second_that_came_too_late_is_left_out() {
         let mut tools = Tools::new(STEP);
-        tools.hear(0, Judgement::default());
-        assert_eq!(tools.at(1100), Said::Nothing);
+        tools.hear(0, judgement(8));
+        assert_eq!(tools.at(1100, true), Said::Later);
+        assert_eq!(tools.at(1101, false), Said::Judgement(judgement(8)));
         for second in 12..=72 {
-            assert_eq!(tools.at(100 * second), Said::Later, "{second}");
+            assert_eq!(tools.at(100 * second, false), Said::Later, "{second}");
         }
-        assert_eq!(tools.at(7301), Said::Nothing);
+        assert_eq!(tools.at(7301, false), Said::Nothing);
         tools.hear(7000, judgement(8));
-        assert_eq!(tools.at(8100), Said::Judgement(judgement(8)));
+        assert_eq!(tools.at(8100, false), Said::Judgement(judgement(8)));
     }
 }

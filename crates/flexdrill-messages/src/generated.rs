@@ -1565,8 +1565,8 @@ pub mod flexdrill {
         pub torque_tare: f64,
         pub torque_tare_low: f64,
         pub torque_tare_high: f64,
-        /// Why the newest sample changed neither: an input is not good, the motion is not steady, a value is missing, or the sample
-        /// is far from what is expected. Empty where it changed them.
+        /// Why the newest sample changed neither: an input is not good, the motion is not steady, a value is missing, the sample is
+        /// far from what is expected, or plausible tools have not come to it. Empty where it changed them.
         pub estimate_frozen: std::string::String,
         /// What the residuals that are surely beyond their bands may mean, the likeliest first.
         pub likely_causes: Vec<std::string::String>,

@@ -1286,8 +1286,8 @@ export interface Residuals {
   torque_tare_low: number;
   torque_tare_high: number;
   /**
-   * Why the newest sample changed neither: an input is not good, the motion is not steady, a value is missing, or the sample
-   * is far from what is expected. Empty where it changed them.
+   * Why the newest sample changed neither: an input is not good, the motion is not steady, a value is missing, the sample is
+   * far from what is expected, or plausible tools have not come to it. Empty where it changed them.
    */
   estimate_frozen: string;
   /** What the residuals that are surely beyond their bands may mean, the likeliest first. */
