@@ -45,7 +45,7 @@ pub(super) enum Said {
     /// They have not come to it for long: the twin is judged alone.
     Nothing,
     /// This.
-    Judgement(Judgement),
+    Judgement(Box<Judgement>),
 }
 
 /// Plausible tools that run with the twin.
@@ -90,7 +90,7 @@ impl Tools {
         match known.filter(|_| !without) {
             Some((_, judgement)) => {
                 self.silent = None;
-                Said::Judgement(judgement.clone())
+                Said::Judgement(Box::new(judgement.clone()))
             }
             None => match passed(*self.silent.get_or_insert(ticks)) {
                 waited if waited > PATIENCE => Said::Nothing,
@@ -138,7 +138,11 @@ mod tests {
         for (second, said) in soon.iter().enumerate() {
             match second {
                 0..=10 => assert_eq!(*said, Said::Later),
-                _ => assert_eq!(*said, Said::Judgement(judgement(second as u32 - 11)), "{second}"),
+                _ => assert_eq!(
+                    *said,
+                    Said::Judgement(Box::new(judgement(second as u32 - 11))),
+                    "{second}"
+                ),
             }
         }
     }
@@ -148,12 +152,12 @@ mod tests {
         let mut tools = Tools::new(STEP);
         tools.hear(0, judgement(8));
         assert_eq!(tools.at(1100, true), Said::Later);
-        assert_eq!(tools.at(1101, false), Said::Judgement(judgement(8)));
+        assert_eq!(tools.at(1101, false), Said::Judgement(Box::new(judgement(8))));
         for second in 12..=72 {
             assert_eq!(tools.at(100 * second, false), Said::Later, "{second}");
         }
         assert_eq!(tools.at(7301, false), Said::Nothing);
         tools.hear(7000, judgement(8));
-        assert_eq!(tools.at(8100, false), Said::Judgement(judgement(8)));
+        assert_eq!(tools.at(8100, false), Said::Judgement(Box::new(judgement(8))));
     }
 }
