@@ -27,6 +27,8 @@ pub struct LineHealth {
     pub second_text: String,
     /// Whether two connections send one of the inputs now.
     pub disputed: bool,
+    /// Open connections whose mapping no person has confirmed.
+    pub unconfirmed: u64,
     /// Frames of the twin that were written, and those that a slow connection lost.
     pub written: [u64; 2],
     /// Why the capture ended, if it did.
@@ -46,6 +48,11 @@ impl LineHealth {
                 format!("connected, no usable frame for {age:.0} s"),
             ),
             _ if self.disputed => (DiagnosticStatus::WARN, format!("two sources: {}", self.second_text)),
+            _ if self.unconfirmed > 0 => (
+                DiagnosticStatus::WARN,
+                "frames arrive, marked suspect: no person has confirmed what the mapping makes of them (--confirm)"
+                    .to_owned(),
+            ),
             _ => (DiagnosticStatus::OK, "frames arrive".to_owned()),
         };
         match &self.capture_failed {
@@ -67,6 +74,7 @@ impl LineHealth {
         let mut values = vec![
             ("connections_open", self.open),
             ("connections_made", self.made),
+            ("connections_unconfirmed", self.unconfirmed),
             ("frames", counts.frames),
             ("frames_used", counts.used),
             ("values", counts.values),
@@ -123,6 +131,11 @@ mod tests {
         health.second_text = "connection 2 also sends rotary_speed".to_owned();
         assert_eq!(level(&health), DiagnosticStatus::WARN);
         health.disputed = false;
+        health.unconfirmed = 1;
+        let status = &health.diagnostics("/a", "b", now).status[0];
+        assert_eq!(status.level, DiagnosticStatus::WARN);
+        assert!(status.message.contains("--confirm"), "{}", status.message);
+        health.unconfirmed = 0;
         health.used_at = Some(now - 11_000_000_000);
         assert_eq!(level(&health), DiagnosticStatus::WARN);
         health.open = 0;

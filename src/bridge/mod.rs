@@ -3,6 +3,7 @@
 
 #[cfg(feature = "mqtt")]
 pub mod birth_number;
+pub mod confirmations;
 mod diagnosis;
 #[cfg(feature = "mqtt")]
 pub mod mqtt;

@@ -9,12 +9,14 @@ use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureWriter};
 use flexdrill_bridge::wits::{
-    FrameUse, Line, LineEvent, Look, Mapping, NotUsed, RawFrame, Refused, Sources, TwinFrames, shown,
+    FrameUse, Line, LineEvent, Look, Mapping, NotUsed, RawFrame, Reading, Refused, Sources, TwinFrames, shown,
 };
+use flexdrill_messages::{RigInputs, RigMeasured};
 use flexdrill_text::{counted, log_ending, printable};
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::{MissedTickBehavior, interval};
 
+use super::confirmations::Confirmations;
 use super::diagnosis::LineHealth;
 use super::{BridgeNode, Outgoing};
 
@@ -36,14 +38,22 @@ pub struct WitsBridge {
     /// Which connection serves each quantity.
     sources: Sources,
     health: LineHealth,
+    /// For which sources a person has confirmed the mapping.
+    confirmations: Confirmations,
+    /// Confirm the mapping for each source whose first frame was shown: a person has asked for it.
+    confirms: bool,
     /// Shows the first frame of a connection to people.
     show: fn(&str),
 }
 
 struct Connection {
     line: Line,
+    /// Its other end without the port, which changes: the source of a confirmation.
+    peer: String,
     /// Its other end with the port.
     address: String,
+    /// A person has confirmed what the mapping makes of this source.
+    is_confirmed: bool,
     /// It was silent and was asked, and has not answered yet.
     asked: bool,
     /// Its first frame with an item was shown.
@@ -52,7 +62,8 @@ struct Connection {
 
 impl WitsBridge {
     /// A bridge; `place` names the line. With `capture` the bytes of the line are kept. `show` prints for people what the
-    /// mapping makes of the first frame of a connection.
+    /// mapping makes of the first frame of a connection. Values of a source for which no person has confirmed the mapping
+    /// are marked as suspect; with `confirms` it is confirmed when the frame was shown.
     ///
     /// # Errors
     /// When the capture cannot be created.
@@ -62,6 +73,7 @@ impl WitsBridge {
         place: String,
         mapping: Mapping,
         capture: Option<&Path>,
+        (confirmations, confirms): (Confirmations, bool),
         show: fn(&str),
     ) -> Result<Self, CaptureError> {
         Ok(Self {
@@ -73,12 +85,14 @@ impl WitsBridge {
             connections: BTreeMap::new(),
             sources: Sources::default(),
             health: LineHealth::default(),
+            confirmations,
+            confirms,
             show,
         })
     }
 
-    /// Runs until it is dropped.
-    pub async fn run(&mut self, place: Place, times: Times) {
+    /// Runs until it is dropped. Each message on `confirm` is a person's confirmation of what was shown.
+    pub async fn run(&mut self, place: Place, times: Times, mut confirm: mpsc::Receiver<()>) {
         let (sender, mut events) = mpsc::channel(QUEUE);
         let (outgoing, _) = broadcast::channel(OUTGOING);
         let mut writing = self
@@ -110,9 +124,12 @@ impl WitsBridge {
             tokio::select! {
                 () = &mut line => return,
                 Some(event) = events.recv() => self.on(event, &seats),
+                Some(()) = confirm.recv() => self.confirm_shown(),
                 _ = diagnostics.tick() => {
                     // The dispute ends by time, not by an event, so it is looked up at each tick.
                     self.health.disputed = self.sources.is_disputed(lines::now());
+                    let unconfirmed = self.connections.values().filter(|one| one.is_shown && !one.is_confirmed);
+                    self.health.unconfirmed = unconfirmed.count() as u64;
                     let message = self.health.diagnostics(&self.node_name, &self.place, lines::now());
                     self.node.diagnose(&message);
                 }
@@ -147,9 +164,15 @@ impl WitsBridge {
                     tracing::info!("wits: connection {connection} with {}{more}", printable(&address));
                 }
                 let line = Line::new(&self.mapping, &peer);
+                let is_confirmed = self.confirmations.has(&peer).unwrap_or_else(|error| {
+                    log("confirmation", || error);
+                    false
+                });
                 let opened = Connection {
                     line,
+                    peer,
                     address,
+                    is_confirmed,
                     asked: false,
                     is_shown: false,
                 };
@@ -276,6 +299,9 @@ impl WitsBridge {
         if let Some(refused) = self.sources.sort(connection, arrived, &mut reading) {
             self.refused(connection, &refused);
         }
+        if !self.connections.get(&connection).is_some_and(|from| from.is_confirmed) {
+            mark_as_suspect(&mut reading);
+        }
         if let Some(inputs) = &reading.inputs {
             self.node.publish(Outgoing::Inputs, inputs);
         }
@@ -304,15 +330,53 @@ impl WitsBridge {
             return;
         };
         found.is_shown = true;
+        let note = match (found.is_confirmed, self.confirms) {
+            (true, _) => "a person has confirmed this mapping for this source",
+            (false, true) => "--confirm confirms it",
+            (false, false) => {
+                "its values are marked SUSPECT until a person confirms the mapping: press c and Enter here, or start with --confirm"
+            }
+        };
         // A peer that connects again and again must not fill the terminal.
         if let Some(more) = log_ending("wits first frame") {
             let mut look = Look::new(&self.mapping);
             look.frame(frame);
             (self.show)(&format!(
-                "first frame of connection {connection} ({}); compare it with the rig's display{more}:\n{}",
+                "first frame of connection {connection} ({}); compare it with the rig's display{more}:\n{}  {note}\n",
                 printable(&found.address),
                 look.table()
             ));
+        }
+        if self.confirms {
+            self.confirm_shown();
+        }
+    }
+
+    /// Keeps that a person has confirmed the mapping for the sources whose first frame was shown.
+    fn confirm_shown(&mut self) {
+        let mut sources: Vec<String> = Vec::new();
+        for found in self
+            .connections
+            .values_mut()
+            .filter(|found| found.is_shown && !found.is_confirmed)
+        {
+            found.is_confirmed = true;
+            sources.push(found.peer.clone());
+        }
+        sources.sort();
+        sources.dedup();
+        for source in sources {
+            match self.confirmations.add(&source, lines::now()) {
+                Ok(file) => tracing::info!(
+                    "wits: the mapping is confirmed for {}, kept in {}",
+                    printable(&source),
+                    file.display()
+                ),
+                Err(error) => tracing::warn!(
+                    "wits: the mapping is confirmed for {}, and not kept: {error}",
+                    printable(&source)
+                ),
+            }
         }
     }
 
@@ -360,6 +424,24 @@ impl WitsBridge {
             self.health.capture_failed = Some(error.to_string());
             self.capture = None;
         }
+    }
+}
+
+/// Marks the values of a frame whose mapping no person has confirmed: they drive the twin, and are shown as doubtful.
+fn mark_as_suspect(reading: &mut Reading) {
+    if let Some(inputs) = reading
+        .inputs
+        .as_mut()
+        .filter(|inputs| inputs.quality == RigInputs::GOOD)
+    {
+        inputs.quality = RigInputs::SUSPECT;
+    }
+    if let Some(measured) = reading
+        .measured
+        .as_mut()
+        .filter(|measured| measured.quality == RigMeasured::GOOD)
+    {
+        measured.quality = RigMeasured::SUSPECT;
     }
 }
 

@@ -141,7 +141,11 @@ fn a_second_source_on_a_bridge_is_refused_and_named() {
         command.args(arguments);
         command
     };
-    let mut bridge = Program::start(program(&["bridge", "wits", "--listen", "127.0.0.1:0"]));
+    // A confirmed mapping leaves the dispute as the only doubt.
+    let state = folder.path().join("state");
+    let mut bridge = program(&["bridge", "wits", "--listen", "127.0.0.1:0", "--confirm", "--state-dir"]);
+    bridge.arg(&state);
+    let mut bridge = Program::start(bridge);
     let said = bridge.wait_for("wits at 127.0.0.1:");
     let place = said
         .split_whitespace()
@@ -182,4 +186,79 @@ fn a_second_source_on_a_bridge_is_refused_and_named() {
         texts.any(|text| text.contains("marked suspect by its source")),
         "the twin does not tell the operator"
     );
+}
+
+/// A mapping that no person has compared drives the twin, and is shown as doubtful; the confirmation is of one mapping.
+#[test]
+fn a_mapping_is_suspect_until_a_person_confirms_it_and_again_when_it_is_changed() {
+    let Some(network) = Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [live, state, map] = ["live", "state", "site.yaml"].map(|name| folder.path().join(name));
+    std::fs::write(&map, "title: \"Rig 7\"\n").unwrap();
+    let mut twin = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    twin.args(["run", "--config"])
+        .arg(small_config())
+        .arg("--record")
+        .arg(&live);
+    let mut twin = Program::start(twin);
+    twin.wait_for("model time runs");
+    // A bridge with these options, and a rig that sends this speed for longer than the two need to find each other.
+    let drive = |speed: u32, more: &[&str], words: &str| {
+        let mut bridge = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+        bridge
+            .args(["bridge", "wits", "--listen", "127.0.0.1:0", "--map"])
+            .arg(&map)
+            .arg("--state-dir")
+            .arg(&state);
+        let mut bridge = Program::start({
+            bridge.args(more);
+            bridge
+        });
+        let said = bridge.wait_for("wits at 127.0.0.1:");
+        let place = said
+            .split_whitespace()
+            .find(|word| word.starts_with("127.0.0.1:"))
+            .unwrap();
+        let port = place.rsplit(':').next().unwrap().to_owned();
+        let script = "exec 3<>/dev/tcp/127.0.0.1/$0; for turn in {1..30}; do \
+                      printf '&&\\r\\n0116 0.8\\r\\n0120 %s\\r\\n!!\\r\\n' $1 >&3; sleep 0.1; done";
+        let mut rig = network.command("bash");
+        assert!(
+            rig.args(["-c", script, &port, &speed.to_string()])
+                .status()
+                .unwrap()
+                .success()
+        );
+        bridge.wait_for(words);
+        bridge.signal("TERM");
+        assert_eq!(bridge.end(), Some(0), "{}", bridge.said());
+    };
+    drive(30, &[], "marked SUSPECT until a person confirms");
+    drive(35, &["--confirm"], "--confirm confirms it");
+    drive(40, &[], "a person has confirmed this mapping for this source");
+    std::fs::write(&map, "title: \"Rig 8\"\n").unwrap();
+    drive(45, &[], "marked SUSPECT until a person confirms");
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+
+    let inputs: Vec<RigInputs> = messages(&live, "rig/inputs");
+    for (speed, quality) in [
+        (30.0, RigInputs::SUSPECT),
+        (35.0, RigInputs::GOOD),
+        (40.0, RigInputs::GOOD),
+        (45.0, RigInputs::SUSPECT),
+    ] {
+        // The conversion to SI and back rounds.
+        let of_run = inputs
+            .iter()
+            .filter(|message| (message.rotary_speed_rpm - speed).abs() < 1e-9);
+        let qualities: Vec<u8> = of_run.map(|message| message.quality).collect();
+        assert!(
+            !qualities.is_empty() && qualities.iter().all(|found| *found == quality),
+            "{speed}: {qualities:?}"
+        );
+    }
+    // A doubtful input drives.
+    let applied: Vec<AppliedInputs> = messages(&live, "twin/applied_inputs");
+    assert!(applied.iter().any(|message| message.rotary_speed > 0.0));
 }

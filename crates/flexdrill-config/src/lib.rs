@@ -425,7 +425,7 @@ impl Config {
     /// written-out defaults.
     pub fn hash(&self) -> String {
         // Serializing plain numbers, strings and lists cannot fail; if it did, hashes would coincide.
-        hex_of(&serde_json::to_vec(&self.schema).unwrap_or_default())
+        sha256(&serde_json::to_vec(&self.schema).unwrap_or_default())
     }
 
     fn mesh(&self) -> Mesh {
@@ -434,7 +434,7 @@ impl Config {
 }
 
 /// SHA-256 in hex.
-fn hex_of(bytes: &[u8]) -> String {
+pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

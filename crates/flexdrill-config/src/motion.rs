@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::string::Model;
-use super::{Config, hex_of};
+use super::{Config, sha256};
 
 /// Sections that determine the motion or its levels.
 const SECTIONS: &[&str] = &[
@@ -111,7 +111,7 @@ impl Config {
             motion.insert("friction_factor".to_owned(), Value::from(factor));
         }
         // As for `hash`: plain numbers, strings and lists can be serialised.
-        hex_of(&serde_json::to_vec(&motion).unwrap_or_default())
+        sha256(&serde_json::to_vec(&motion).unwrap_or_default())
     }
 
     /// SHA-256, in hex, over what says which tool in which hole it is, without the keys `fitted` (dotted paths) whose
@@ -156,7 +156,7 @@ impl Config {
         if factor != 1.0 {
             tool.insert("friction_factor".to_owned(), Value::from(factor));
         }
-        hex_of(&serde_json::to_vec(&tool).unwrap_or_default())
+        sha256(&serde_json::to_vec(&tool).unwrap_or_default())
     }
 
     /// Removes the slots' key of a guide whose slots do not close.

@@ -5,16 +5,20 @@ mod mqtt;
 mod opcua;
 mod ros_side;
 
+use std::io::IsTerminal as _;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
+use tokio::sync::mpsc;
 
 use self::ros_side::RosSideArgs;
 use super::{WrongUse, signals};
+use crate::alarms::state_file;
 use crate::bridge::Outgoing;
+use crate::bridge::confirmations::Confirmations;
 use crate::bridge::wits::WitsBridge;
 use crate::cli::output::{say, say_text};
 use flexdrill_bridge::TwinFigures;
@@ -58,6 +62,13 @@ struct WitsArgs {
     /// With --look: the mapping to write, with the items that arrived. A file that exists is left as it is.
     #[arg(long, value_name = "FILE", default_value = "site.yaml", requires = "look")]
     site: PathBuf,
+    /// Confirm what the mapping makes of each source when its first frame is shown. Without it the values are marked SUSPECT
+    /// until a person presses c and Enter. A confirmation is kept for this mapping and this source.
+    #[arg(long, conflicts_with = "look")]
+    confirm: bool,
+    /// Folder for the confirmations; default $XDG_STATE_HOME/flexdrill or ~/.local/state/flexdrill.
+    #[arg(long, value_name = "DIR", conflicts_with = "look")]
+    state_dir: Option<PathBuf>,
     #[command(flatten)]
     ros: RosSideArgs,
 }
@@ -135,18 +146,53 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
             ros.network.domain_id
         );
         let node_name = ros.identity.full_name();
-        let mut bridge = WitsBridge::new(node, node_name, name, mapping, args.capture.as_deref(), |text| {
+        let confirmations = args.confirmations(&mapping)?;
+        let capture = args.capture.as_deref();
+        let confirmed = (confirmations, args.confirm);
+        let mut bridge = WitsBridge::new(node, node_name, name, mapping, capture, confirmed, |text| {
             say_text!("{text}")
         })?;
         let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}
-            () = bridge.run(place, Times::default()) => {}
+            () = bridge.run(place, Times::default(), keys()) => {}
         }
         anyhow::Ok(())
     })?;
     say!("stopped");
     Ok(())
+}
+
+impl WitsArgs {
+    /// The confirmations of the mapping: of the file's bytes, or of the items that are read without one.
+    fn confirmations(&self, mapping: &Mapping) -> anyhow::Result<Confirmations> {
+        let (content, name) = match &self.map {
+            Some(file) => {
+                let content = std::fs::read(file).with_context(|| format!("--map {}", file.display()))?;
+                (content, file.display().to_string())
+            }
+            None => (format!("{:?}", mapping.table()).into_bytes(), "default".to_owned()),
+        };
+        let folder = self.state_dir.clone();
+        let folder = folder.or_else(|| state_file::default_folder(|name| std::env::var(name).ok()));
+        Ok(Confirmations::new(folder, &content, name))
+    }
+}
+
+/// A message for each line `c` that a person writes on the terminal; none where the input is no terminal.
+fn keys() -> mpsc::Receiver<()> {
+    let (sender, keys) = mpsc::channel(1);
+    if std::io::stdin().is_terminal() {
+        // A thread, because a read of the terminal cannot be ended; it ends with the program.
+        std::thread::spawn(move || {
+            for line in std::io::stdin().lines().map_while(Result::ok) {
+                if line.trim().eq_ignore_ascii_case("c") && sender.blocking_send(()).is_err() {
+                    return;
+                }
+            }
+        });
+    }
+    keys
 }
 
 impl LineArgs {
