@@ -50,7 +50,8 @@ impl LineHealth {
             _ if self.disputed => (DiagnosticStatus::WARN, format!("two sources: {}", self.second_text)),
             _ if self.unconfirmed > 0 => (
                 DiagnosticStatus::WARN,
-                "frames arrive, marked suspect: no person has confirmed what the mapping makes of them (--confirm)"
+                "frames arrive, marked suspect: no person has confirmed what the mapping makes of them (key c in the \
+                 bridge's terminal, the page, or --confirm)"
                     .to_owned(),
             ),
             _ => (DiagnosticStatus::OK, "frames arrive".to_owned()),

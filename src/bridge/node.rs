@@ -10,6 +10,7 @@ use flexdrill_ros2::args::{NodeIdentity, Remapping};
 use flexdrill_ros2::dds::network::Network;
 use flexdrill_ros2::dds::plan::Offer;
 use flexdrill_ros2::dds::port::{Inbox, Port, PortBuilder, Sample, TopicPublisher};
+use flexdrill_ros2::service::{Dialect, ServiceMapping, ServiceServer};
 
 /// The rate for which the topics' histories are sized (Hz): rigs send once a second, some ten times.
 const RATE: f64 = 20.0;
@@ -43,11 +44,14 @@ pub struct BridgeNode {
     publishers: Vec<(Outgoing, TopicPublisher)>,
     names: Vec<String>,
     received: Vec<(&'static TopicInfo, Arc<Inbox<Sample>>)>,
+    /// The service and its absolute name, until it is taken.
+    server: Option<(String, ServiceServer)>,
     port: Port,
 }
 
 impl BridgeNode {
-    /// Joins the network, to publish `sends` and to receive the twin's topics `receives`.
+    /// Joins the network, to publish `sends`, to receive the twin's topics `receives`, and to serve `serves`: the name and type
+    /// of a service.
     ///
     /// # Errors
     /// When DDS does not start or a name is not allowed.
@@ -58,6 +62,7 @@ impl BridgeNode {
         default_name: &str,
         sends: &[Outgoing],
         receives: &[&'static TopicInfo],
+        serves: Option<(&str, &str)>,
     ) -> Result<Self, JoinError> {
         let mut port = PortBuilder::new(network, &identity.namespace, &identity.name);
         let (mut publishers, mut names) = (Vec::new(), Vec::new());
@@ -80,10 +85,20 @@ impl BridgeNode {
             let inbox = port.subscription(&name, topic.kind.dds_type, topic.qos.transient_local);
             received.push((*topic, inbox));
         }
+        let mut server = None;
+        if let Some((private, ros_type)) = serves {
+            let name = remapping.service(identity, default_name, private)?;
+            // Clients of both kinds are answered, as the twin does by default.
+            let rmw = std::env::var("RMW_IMPLEMENTATION").ok();
+            let mapping = ServiceMapping::Auto(Dialect::of_rmw(rmw.as_deref()));
+            let served = ServiceServer::new(&mut port, &name, ros_type, mapping);
+            server = Some((name, served));
+        }
         Ok(Self {
             publishers,
             names,
             received,
+            server,
             port: port.start()?,
         })
     }
@@ -101,6 +116,11 @@ impl BridgeNode {
     /// Publishes diagnostics.
     pub fn diagnose(&self, array: &DiagnosticArray) {
         self.publish(Outgoing::Diagnostics, array);
+    }
+
+    /// The service with its absolute name; none after the first call.
+    pub fn take_server(&mut self) -> Option<(String, ServiceServer)> {
+        self.server.take()
     }
 
     /// Absolute names of the topics that it publishes, in the order of `sends`.

@@ -9,15 +9,16 @@ use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureWriter};
 use flexdrill_bridge::wits::{
-    FrameUse, Line, LineEvent, Look, Mapping, NotUsed, RawFrame, Reading, Refused, Sources, TwinFrames, shown,
+    FrameUse, Line, LineEvent, Mapping, NotUsed, RawFrame, Reading, Refused, Sources, TwinFrames, shown,
 };
-use flexdrill_messages::{RigInputs, RigMeasured};
+use flexdrill_messages::{ConfirmMappingRequest, ConfirmMappingResponse, RigInputs, RigMeasured};
+use flexdrill_ros2::service::ServiceServer;
 use flexdrill_text::{counted, log_ending, printable};
-use tokio::sync::{broadcast, mpsc};
+use tokio::sync::{broadcast, mpsc, oneshot};
 use tokio::time::{MissedTickBehavior, interval};
 
-use super::confirmations::Confirmations;
 use super::diagnosis::LineHealth;
+use super::first_frames::FirstFrames;
 use super::{BridgeNode, Outgoing};
 
 /// Pieces of a line that wait to be read; beyond them the connection waits.
@@ -38,32 +39,27 @@ pub struct WitsBridge {
     /// Which connection serves each quantity.
     sources: Sources,
     health: LineHealth,
-    /// For which sources a person has confirmed the mapping.
-    confirmations: Confirmations,
-    /// Confirm the mapping for each source whose first frame was shown: a person has asked for it.
-    confirms: bool,
+    /// What the mapping makes of the first frames, and for which sources a person has confirmed it.
+    first: FirstFrames,
     /// Shows the first frame of a connection to people.
     show: fn(&str),
 }
 
 struct Connection {
     line: Line,
-    /// Its other end without the port, which changes: the source of a confirmation.
-    peer: String,
     /// Its other end with the port.
     address: String,
-    /// A person has confirmed what the mapping makes of this source.
-    is_confirmed: bool,
     /// It was silent and was asked, and has not answered yet.
     asked: bool,
-    /// Its first frame with an item was shown.
-    is_shown: bool,
 }
+
+/// A request for a confirmation, and where its answer goes.
+type Asked = (ConfirmMappingRequest, oneshot::Sender<ConfirmMappingResponse>);
 
 impl WitsBridge {
     /// A bridge; `place` names the line. With `capture` the bytes of the line are kept. `show` prints for people what the
     /// mapping makes of the first frame of a connection. Values of a source for which no person has confirmed the mapping
-    /// are marked as suspect; with `confirms` it is confirmed when the frame was shown.
+    /// are marked as suspect.
     ///
     /// # Errors
     /// When the capture cannot be created.
@@ -73,7 +69,7 @@ impl WitsBridge {
         place: String,
         mapping: Mapping,
         capture: Option<&Path>,
-        (confirmations, confirms): (Confirmations, bool),
+        first: FirstFrames,
         show: fn(&str),
     ) -> Result<Self, CaptureError> {
         Ok(Self {
@@ -85,8 +81,7 @@ impl WitsBridge {
             connections: BTreeMap::new(),
             sources: Sources::default(),
             health: LineHealth::default(),
-            confirmations,
-            confirms,
+            first,
             show,
         })
     }
@@ -111,6 +106,10 @@ impl WitsBridge {
         write.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut twin = TwinFigures::default();
         let seats = Seats::default();
+        let (ask, mut asked) = mpsc::channel::<Asked>(1);
+        let (service, server) = self.node.take_server().unzip();
+        let service = service.unwrap_or_default();
+        let mut serving = std::pin::pin!(serve(server, ask));
         // The line lives in this task, not in another: when `run` is dropped its connections close with it.
         let mut line = std::pin::pin!(lines::run(
             place,
@@ -124,13 +123,22 @@ impl WitsBridge {
             tokio::select! {
                 () = &mut line => return,
                 Some(event) = events.recv() => self.on(event, &seats),
-                Some(()) = confirm.recv() => self.confirm_shown(),
+                () = &mut serving => return,
+                Some(()) = confirm.recv() => {
+                    if self.first.confirm_shown("a person at the bridge's terminal", lines::now()) == 0 {
+                        tracing::info!("wits: no source waits for a confirmation");
+                    }
+                }
+                Some((request, answer)) = asked.recv() => {
+                    // A client that has gone misses the answer alone.
+                    let _ = answer.send(self.first.answer(&request, lines::now()));
+                }
                 _ = diagnostics.tick() => {
                     // The dispute ends by time, not by an event, so it is looked up at each tick.
                     self.health.disputed = self.sources.is_disputed(lines::now());
-                    let unconfirmed = self.connections.values().filter(|one| one.is_shown && !one.is_confirmed);
-                    self.health.unconfirmed = unconfirmed.count() as u64;
-                    let message = self.health.diagnostics(&self.node_name, &self.place, lines::now());
+                    self.health.unconfirmed = self.first.unconfirmed();
+                    let mut message = self.health.diagnostics(&self.node_name, &self.place, lines::now());
+                    message.status.extend(self.first.diagnostics(&self.node_name, &service));
                     self.node.diagnose(&message);
                 }
                 _ = write.tick(), if writing.is_some() => {
@@ -164,17 +172,11 @@ impl WitsBridge {
                     tracing::info!("wits: connection {connection} with {}{more}", printable(&address));
                 }
                 let line = Line::new(&self.mapping, &peer);
-                let is_confirmed = self.confirmations.has(&peer).unwrap_or_else(|error| {
-                    log("confirmation", || error);
-                    false
-                });
+                self.first.opened(connection, peer, address.clone());
                 let opened = Connection {
                     line,
-                    peer,
                     address,
-                    is_confirmed,
                     asked: false,
-                    is_shown: false,
                 };
                 self.connections.insert(connection, opened);
             }
@@ -244,6 +246,7 @@ impl WitsBridge {
     fn closed(&mut self, connection: u64, time: i64, why: &str) {
         self.keep(time, connection, &[]);
         self.sources.closed(connection);
+        self.first.closed(connection);
         self.health.open = self.health.open.saturating_sub(1);
         why.clone_into(&mut self.health.last_loss);
         let mut cut = 0;
@@ -299,7 +302,7 @@ impl WitsBridge {
         if let Some(refused) = self.sources.sort(connection, arrived, &mut reading) {
             self.refused(connection, &refused);
         }
-        if !self.connections.get(&connection).is_some_and(|from| from.is_confirmed) {
+        if !self.first.is_confirmed(connection) {
             mark_as_suspect(&mut reading);
         }
         if let Some(inputs) = &reading.inputs {
@@ -322,61 +325,14 @@ impl WitsBridge {
         }
     }
 
-    /// Shows what the mapping makes of the first frame of a connection: public programs give some items other meanings, and
-    /// only a person can see that a value belongs to another quantity.
+    /// Shows what the mapping makes of the first frame of a connection.
     fn show_first(&mut self, connection: u64, frame: &RawFrame, outcome: FrameUse) {
-        let found = self.connections.get_mut(&connection).filter(|found| !found.is_shown);
-        let Some(found) = found.filter(|_| outcome != FrameUse::NotUsed(NotUsed::Empty)) else {
+        // A frame without an item has nothing to compare.
+        if outcome == FrameUse::NotUsed(NotUsed::Empty) {
             return;
-        };
-        found.is_shown = true;
-        let note = match (found.is_confirmed, self.confirms) {
-            (true, _) => "a person has confirmed this mapping for this source",
-            (false, true) => "--confirm confirms it",
-            (false, false) => {
-                "its values are marked SUSPECT until a person confirms the mapping: press c and Enter here, or start with --confirm"
-            }
-        };
-        // A peer that connects again and again must not fill the terminal.
-        if let Some(more) = log_ending("wits first frame") {
-            let mut look = Look::new(&self.mapping);
-            look.frame(frame);
-            (self.show)(&format!(
-                "first frame of connection {connection} ({}); compare it with the rig's display{more}:\n{}  {note}\n",
-                printable(&found.address),
-                look.table()
-            ));
         }
-        if self.confirms {
-            self.confirm_shown();
-        }
-    }
-
-    /// Keeps that a person has confirmed the mapping for the sources whose first frame was shown.
-    fn confirm_shown(&mut self) {
-        let mut sources: Vec<String> = Vec::new();
-        for found in self
-            .connections
-            .values_mut()
-            .filter(|found| found.is_shown && !found.is_confirmed)
-        {
-            found.is_confirmed = true;
-            sources.push(found.peer.clone());
-        }
-        sources.sort();
-        sources.dedup();
-        for source in sources {
-            match self.confirmations.add(&source, lines::now()) {
-                Ok(file) => tracing::info!(
-                    "wits: the mapping is confirmed for {}, kept in {}",
-                    printable(&source),
-                    file.display()
-                ),
-                Err(error) => tracing::warn!(
-                    "wits: the mapping is confirmed for {}, and not kept: {error}",
-                    printable(&source)
-                ),
-            }
+        if let Some(text) = self.first.frame(connection, frame, &self.mapping, lines::now()) {
+            (self.show)(&text);
         }
     }
 
@@ -425,6 +381,27 @@ impl WitsBridge {
             self.capture = None;
         }
     }
+}
+
+/// Serves requests for confirmations, for as long as it is polled: passes them on and waits for the answers. Without a server it
+/// waits.
+async fn serve(server: Option<ServiceServer>, ask: mpsc::Sender<Asked>) {
+    let Some(server) = server else {
+        return std::future::pending().await;
+    };
+    let handler = move |request: ConfirmMappingRequest| {
+        let ask = ask.clone();
+        async move {
+            let (answer, answered) = oneshot::channel();
+            // Sending fails only where the bridge has ended; then the answer fails, too.
+            let _ = ask.send((request, answer)).await;
+            answered.await.unwrap_or_else(|_| ConfirmMappingResponse {
+                success: false,
+                message: "the bridge is ending".to_owned(),
+            })
+        }
+    };
+    server.serve(handler).await;
 }
 
 /// Marks the values of a frame whose mapping no person has confirmed: they drive the twin, and are shown as doubtful.

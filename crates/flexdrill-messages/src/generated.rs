@@ -2444,6 +2444,46 @@ pub mod flexdrill {
         const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
+    /// Confirms what a bridge makes of the items of a source: a person has compared its table with the rig's display.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ConfirmMappingRequest {
+        /// The source as the bridge shows it: an address without its port, or a device.
+        pub source: std::string::String,
+        /// The mapping as the bridge shows it, the first 16 digits of a SHA-256. Another one is refused: it was not seen.
+        pub mapping: std::string::String,
+        /// Name of the operator. It must not be empty.
+        pub operator_name: std::string::String,
+    }
+
+    impl Message for ConfirmMappingRequest {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "ConfirmMapping_Request";
+        const ROS_TYPE: &'static str = "flexdrill/srv/ConfirmMapping_Request";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ConfirmMapping_Request_";
+        const RIHS01: &'static str = "RIHS01_a36c3a1723e0f0625edbceb10cdac296fe71f89e261879ec66f9d67511d705da";
+        const SCHEMA: &'static str = "# Confirms what a bridge makes of the items of a source: a person has compared its table with the rig's display.\n\n# The source as the bridge shows it: an address without its port, or a device.\nstring source\n# The mapping as the bridge shows it, the first 16 digits of a SHA-256. Another one is refused: it was not seen.\nstring mapping\n# Name of the operator. It must not be empty.\nstring operator_name\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/ConfirmMapping_Request", "fields": [{"name": "source", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "mapping", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "operator_name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
+    /// `flexdrill/srv/ConfirmMapping_Response`.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    pub struct ConfirmMappingResponse {
+        /// Whether the mapping is confirmed for this source.
+        pub success: bool,
+        /// The result, or the reason of a refusal.
+        pub message: std::string::String,
+    }
+
+    impl Message for ConfirmMappingResponse {
+        const PACKAGE: &'static str = "flexdrill";
+        const NAME: &'static str = "ConfirmMapping_Response";
+        const ROS_TYPE: &'static str = "flexdrill/srv/ConfirmMapping_Response";
+        const DDS_TYPE: &'static str = "flexdrill::srv::dds_::ConfirmMapping_Response_";
+        const RIHS01: &'static str = "RIHS01_2e9f1bb6d2340239168962b9639032faf18f79c3b7c43a9f38f2b70c9d01150e";
+        const SCHEMA: &'static str = "# Whether the mapping is confirmed for this source.\nbool success\n# The result, or the reason of a refusal.\nstring message\n";
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/srv/ConfirmMapping_Response", "fields": [{"name": "success", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "message", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+    }
+
     /// Shelves an alarm for a time.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct ShelveAlarmRequest {
@@ -4804,6 +4844,8 @@ pub const TYPES: &[TypeInfo] = &[
     <flexdrill::WhirlWarning as super::Message>::INFO,
     <flexdrill::AcknowledgeAlarmRequest as super::Message>::INFO,
     <flexdrill::AcknowledgeAlarmResponse as super::Message>::INFO,
+    <flexdrill::ConfirmMappingRequest as super::Message>::INFO,
+    <flexdrill::ConfirmMappingResponse as super::Message>::INFO,
     <flexdrill::ShelveAlarmRequest as super::Message>::INFO,
     <flexdrill::ShelveAlarmResponse as super::Message>::INFO,
     <flexdrill::UnshelveAlarmRequest as super::Message>::INFO,
@@ -4936,6 +4978,14 @@ pub const SERVICES: &[ServiceInfo] = &[
         description: r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Event"}}]}"#,
         event_type: "flexdrill/srv/AcknowledgeAlarm_Event",
         event_description: r#"{"type_name": "flexdrill/srv/AcknowledgeAlarm_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/AcknowledgeAlarm_Response"}}]}"#,
+    },
+    ServiceInfo {
+        ros_type: "flexdrill/srv/ConfirmMapping",
+        rihs01: "RIHS01_938d93c1c9465df04b3ed68a424d2aeac458b00a6ee513ad7fc4c8fd82f0fadd",
+        source: include_str!("../../../msg/ConfirmMapping.srv"),
+        description: r#"{"type_name": "flexdrill/srv/ConfirmMapping", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ConfirmMapping_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ConfirmMapping_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ConfirmMapping_Event"}}]}"#,
+        event_type: "flexdrill/srv/ConfirmMapping_Event",
+        event_description: r#"{"type_name": "flexdrill/srv/ConfirmMapping_Event", "fields": [{"name": "info", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "service_msgs/msg/ServiceEventInfo"}}, {"name": "request", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ConfirmMapping_Request"}}, {"name": "response", "type": {"type_id": 97, "capacity": 1, "string_capacity": 0, "nested_type_name": "flexdrill/srv/ConfirmMapping_Response"}}]}"#,
     },
     ServiceInfo {
         ros_type: "flexdrill/srv/ShelveAlarm",

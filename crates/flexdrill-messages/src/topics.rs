@@ -76,6 +76,10 @@ impl TopicInfo {
     }
 }
 
+/// Name of the node of `flexdrill bridge wits`, unless it is remapped. The page calls its service [`CONFIRM_MAPPING`].
+pub const WITS_BRIDGE: &str = "flexdrill_bridge_wits";
+/// The service of [`WITS_BRIDGE`] that confirms what it makes of a source, of the type `flexdrill/srv/ConfirmMapping`.
+pub const CONFIRM_MAPPING: &str = "~/confirm_mapping";
 /// Input: speed of the top drive in r/min.
 pub const ROTARY_SPEED_RPM: TopicInfo = TopicInfo::new(
     "rig/rotary_speed_rpm",

@@ -19,8 +19,8 @@ use flexdrill_messages::simulation_interfaces::{
 use flexdrill_messages::std_srvs::{SetBoolResponse, TriggerResponse};
 use flexdrill_messages::type_description_interfaces::GetTypeDescriptionResponse;
 use flexdrill_messages::{
-    AcknowledgeAlarmResponse, ShelveAlarmResponse, UnshelveAlarmResponse, WhatIfGetResultResponse,
-    WhatIfSendGoalResponse,
+    AcknowledgeAlarmResponse, ConfirmMappingResponse, ShelveAlarmResponse, UnshelveAlarmResponse,
+    WhatIfGetResultResponse, WhatIfSendGoalResponse,
 };
 
 /// Bytes for the reasons of a list of results together, when they must be cut.
@@ -68,6 +68,7 @@ flag_and_text!(
     TriggerResponse,
     SetBoolResponse,
     AcknowledgeAlarmResponse,
+    ConfirmMappingResponse,
     ShelveAlarmResponse,
     UnshelveAlarmResponse
 );

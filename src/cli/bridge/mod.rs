@@ -1,32 +1,31 @@
 //! `flexdrill bridge`: joins the twin's topics to a rig's own protocol, or to a broker.
 
+mod keys;
 mod look;
 mod mqtt;
 mod opcua;
 mod ros_side;
 
-use std::io::IsTerminal as _;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
-use tokio::sync::mpsc;
 
 use self::ros_side::RosSideArgs;
 use super::{WrongUse, signals};
 use crate::alarms::state_file;
 use crate::bridge::Outgoing;
 use crate::bridge::confirmations::Confirmations;
+use crate::bridge::first_frames::FirstFrames;
 use crate::bridge::wits::WitsBridge;
 use crate::cli::output::{say, say_text};
 use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{Place, Times};
 use flexdrill_bridge::wits::Mapping;
-
-/// Name of the node unless it is remapped.
-const WITS_NODE_NAME: &str = "flexdrill_bridge_wits";
+use flexdrill_messages::topics::{CONFIRM_MAPPING, WITS_BRIDGE};
+use flexdrill_text::printable;
 
 /// Join the twin's topics to a rig's own protocol, or to a broker.
 #[derive(Debug, Args)]
@@ -122,7 +121,7 @@ pub(super) fn run(args: &BridgeArgs, ros_args: &[String]) -> anyhow::Result<()> 
 }
 
 fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
-    let ros = args.ros.start(ros_args, WITS_NODE_NAME)?;
+    let ros = args.ros.start(ros_args, WITS_BRIDGE)?;
     let mapping = match &args.map {
         Some(file) => Mapping::load(file)?,
         None => Mapping::default(),
@@ -139,23 +138,23 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
             &[]
         };
         let sends = &Outgoing::OF_A_RIG;
-        let node = ros.node(sends, receives)?;
+        let service = (CONFIRM_MAPPING, "flexdrill/srv/ConfirmMapping");
+        let node = ros.node(sends, receives, Some(service))?;
         say!(
             "wits {name} to {}, domain {}; Ctrl-C ends it",
             node.topics()[..2].join(", "),
             ros.network.domain_id
         );
         let node_name = ros.identity.full_name();
-        let confirmations = args.confirmations(&mapping)?;
         let capture = args.capture.as_deref();
-        let confirmed = (confirmations, args.confirm);
-        let mut bridge = WitsBridge::new(node, node_name, name, mapping, capture, confirmed, |text| {
+        let first = FirstFrames::new(args.confirmations(&mapping)?, args.confirm);
+        let mut bridge = WitsBridge::new(node, node_name, name, mapping, capture, first, |text| {
             say_text!("{text}")
         })?;
         let shutdown = signals::shutdown(false)?;
         tokio::select! {
             () = shutdown => {}
-            () = bridge.run(place, Times::default(), keys()) => {}
+            () = bridge.run(place, Times::default(), keys::confirmations()) => {}
         }
         anyhow::Ok(())
     })?;
@@ -164,35 +163,21 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
 }
 
 impl WitsArgs {
-    /// The confirmations of the mapping: of the file's bytes, or of the items that are read without one.
+    /// The confirmations of the mapping: of the file's bytes and of all that is read with it, because the items that a file
+    /// does not name are those of this version of the program.
     fn confirmations(&self, mapping: &Mapping) -> anyhow::Result<Confirmations> {
-        let (content, name) = match &self.map {
+        let (mut content, name) = match &self.map {
             Some(file) => {
                 let content = std::fs::read(file).with_context(|| format!("--map {}", file.display()))?;
-                (content, file.display().to_string())
+                (content, printable(&file.display().to_string()).into_owned())
             }
-            None => (format!("{:?}", mapping.table()).into_bytes(), "default".to_owned()),
+            None => (Vec::new(), "default".to_owned()),
         };
+        content.extend(format!("\n{:?}\n{mapping:?}", mapping.table()).into_bytes());
         let folder = self.state_dir.clone();
         let folder = folder.or_else(|| state_file::default_folder(|name| std::env::var(name).ok()));
         Ok(Confirmations::new(folder, &content, name))
     }
-}
-
-/// A message for each line `c` that a person writes on the terminal; none where the input is no terminal.
-fn keys() -> mpsc::Receiver<()> {
-    let (sender, keys) = mpsc::channel(1);
-    if std::io::stdin().is_terminal() {
-        // A thread, because a read of the terminal cannot be ended; it ends with the program.
-        std::thread::spawn(move || {
-            for line in std::io::stdin().lines().map_while(Result::ok) {
-                if line.trim().eq_ignore_ascii_case("c") && sender.blocking_send(()).is_err() {
-                    return;
-                }
-            }
-        });
-    }
-    keys
 }
 
 impl LineArgs {

@@ -113,7 +113,7 @@ mod with_mqtt {
         runtime.block_on(async {
             let topics = MqttBridge::topics();
             let sends = &[Outgoing::Diagnostics];
-            let node = ros.node(sends, &topics)?;
+            let node = ros.node(sends, &topics, None)?;
             let also = args.sparkplug.as_ref();
             say!(
                 "mqtt to {broker}{}, topics {prefix}/...{}, domain {}; Ctrl-C ends it",

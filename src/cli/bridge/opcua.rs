@@ -161,7 +161,7 @@ mod with_opcua {
         } else {
             &[Outgoing::Diagnostics]
         };
-        let node = ros.node(sends, &topics)?;
+        let node = ros.node(sends, &topics, None)?;
         let place = format!("opc.tcp://{}:{}/", setup.host, address.port());
         say!(
             "opcua at {place}, {}, {}, certificates in {}, domain {}; Ctrl-C ends it",
@@ -212,7 +212,7 @@ mod with_opcua {
             keys: keys.folder().to_owned(),
             application_uri,
         };
-        let node = ros.node(&Outgoing::OF_A_RIG, &[])?;
+        let node = ros.node(&Outgoing::OF_A_RIG, &[], None)?;
         say!(
             "opcua from {} to {}, {} nodes, domain {}; Ctrl-C ends it",
             printable(url),

@@ -51,7 +51,7 @@ impl RosSideArgs {
 }
 
 impl RosSide {
-    /// The node, with the topics that it publishes and receives.
+    /// The node, with the topics that it publishes and receives, and the name and type of its service.
     ///
     /// # Errors
     /// When a remapped name is not allowed, or DDS cannot be started.
@@ -59,6 +59,7 @@ impl RosSide {
         &self,
         sends: &[Outgoing],
         receives: &[&'static flexdrill_messages::topics::TopicInfo],
+        serves: Option<(&str, &str)>,
     ) -> anyhow::Result<BridgeNode> {
         let remapping = &self.args.remapping;
         Ok(BridgeNode::new(
@@ -68,6 +69,7 @@ impl RosSide {
             self.name,
             sends,
             receives,
+            serves,
         )?)
     }
 }

@@ -16,6 +16,18 @@ const MOST_ITEMS: usize = 1000;
 /// Bytes of a value that are shown.
 const SHOWN: usize = 20;
 
+/// An item of a source, for people.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LookRow {
+    /// Record and item, such as `0116`.
+    pub code: ItemCode,
+    /// Its first value as sent, escaped and cut, with the unit of the mapping; without a unit where the item is not read.
+    pub sent: String,
+    /// Name of the quantity, and the first value in the unit in which people know it, or `no value`; none where the mapping
+    /// does not name the item.
+    pub used: Option<(&'static str, String)>,
+}
+
 /// The items of a source.
 #[derive(Debug, Clone)]
 pub struct Look {
@@ -71,27 +83,46 @@ impl Look {
         self.frames
     }
 
+    /// The items in the order of their numbers, each with its first value.
+    pub fn rows(&self) -> impl Iterator<Item = LookRow> {
+        self.items.iter().map(|(code, seen)| self.row(*code, seen))
+    }
+
+    fn row(&self, code: ItemCode, seen: &Seen) -> LookRow {
+        let Some(mapping) = self.table.get(&code) else {
+            return LookRow {
+                code,
+                sent: seen.first_text.clone(),
+                used: None,
+            };
+        };
+        let used = match seen.numbers {
+            Some(numbers) => as_used(mapping, numbers.first),
+            None => "no value".to_owned(),
+        };
+        LookRow {
+            code,
+            sent: format!("{} {}", seen.first_text, mapping.unit),
+            used: Some((mapping.quantity.name(), used)),
+        }
+    }
+
     /// The table: a line per item with its quantity, its first value as sent and as used, and how it changed if there were
     /// several frames; then the items that the mapping does not name.
     pub fn table(&self) -> String {
         let mut text = String::new();
         let mut unread = Vec::new();
         for (code, seen) in &self.items {
-            let Some(mapping) = self.table.get(code) else {
-                unread.push(format!("{code} ({})", seen.first_text));
+            let LookRow { sent, used, .. } = self.row(*code, seen);
+            let Some((quantity, used)) = used else {
+                unread.push(format!("{code} ({sent})"));
                 continue;
-            };
-            let sent = format!("{} {}", seen.first_text, mapping.unit);
-            let used = match seen.numbers {
-                Some(numbers) => as_used(mapping, numbers.first),
-                None => "no value".to_owned(),
             };
             let change = seen.numbers.filter(|_| self.frames > 1).map(Course::words);
             // Writing to a string does not fail.
             let _ = writeln!(
                 text,
-                "  {code}  {:<26} {sent:>18} = {used:<18} {}",
-                mapping.quantity.name(),
+                "  {code}  {quantity:<26} {sent:>18} = {used:<18} {}",
                 change.unwrap_or_default()
             );
         }

@@ -25,7 +25,7 @@ pub use frame::{DiscardReason, Discarded, FrameReader, LONGEST_FRAME, LONGEST_LI
 pub use header::{Header, LAST_HEADER_ITEM};
 pub use item::{ItemCode, NoItemCode};
 pub use line::{Line, LineEvent};
-pub use look::Look;
+pub use look::{Look, LookRow};
 pub use mapping::{AskMapping, ItemMapping, Mapping, SequenceUse, StampSource, UnitSystem, WriteItem, WriteMapping};
 pub use report::{FrameUse, ItemFault, ItemFaultKind, NotUsed};
 pub use sequence::{Classified, Numbered, Sequence, SequenceDefect, SequenceWatch};
