@@ -38,9 +38,14 @@ pub struct Program {
 
 impl Program {
     /// Starts it; both its outputs are read.
-    pub fn start(mut command: Command) -> Self {
+    pub fn start(command: Command) -> Self {
+        Self::start_at(command, Stdio::null())
+    }
+
+    /// As [`Program::start`], with an input.
+    pub fn start_at(mut command: Command, input: Stdio) -> Self {
         let mut child = command
-            .stdin(Stdio::null())
+            .stdin(input)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()

@@ -254,6 +254,64 @@ fn what_an_operator_asks_reaches_the_node_and_its_words_come_back() {
     server.end();
 }
 
+/// The page shows what the bridge makes of the rig's first frame, and its click confirms it.
+#[test]
+fn the_page_shows_the_items_of_a_rigs_line_and_confirms_them() {
+    let Some(network) = Network::new() else { return };
+    let state = tempfile::tempdir().unwrap();
+    let mut bridge = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    bridge
+        .args(["bridge", "wits", "--namespace", "/rig_7", "--listen", "127.0.0.1:0", "--state-dir"])
+        .arg(state.path());
+    let mut bridge = Program::start(bridge);
+    let said = bridge.wait_for("wits at 127.0.0.1:");
+    let mut words = said.split_whitespace();
+    let place = words.find(|word| word.starts_with("127.0.0.1:")).unwrap();
+    let port = place.rsplit(':').next().unwrap();
+    let server = Server::start(&network, &["--namespace", "/rig_7", "--allow-control"]);
+    let Some(_) = server.get("/api/session") else { return };
+    // A rig that sends until the test ends.
+    let script = "exec 3<>/dev/tcp/127.0.0.1/$0; for turn in {1..600}; do \
+                  printf '&&\\r\\n0116 0.8\\r\\n0120 40\\r\\n0144 1180\\r\\n!!\\r\\n' >&3; sleep 0.1; done";
+    let mut rig = network.command("bash");
+    rig.args(["-c", script, port]);
+    let rig = Program::start(rig);
+    let shown = server.body_with("/api/mappings", |all| !all[0].is_null());
+    let first = &shown[0];
+    assert_eq!(
+        (&first["node"], &first["source"], &first["file"]),
+        (&json!("/rig_7/flexdrill_bridge_wits"), &json!("127.0.0.1"), &json!("default"))
+    );
+    assert_eq!((&first["confirmed"], &first["can_confirm"]), (&json!(""), &json!(true)));
+    // A kdaN is 10 kN.
+    assert_eq!(
+        first["items"],
+        json!([
+            {"item": "0116", "quantity": "weight_on_bit", "sent": "0.8 kdaN", "used": "8 kN"},
+            {"item": "0120", "quantity": "rotary_speed", "sent": "40 r/min", "used": "40 r/min"},
+            {"item": "0144", "quantity": "", "sent": "1180", "used": ""},
+        ])
+    );
+    let wanted = |mapping: &Value| json!({"operator": "Kim", "source": "127.0.0.1", "mapping": mapping});
+    assert_eq!(server.post("confirm_mapping", "", wanted(&first["mapping"])).0, 401);
+    let (code, refused) = server.post("confirm_mapping", TOKEN, wanted(&json!("0123456789abcdef")));
+    assert!(code == 409 && text(&refused).contains("compare its table again"), "{code} {refused}");
+    let (code, done) = server.post("confirm_mapping", TOKEN, wanted(&first["mapping"]));
+    assert!(code == 200 && text(&done).ends_with("is confirmed for 127.0.0.1 by Kim"), "{code} {done}");
+    let confirmed = server.body_with("/api/mappings", |all| all[0]["confirmed"] != "");
+    assert!(confirmed[0]["confirmed"].as_str().unwrap().ends_with(" by Kim"), "{confirmed}");
+    // Another namespace has another rig, and a server for reading only confirms nothing.
+    server.end();
+    let reader = Server::start(&network, &["--namespace", "/rig_7"]);
+    let shown = reader.body_with("/api/mappings", |all| !all[0].is_null());
+    assert_eq!(shown[0]["can_confirm"], false);
+    assert_eq!(reader.post("confirm_mapping", TOKEN, wanted(&first["mapping"])).0, 403);
+    reader.end();
+    drop(rig);
+    bridge.signal("TERM");
+    assert_eq!(bridge.end(), Some(0), "{}", bridge.said());
+}
+
 #[test]
 fn what_if_is_asked_with_the_token_and_its_answers_are_for_all() {
     let Some(network) = Network::new() else { return };

@@ -1,7 +1,10 @@
 //! From a rig's log over WITS to the twin's recording and its replay: `flexdrill rig --wits`, `flexdrill bridge wits`,
 //! `flexdrill run --record`, `flexdrill replay`, each a process as a user starts it.
 
-use std::process::Command;
+use std::io::Write as _;
+use std::os::unix::fs::OpenOptionsExt as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
 
 use flexdrill::bag;
 use flexdrill::messages::diagnostic_msgs::DiagnosticArray;
@@ -188,6 +191,37 @@ fn a_second_source_on_a_bridge_is_refused_and_named() {
     );
 }
 
+/// A bridge that listens, with its mapping and its state, on a terminal; and the port.
+fn listening(network: &Network, [state, map]: [&Path; 2], more: &[&str], terminal: Stdio) -> (Program, String) {
+    let mut bridge = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    bridge.args(["bridge", "wits", "--listen", "127.0.0.1:0", "--map"]).arg(map);
+    bridge.arg("--state-dir").arg(state).args(more);
+    let mut bridge = Program::start_at(bridge, terminal);
+    let said = bridge.wait_for("wits at 127.0.0.1:");
+    let mut words = said.split_whitespace();
+    let place = words.find(|word| word.starts_with("127.0.0.1:")).unwrap();
+    let port = place.rsplit(':').next().unwrap().to_owned();
+    (bridge, port)
+}
+
+/// A rig that sends a speed to a port for six seconds, which is longer than twin and bridge need to find each other.
+fn rig(network: &Network, port: &str, speed: u32) -> Command {
+    let script = "exec 3<>/dev/tcp/127.0.0.1/$0; for turn in {1..60}; do \
+                  printf '&&\\r\\n0116 0.8\\r\\n0120 %s\\r\\n!!\\r\\n' $1 >&3; sleep 0.1; done";
+    let mut rig = network.command("bash");
+    rig.args(["-c", script, port, &speed.to_string()]);
+    rig
+}
+
+/// The qualities of the inputs with a speed (r/min).
+fn qualities(inputs: &[RigInputs], speed: f64) -> Vec<u8> {
+    // The conversion to SI and back rounds.
+    let of_speed = inputs
+        .iter()
+        .filter(|message| (message.rotary_speed_rpm - speed).abs() < 1e-9);
+    of_speed.map(|message| message.quality).collect()
+}
+
 /// A mapping that no person has compared drives the twin, and is shown as doubtful; the confirmation is of one mapping.
 #[test]
 fn a_mapping_is_suspect_until_a_person_confirms_it_and_again_when_it_is_changed() {
@@ -202,42 +236,27 @@ fn a_mapping_is_suspect_until_a_person_confirms_it_and_again_when_it_is_changed(
         .arg(&live);
     let mut twin = Program::start(twin);
     twin.wait_for("model time runs");
-    // A bridge with these options, and a rig that sends this speed for longer than the two need to find each other.
     let drive = |speed: u32, more: &[&str], words: &str| {
-        let mut bridge = network.command(env!("CARGO_BIN_EXE_flexdrill"));
-        bridge
-            .args(["bridge", "wits", "--listen", "127.0.0.1:0", "--map"])
-            .arg(&map)
-            .arg("--state-dir")
-            .arg(&state);
-        let mut bridge = Program::start({
-            bridge.args(more);
-            bridge
-        });
-        let said = bridge.wait_for("wits at 127.0.0.1:");
-        let place = said
-            .split_whitespace()
-            .find(|word| word.starts_with("127.0.0.1:"))
-            .unwrap();
-        let port = place.rsplit(':').next().unwrap().to_owned();
-        let script = "exec 3<>/dev/tcp/127.0.0.1/$0; for turn in {1..30}; do \
-                      printf '&&\\r\\n0116 0.8\\r\\n0120 %s\\r\\n!!\\r\\n' $1 >&3; sleep 0.1; done";
-        let mut rig = network.command("bash");
-        assert!(
-            rig.args(["-c", script, &port, &speed.to_string()])
-                .status()
-                .unwrap()
-                .success()
-        );
+        let (mut bridge, port) = listening(&network, [&state, &map], more, Stdio::null());
+        assert!(rig(&network, &port, speed).status().unwrap().success());
         bridge.wait_for(words);
         bridge.signal("TERM");
         assert_eq!(bridge.end(), Some(0), "{}", bridge.said());
+        bridge.said()
     };
     drive(30, &[], "marked SUSPECT until a person confirms");
     drive(35, &["--confirm"], "--confirm confirms it");
     drive(40, &[], "a person has confirmed this mapping for this source");
+    // A file that is damaged confirms nothing.
+    let confirmed = std::fs::read_dir(&state).unwrap().map(|entry| entry.unwrap().path());
+    for file in confirmed.filter(|file| file.extension().is_some_and(|end| end == "confirmed")) {
+        std::fs::write(file, b"mapping \xff").unwrap();
+    }
+    let said = drive(45, &[], "marked SUSPECT until a person confirms");
+    assert!(said.contains("the mapping counts as not confirmed"), "{said}");
+    drive(50, &["--confirm"], "--confirm confirms it");
     std::fs::write(&map, "title: \"Rig 8\"\n").unwrap();
-    drive(45, &[], "marked SUSPECT until a person confirms");
+    drive(55, &[], "marked SUSPECT until a person confirms");
     twin.signal("TERM");
     assert_eq!(twin.end(), Some(0));
 
@@ -247,18 +266,78 @@ fn a_mapping_is_suspect_until_a_person_confirms_it_and_again_when_it_is_changed(
         (35.0, RigInputs::GOOD),
         (40.0, RigInputs::GOOD),
         (45.0, RigInputs::SUSPECT),
+        (50.0, RigInputs::GOOD),
+        (55.0, RigInputs::SUSPECT),
     ] {
-        // The conversion to SI and back rounds.
-        let of_run = inputs
-            .iter()
-            .filter(|message| (message.rotary_speed_rpm - speed).abs() < 1e-9);
-        let qualities: Vec<u8> = of_run.map(|message| message.quality).collect();
+        let found = qualities(&inputs, speed);
         assert!(
-            !qualities.is_empty() && qualities.iter().all(|found| *found == quality),
-            "{speed}: {qualities:?}"
+            !found.is_empty() && found.iter().all(|found| *found == quality),
+            "{speed}: {found:?}"
         );
     }
     // A doubtful input drives.
     let applied: Vec<AppliedInputs> = messages(&live, "twin/applied_inputs");
     assert!(applied.iter().any(|message| message.rotary_speed > 0.0));
+    // The journal has who confirmed what.
+    let journal = std::fs::read_to_string(state.join("wits_mappings.journal")).unwrap();
+    assert_eq!(journal.matches("by --confirm: mapping").count(), 2, "{journal}");
+}
+
+/// A person at the terminal of the bridge presses c and Enter while the rig sends.
+#[test]
+fn a_key_in_the_terminal_of_the_bridge_confirms_its_mapping() {
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    let Some(network) = Network::new() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [live, state, map] = ["live", "state", "site.yaml"].map(|name| folder.path().join(name));
+    std::fs::write(&map, "title: \"Rig 7\"\n").unwrap();
+    let mut twin = network.command(env!("CARGO_BIN_EXE_flexdrill"));
+    twin.args(["run", "--config"])
+        .arg(small_config())
+        .arg("--record")
+        .arg(&live);
+    let mut twin = Program::start(twin);
+    twin.wait_for("model time runs");
+    let ours = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&ours).unwrap();
+    unlockpt(&ours).unwrap();
+    let name = ptsname(&ours, Vec::new()).unwrap();
+    let terminal = std::fs::OpenOptions::new()
+        .read(true)
+        .write(true)
+        .custom_flags(libc::O_NOCTTY)
+        .open(name.to_str().unwrap())
+        .unwrap();
+    let mut ours = std::fs::File::from(ours);
+    let (mut bridge, port) = listening(&network, [&state, &map], &[], terminal.into());
+    // Before a frame was shown there is nothing that a person could have compared.
+    ours.write_all(b"c\n").unwrap();
+    bridge.wait_for("no source waits for a confirmation");
+    assert!(rig(&network, &port, 30).status().unwrap().success());
+    bridge.wait_for("marked SUSPECT until a person confirms");
+    // The rest of a longer word is no key.
+    ours.write_all(b"cancel\nx\n").unwrap();
+    let mut sending = rig(&network, &port, 35).spawn().unwrap();
+    bridge.wait_for("connection 2 with");
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    ours.write_all(b" C \n").unwrap();
+    bridge.wait_for("is confirmed for 127.0.0.1 by a person at the bridge's terminal");
+    assert!(sending.wait().unwrap().success());
+    bridge.signal("TERM");
+    assert_eq!(bridge.end(), Some(0), "{}", bridge.said());
+    twin.signal("TERM");
+    assert_eq!(twin.end(), Some(0));
+    let inputs: Vec<RigInputs> = messages(&live, "rig/inputs");
+    let first = qualities(&inputs, 30.0);
+    assert!(
+        !first.is_empty() && first.iter().all(|found| *found == RigInputs::SUSPECT),
+        "{first:?}"
+    );
+    let second = qualities(&inputs, 35.0);
+    let confirmed = second.iter().position(|found| *found == RigInputs::GOOD).unwrap();
+    assert!(confirmed > 0, "the second was confirmed before the key: {second:?}");
+    assert!(
+        second[confirmed..].iter().all(|found| *found == RigInputs::GOOD),
+        "{second:?}"
+    );
 }

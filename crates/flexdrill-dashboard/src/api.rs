@@ -90,6 +90,7 @@ pub(crate) fn router(shared: Shared) -> Router {
         .route("/api/journal", get(journal))
         .route("/api/control", get(control))
         .route("/api/what_if", get(what_if))
+        .route("/api/mappings", get(mappings))
         .route("/api/control/{what}", post(act))
         .layer(DefaultBodyLimit::max(LONGEST_BODY));
     assets::router()
@@ -203,6 +204,17 @@ async fn what_if(State(shared): Server) -> Response {
     ([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response()
 }
 
+async fn mappings(State(shared): Server) -> Response {
+    // A recording has the diagnostics of its time, and nothing in it can be confirmed.
+    let body = if shared.bag.is_some() {
+        json!([])
+    } else {
+        let service = shared.control.as_ref().map(|control| control.confirm_service());
+        shared.board.mappings(&shared.namespace, service)
+    };
+    ([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response()
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SteerRequest {
@@ -226,6 +238,14 @@ struct AlarmRequest {
 #[serde(deny_unknown_fields)]
 struct OperatorRequest {
     operator: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MappingRequest {
+    operator: String,
+    source: String,
+    mapping: String,
 }
 
 #[derive(Deserialize)]
@@ -294,6 +314,17 @@ async fn act(
         },
         "reset" => match read::<OperatorRequest>(&body) {
             Ok(plain) => control.carry_out(&plain.operator, Action::Reset).await,
+            Err(refused) => Err(refused),
+        },
+        "confirm_mapping" => match read::<MappingRequest>(&body) {
+            Ok(MappingRequest {
+                operator,
+                source,
+                mapping,
+            }) => {
+                let action = Action::ConfirmMapping { source, mapping };
+                control.carry_out(&operator, action).await
+            }
             Err(refused) => Err(refused),
         },
         "pause" => match read::<PauseRequest>(&body) {

@@ -8,10 +8,12 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use crate::history::History;
+use crate::mappings::Mappings;
 use crate::orbits::Orbits;
 use crate::session::Session;
 use flexdrill_alarms::Incidents;
 use flexdrill_messages::builtin_interfaces::Time;
+use flexdrill_messages::diagnostic_msgs::DiagnosticArray;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::visualization_msgs::MarkerArray;
@@ -32,9 +34,8 @@ const GONE: Duration = Duration::from_secs(2);
 /// The parameter that changes how the tool's shape is drawn.
 const EXAGGERATION: &str = "outputs.exaggeration";
 /// Outputs of which the server keeps the age alone.
-const AGE_ONLY: [&str; 10] = [
+const AGE_ONLY: [&str; 9] = [
     topics::JOINT_STATES.name,
-    topics::DIAGNOSTICS.name,
     topics::AGEING.name,
     topics::REACTIONS.name,
     topics::TRANSFER.name,
@@ -56,6 +57,7 @@ struct Known {
     /// In ns since 1970, with the evidence of the worst moment.
     incidents: Incidents<String>,
     status: Option<(TwinStatus, Instant)>,
+    mappings: Mappings,
     /// The newest message of each topic: its stamp (ns since 1970), and the time of its arrival.
     newest: BTreeMap<&'static str, (i64, Instant)>,
 }
@@ -83,6 +85,7 @@ impl Board {
             event_count: 0,
             incidents: Incidents::new(MOST_EVENTS),
             status: None,
+            mappings: Mappings::default(),
             newest: BTreeMap::new(),
         }))
     }
@@ -179,6 +182,11 @@ impl Board {
     pub fn status(&self) -> Option<(TwinStatus, Instant)> {
         let known = self.known();
         known.status.clone().filter(|(_, arrived)| arrived.elapsed() < GONE)
+    }
+
+    /// What bridges in a namespace make of their rigs' items, for the page. `service` is the one that this server can call.
+    pub fn mappings(&self, namespace: &str, service: Option<&str>) -> Value {
+        self.known().mappings.json(namespace, service, Instant::now())
     }
 
     /// The incidents in the order of their begin, as the page gets them.
@@ -286,6 +294,12 @@ impl Known {
                     history.set_exaggeration(*factor);
                 }
                 stamp(&message.header.stamp)
+            }
+            name if name == topics::DIAGNOSTICS.name => {
+                let message: DiagnosticArray = read(body)?;
+                let time = stamp(&message.header.stamp);
+                self.mappings.observe(message, Instant::now());
+                time
             }
             // For these the page shows the age alone, so the header is enough.
             name if AGE_ONLY.contains(&name) => {

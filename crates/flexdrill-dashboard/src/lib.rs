@@ -6,12 +6,13 @@
 //! - `GET /api/pulse`: the server's clock, its instance, the age of its newest data;
 //! - `GET /api/history`: the last hour, one frame per second; `GET /api/journal`: the alarms' events;
 //! - `GET /api/what_if`: the newest question to the look-ahead with its answers so far;
+//! - `GET /api/mappings`: what bridges make of the items of a rig's line;
 //! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause,
-//!   what_if, cancel_what_if}`, with the token.
+//!   confirm_mapping, what_if, cancel_what_if}`, with the token.
 //!
 //! # Layout
 //! - `listen`: from DDS to page and board. `recorded`: from a bag to page and board.
-//! - `board`: the server's own knowledge of the twin, with `session`, `history` and `orbits`. `control`: steering.
+//! - `board`: the server's own knowledge of the twin, with `session`, `history`, `orbits` and `mappings`. `control`: steering.
 //!   `what_if`: questions to the look-ahead.
 //! - `api`, `assets`, `snapshots`: HTTP.
 
@@ -22,6 +23,7 @@ mod control;
 mod error;
 mod history;
 mod listen;
+mod mappings;
 mod orbits;
 mod recorded;
 mod session;

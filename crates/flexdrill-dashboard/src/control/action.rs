@@ -4,8 +4,8 @@ use super::{Control, PERIOD, Refused};
 use crate::DashboardError;
 use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use flexdrill_messages::{
-    AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, ShelveAlarmRequest, ShelveAlarmResponse, UnshelveAlarmRequest,
-    UnshelveAlarmResponse, topics,
+    AcknowledgeAlarmRequest, AcknowledgeAlarmResponse, ConfirmMappingRequest, ConfirmMappingResponse,
+    ShelveAlarmRequest, ShelveAlarmResponse, UnshelveAlarmRequest, UnshelveAlarmResponse, topics,
 };
 use flexdrill_ros2::args::NodeIdentity;
 use flexdrill_ros2::client::{CallError, ServiceClient};
@@ -16,7 +16,7 @@ use flexdrill_text::{log_ending, printable};
 /// Longest name of an operator (characters).
 const LONGEST_NAME: usize = 100;
 
-/// An operator's request to the node.
+/// An operator's request to the node, or to the bridge of its rig.
 pub(crate) enum Action {
     Acknowledge {
         id: String,
@@ -34,6 +34,11 @@ pub(crate) enum Action {
     },
     Reset,
     Pause(bool),
+    /// What a bridge makes of a source was compared with the rig's display.
+    ConfirmMapping {
+        source: String,
+        mapping: String,
+    },
 }
 
 /// The endpoints for steering and requests.
@@ -46,6 +51,9 @@ pub(crate) struct ControlParts {
     unshelve: ServiceClient,
     reset: ServiceClient,
     pause: ServiceClient,
+    confirm: ServiceClient,
+    /// Absolute name of that service.
+    pub confirm_name: String,
 }
 
 impl ControlParts {
@@ -68,6 +76,10 @@ impl ControlParts {
             topics::RIG_INPUTS.kind.dds_type,
             offer,
         );
+        // The bridge stands in the namespace of the twin, under its usual name.
+        let bridge = NodeIdentity::new(&twin.namespace, topics::WITS_BRIDGE)?;
+        let confirm_name = bridge.expand(topics::CONFIRM_MAPPING)?;
+        let confirm = ServiceClient::new(port, &confirm_name, "flexdrill/srv/ConfirmMapping", identity);
         let mut client = |name: &str, kind: &str| -> Result<ServiceClient, DashboardError> {
             Ok(ServiceClient::new(port, &twin.expand(name)?, kind, identity))
         };
@@ -79,6 +91,8 @@ impl ControlParts {
             unshelve: client("~/unshelve_alarm", "flexdrill/srv/UnshelveAlarm")?,
             reset: client("~/reset", "std_srvs/srv/Trigger")?,
             pause: client("~/pause", "std_srvs/srv/SetBool")?,
+            confirm,
+            confirm_name,
         })
     }
 }
@@ -136,6 +150,15 @@ impl Control {
                 }
                 let answer = parts.pause.call(monitor, &SetBoolRequest { data }).await;
                 answer.map(|SetBoolResponse { success, message }| (success, message))
+            }
+            Action::ConfirmMapping { source, mapping } => {
+                let request = ConfirmMappingRequest {
+                    source,
+                    mapping,
+                    operator_name,
+                };
+                let answer = parts.confirm.call(monitor, &request).await;
+                answer.map(|ConfirmMappingResponse { success, message }| (success, message))
             }
         };
         // A refusal is the node's answer and is shown as it is; no answer

@@ -66,6 +66,11 @@ impl Control {
         }
     }
 
+    /// Absolute name of the service that confirms what a bridge makes of a rig's line.
+    pub fn confirm_service(&self) -> &str {
+        &self.parts.confirm_name
+    }
+
     /// Whether the client has sent the right token.
     pub fn admits(&self, offered: &str) -> bool {
         self.token.is(offered)

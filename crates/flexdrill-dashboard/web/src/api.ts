@@ -163,6 +163,33 @@ export interface WhatIf {
   answers: WhatIfAnswer[];
 }
 
+/** An item of a rig's line; `quantity` is empty where it is not read. */
+export interface MappedItem {
+  item: string;
+  quantity: string;
+  /** Its first value with the mapping's unit. */
+  sent: string;
+  /** The same in the unit in which people know it. */
+  used: string;
+}
+
+/** What a bridge makes of a source. */
+export interface Mapping {
+  node: string;
+  source: string;
+  address: string;
+  /** First digits of the mapping's hash. */
+  mapping: string;
+  file: string;
+  /** When and by whom; empty where no person has confirmed it. */
+  confirmed: string;
+  /** Whether this page may confirm it. */
+  can_confirm: boolean;
+  /** How many items are left out; empty where none is. */
+  not_shown: string;
+  items: MappedItem[];
+}
+
 async function json<T>(path: string, timeout?: number): Promise<T | null> {
   try {
     const signal = timeout === undefined ? null : AbortSignal.timeout(timeout);
@@ -177,6 +204,8 @@ export const session = (): Promise<Session | null> => json<Session>("/api/sessio
 /** Asked twice a second; an answer that takes longer than this (ms) is of no use. */
 export const pulse = (): Promise<Pulse | null> => json<Pulse>("/api/pulse", 2500);
 export const control = (): Promise<ControlState | null> => json<ControlState>("/api/control");
+
+export const mappings = (): Promise<Mapping[] | null> => json<Mapping[]>("/api/mappings");
 
 export const whatIf = (): Promise<WhatIf | null> => json<WhatIf>("/api/what_if");
 

@@ -5,6 +5,7 @@ import type { Residual, Residuals } from "../messages";
 import { stamp } from "../store/topics";
 import { convert, digits, type Kind, lapse, number, quantity, type System } from "../units";
 import { type Context, Pace, type View } from "../view";
+import { MappingView } from "./mapping";
 import { Strip, withGaps } from "./strip";
 
 /** Older than this (ms) the comparison is of the past. */
@@ -95,9 +96,11 @@ export class RigView implements View {
   private readonly choice: HTMLSelectElement;
   private readonly strip: Strip;
   private readonly body: HTMLElement;
+  private readonly mapping: MappingView;
   private readonly pace = new Pace(500);
 
   constructor(private readonly context: Context) {
+    this.mapping = new MappingView(context);
     this.choice = h(
       "select",
       { id: "rig-quantity", "aria-label": "Quantity of the comparison" },
@@ -136,11 +139,13 @@ export class RigView implements View {
       h("h2", {}, "What the rig measures, and what the twin expects"),
       this.state,
       this.body,
+      this.mapping.element,
     );
   }
 
   draw(now: number): void {
     const { context } = this;
+    this.mapping.draw(now);
     if (this.element.clientWidth === 0 || !this.pace.due(now, context.revision)) return;
     const { store } = context;
     const { residuals } = store;
