@@ -7,6 +7,7 @@
 )]
 
 mod ahead;
+mod guess;
 mod paper;
 mod plan;
 mod posterior;

@@ -261,7 +261,15 @@ fn the_page_shows_the_items_of_a_rigs_line_and_confirms_them() {
     let state = tempfile::tempdir().unwrap();
     let mut bridge = network.command(env!("CARGO_BIN_EXE_flexdrill"));
     bridge
-        .args(["bridge", "wits", "--namespace", "/rig_7", "--listen", "127.0.0.1:0", "--state-dir"])
+        .args([
+            "bridge",
+            "wits",
+            "--namespace",
+            "/rig_7",
+            "--listen",
+            "127.0.0.1:0",
+            "--state-dir",
+        ])
         .arg(state.path());
     let mut bridge = Program::start(bridge);
     let said = bridge.wait_for("wits at 127.0.0.1:");
@@ -280,7 +288,11 @@ fn the_page_shows_the_items_of_a_rigs_line_and_confirms_them() {
     let first = &shown[0];
     assert_eq!(
         (&first["node"], &first["source"], &first["file"]),
-        (&json!("/rig_7/flexdrill_bridge_wits"), &json!("127.0.0.1"), &json!("default"))
+        (
+            &json!("/rig_7/flexdrill_bridge_wits"),
+            &json!("127.0.0.1"),
+            &json!("default")
+        )
     );
     assert_eq!((&first["confirmed"], &first["can_confirm"]), (&json!(""), &json!(true)));
     // A kdaN is 10 kN.
@@ -295,11 +307,20 @@ fn the_page_shows_the_items_of_a_rigs_line_and_confirms_them() {
     let wanted = |mapping: &Value| json!({"operator": "Kim", "source": "127.0.0.1", "mapping": mapping});
     assert_eq!(server.post("confirm_mapping", "", wanted(&first["mapping"])).0, 401);
     let (code, refused) = server.post("confirm_mapping", TOKEN, wanted(&json!("0123456789abcdef")));
-    assert!(code == 409 && text(&refused).contains("compare its table again"), "{code} {refused}");
+    assert!(
+        code == 409 && text(&refused).contains("compare its table again"),
+        "{code} {refused}"
+    );
     let (code, done) = server.post("confirm_mapping", TOKEN, wanted(&first["mapping"]));
-    assert!(code == 200 && text(&done).ends_with("is confirmed for 127.0.0.1 by Kim"), "{code} {done}");
+    assert!(
+        code == 200 && text(&done).ends_with("is confirmed for 127.0.0.1 by Kim"),
+        "{code} {done}"
+    );
     let confirmed = server.body_with("/api/mappings", |all| all[0]["confirmed"] != "");
-    assert!(confirmed[0]["confirmed"].as_str().unwrap().ends_with(" by Kim"), "{confirmed}");
+    assert!(
+        confirmed[0]["confirmed"].as_str().unwrap().ends_with(" by Kim"),
+        "{confirmed}"
+    );
     // Another namespace has another rig, and a server for reading only confirms nothing.
     server.end();
     let reader = Server::start(&network, &["--namespace", "/rig_7"]);

@@ -194,7 +194,9 @@ fn a_second_source_on_a_bridge_is_refused_and_named() {
 /// A bridge that listens, with its mapping and its state, on a terminal; and the port.
 fn listening(network: &Network, [state, map]: [&Path; 2], more: &[&str], terminal: Stdio) -> (Program, String) {
     let mut bridge = network.command(env!("CARGO_BIN_EXE_flexdrill"));
-    bridge.args(["bridge", "wits", "--listen", "127.0.0.1:0", "--map"]).arg(map);
+    bridge
+        .args(["bridge", "wits", "--listen", "127.0.0.1:0", "--map"])
+        .arg(map);
     bridge.arg("--state-dir").arg(state).args(more);
     let mut bridge = Program::start_at(bridge, terminal);
     let said = bridge.wait_for("wits at 127.0.0.1:");
