@@ -138,7 +138,7 @@ impl Confirmations {
                 }
             }
         }
-        // The head in the file tells two long names apart that begin alike.
+        // The head in the file distinguishes two long names that begin alike.
         plain.truncate(LONGEST_SOURCE);
         let name = format!("wits_mapping_{}_{plain}.confirmed", self.short_hash());
         Some(self.folder.as_ref()?.join(name))

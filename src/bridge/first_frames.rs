@@ -88,7 +88,7 @@ impl FirstFrames {
         doubtful.count() as u64
     }
 
-    /// Takes a frame with an item, that arrived at `now` (ns since 1970). Returns the table for people, if it is the first of
+    /// Takes a frame with an item that arrived at `now` (ns since 1970). Returns the table for people, if it is the first of
     /// its connection. A source that connects again and again has one table in ten seconds.
     pub fn frame(&mut self, connection: u64, frame: &RawFrame, mapping: &Mapping, now: i64) -> Option<String> {
         let found = self.connections.get_mut(&connection);
@@ -345,7 +345,7 @@ mod tests {
         assert!(open(&mut first, 1001, "0").is_none());
         assert_eq!(first.unconfirmed(), 2);
         let shown = (1..500).filter(|source| open(&mut first, *source, &source.to_string()).is_some());
-        // The first 64 and one of all others; the test ends within ten seconds, except on a machine that stands still.
+        // The first 64 and one of all others; the test ends within ten seconds, except on a machine that pauses.
         let shown = shown.count() as u64;
         assert!((MOST_SOURCES as u64..70).contains(&shown), "{shown}");
         assert_eq!(first.unconfirmed(), shown + 2);

@@ -62,7 +62,8 @@ struct WitsArgs {
     #[arg(long, value_name = "FILE", default_value = "site.yaml", requires = "look")]
     site: PathBuf,
     /// Confirm what the mapping makes of each source when its first frame is shown. Without it the values are marked SUSPECT
-    /// until a person presses c and Enter. A confirmation is kept for this mapping and this source.
+    /// until a person presses c and Enter, or confirms them on the page. A confirmation is kept for this mapping and this
+    /// source.
     #[arg(long, conflicts_with = "look")]
     confirm: bool,
     /// Folder for the confirmations; default $XDG_STATE_HOME/flexdrill or ~/.local/state/flexdrill.

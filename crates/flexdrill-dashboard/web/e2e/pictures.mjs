@@ -77,7 +77,7 @@ try {
   );
   start("node", "run", "--config", join(root, "config/rig.yaml"));
   start("rig", "rig", join(work, "rig.csv"), "--mapping", join(work, "mapping.yaml"), "--wits", "127.0.0.1:5555");
-  start("bridge", "bridge", "wits", "--connect", "127.0.0.1:5555");
+  start("bridge", "bridge", "wits", "--connect", "127.0.0.1:5555", "--confirm", "--state-dir", join(work, "state"));
   await until("the rig", 60, async () => ["NORMAL", "WATCH", "ACT SOON"].includes(await word()));
   await page.click("#tab-rig");
   await page.waitForTimeout(190_000);

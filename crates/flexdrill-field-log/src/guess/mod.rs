@@ -10,6 +10,7 @@ mod numbers;
 mod sheet;
 mod show;
 mod time;
+mod vocabulary;
 
 use std::path::Path;
 
