@@ -17,6 +17,8 @@ const MOST_ROWS: usize = 100;
 const TABLE_INTERVAL: f64 = 10.0;
 /// Most sources that have this interval for themselves; all others share one.
 const MOST_SOURCES: usize = 64;
+/// Most sources whose confirmation is known to this run alone.
+const MOST_UNKEPT: usize = 64;
 /// Longest name of an operator (characters).
 const LONGEST_NAME: usize = 100;
 
@@ -26,6 +28,8 @@ pub struct FirstFrames {
     /// Confirm each source when its first frame was shown: a person has asked for it.
     confirms: bool,
     connections: BTreeMap<u64, Connection>,
+    /// When and by whom sources were confirmed whose confirmation the disk has refused.
+    unkept: BTreeMap<String, String>,
     /// When the table of a source was shown; an empty name is all further sources.
     tables: BTreeMap<String, Throttle>,
     began: Instant,
@@ -49,6 +53,7 @@ impl FirstFrames {
             confirmations,
             confirms,
             connections: BTreeMap::new(),
+            unkept: BTreeMap::new(),
             tables: BTreeMap::new(),
             began: Instant::now(),
         }
@@ -56,12 +61,15 @@ impl FirstFrames {
 
     /// Adds a connection.
     pub fn opened(&mut self, connection: u64, source: String, address: String) {
-        let confirmed = self.confirmations.of(&source).unwrap_or_else(|error| {
-            if let Some(more) = log_ending("wits confirmation") {
-                tracing::warn!("wits: {error}{more}");
-            }
-            None
-        });
+        let kept = || {
+            self.confirmations.of(&source).unwrap_or_else(|error| {
+                if let Some(more) = log_ending("wits confirmation") {
+                    tracing::warn!("wits: {error}{more}");
+                }
+                None
+            })
+        };
+        let confirmed = self.unkept.get(&source).cloned().or_else(kept);
         let opened = Connection {
             source,
             address,
@@ -183,8 +191,9 @@ impl FirstFrames {
 
     /// Confirms a source in this run, and keeps that. Returns the result in words, as an error where it is not kept.
     fn confirm(&mut self, source: &str, by: &str, now: i64) -> Result<String, String> {
+        let when = Confirmations::words(by, now);
         for found in self.connections.values_mut().filter(|found| found.source == source) {
-            found.confirmed = Some(Confirmations::words(by, now));
+            found.confirmed = Some(when.clone());
         }
         let (name, hash) = (printable(self.confirmations.mapping()), self.confirmations.short_hash());
         let text = format!("mapping {hash} ({name}) is confirmed for {} by {by}", printable(source));
@@ -195,6 +204,9 @@ impl FirstFrames {
             }
             Err(error) => {
                 tracing::warn!("wits: {text}, and not kept: {error}");
+                if self.unkept.len() < MOST_UNKEPT {
+                    self.unkept.insert(source.to_owned(), when);
+                }
                 Err(format!("{text} in this run, but not kept over a restart: {error}"))
             }
         }
@@ -389,6 +401,13 @@ mod tests {
         let answer = first.answer(&request("disk-a", &hash, "ann"), 0);
         assert!(!answer.success && answer.message.contains("--state-dir"), "{answer:?}");
         assert!(first.is_confirmed(1));
+        // Also after a new connection of the same source, until the bridge ends.
+        first.closed(1);
+        open(&mut first, 2, "disk-a");
+        assert!(first.is_confirmed(2));
+        let mut later = frames(&file, false);
+        open(&mut later, 1, "disk-a");
+        assert!(!later.is_confirmed(1));
     }
 
     #[test]
