@@ -36,7 +36,7 @@ pub(super) struct BridgeArgs {
 
 #[derive(Debug, Subcommand)]
 enum Protocol {
-    Wits(WitsArgs),
+    Wits(Box<WitsArgs>),
     Mqtt(Box<mqtt::MqttArgs>),
     Opcua(Box<opcua::OpcuaArgs>),
 }
