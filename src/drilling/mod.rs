@@ -4,6 +4,7 @@
 //! - [`tool`]: guide, bit and hole of a configuration; [`loads`]: its loads.
 //! - [`unknowns`]: what is not known, and plausible tools drawn from it.
 //! - [`plan`]: a planned hole and the distance to it.
+//! - [`to_plan`]: the next metres against a plan, and the weight that brings the hole back; [`weights`]: those to choose from.
 //! - [`range`]: what the guide drills in a long arc, and what with no bit; [`words`]: the same in words.
 //! - [`live`]: what the bit of a live twin does across the hole, and where it drills: `twin/hole_ahead`.
 
@@ -11,8 +12,10 @@ pub mod live;
 pub mod loads;
 pub mod plan;
 pub mod range;
+pub mod to_plan;
 pub mod tool;
 pub mod unknowns;
+pub mod weights;
 pub mod words;
 
 use flexdrill_hole::{HoleError, Propagation, RIPPLE_THRESHOLD, Steady};
@@ -24,6 +27,11 @@ pub use tool::{Drilling, Refusal, SPACING};
 pub const USUAL_WEIGHT: f64 = 10e3;
 /// Length ahead where none is given (m).
 pub const USUAL_LENGTH: f64 = 5.0;
+
+/// Stations of the next metre.
+pub const NEXT_METRE: usize = (1.0 / SPACING) as usize;
+/// Sine of the inclination below which an azimuth says nothing: 3 deg from the vertical.
+pub const STEEP: f64 = 0.052;
 
 /// The bit at a depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -191,6 +199,20 @@ pub fn build(track: &[Station], stations: usize) -> f64 {
         (Some(first), Some(last_station)) => (last_station.inclination - first.inclination) / (last as f64 * SPACING),
         _ => f64::NAN,
     }
+}
+
+/// Angle between the directions at both ends of the next metre, per metre (1/m).
+pub fn curvature(track: &[Station]) -> f64 {
+    let ends = (track.first(), track.get(NEXT_METRE));
+    let (Some(from), Some(to)) = ends else { return f64::NAN };
+    // Components of the later direction across the earlier one, and along it.
+    let direction = |at: &Station| {
+        let ((sine, cosine), (east, north)) = (libm::sincos(at.inclination), libm::sincos(at.azimuth));
+        [sine * north, sine * east, cosine]
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| a.into_iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let [high, right] = across(from).map(|unit| dot(unit, direction(to)));
+    libm::atan2(high.hypot(right), dot(direction(from), direction(to))) / (NEXT_METRE as f64 * SPACING)
 }
 
 #[cfg(test)]

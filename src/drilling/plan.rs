@@ -264,6 +264,21 @@ pub fn azimuth(rows: &[Row], depth: f64) -> f64 {
     libm::atan2(y, x)
 }
 
+/// Inclination and azimuth of rows at a depth (rad).
+pub fn heading(rows: &[Row], depth: f64) -> [f64; 2] {
+    [inclination(direction(rows, depth)), azimuth(rows, depth)]
+}
+
+/// Rows turned about the vertical, so that the plan at a depth (m) lies in the plane of a hole without an azimuth.
+pub fn in_plane_at(rows: &[Row], depth: f64) -> Vec<Row> {
+    let plane = azimuth(rows, depth);
+    let turned = |row: &Row| Row {
+        azimuth: row.azimuth - plane,
+        ..*row
+    };
+    rows.iter().map(turned).collect()
+}
+
 /// Position of the hole as configured at a depth (m).
 fn on_hole(drilling: &Drilling, depth: f64) -> [f64; 3] {
     let mut left = depth;

@@ -6,17 +6,16 @@ use flexdrill_config::{BitAxis, Config, FreeBend, Section};
 use flexdrill_core::units::{deg_to_rad, n_to_kn, rad_to_deg};
 use flexdrill_hole::{at_rest, bounds, steady};
 
+use crate::drilling::to_plan::{ToPlan, compare};
 use crate::drilling::unknowns;
-use crate::drilling::{Band, Drilling, Long, SPACING, Spread, Station, Track, across, build, drill, spread, turned};
+use crate::drilling::{
+    Band, Drilling, Long, NEXT_METRE, SPACING, STEEP, Spread, Station, Track, build, curvature, drill, spread, turned,
+};
 
 /// Metres ahead.
 pub const METRES: f64 = 5.0;
 /// Plausible tools: a range needs 19, and some may have no result.
 pub const MEMBERS: usize = 24;
-/// Stations of the next metre.
-const NEXT_METRE: usize = (1.0 / SPACING) as usize;
-/// Sine of the inclination below which an azimuth says nothing: 3 deg from the vertical.
-const STEEP: f64 = 0.052;
 
 /// A number with 5 and 95 % of the plausible tools.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +47,8 @@ pub struct Ahead {
     pub rates: Option<[Ranged; 3]>,
     /// Plausible tools with a result, and without.
     pub members: [u32; 2],
+    /// The plan of the configuration against it, or why it is not compared; none without a plan.
+    pub plan: Option<Result<ToPlan, String>>,
 }
 
 /// Why nothing can be said for a configuration, whatever the load; none where something can.
@@ -82,20 +83,6 @@ fn walk(track: &[Station]) -> f64 {
         return f64::NAN;
     }
     turned(to.azimuth - from.azimuth) / (NEXT_METRE as f64 * SPACING)
-}
-
-/// Angle between the directions at both ends of the next metre, per metre (1/m).
-fn curvature(track: &[Station]) -> f64 {
-    let ends = (track.first(), track.get(NEXT_METRE));
-    let (Some(from), Some(to)) = ends else { return f64::NAN };
-    // Components of the later direction across the earlier one, and along it.
-    let direction = |at: &Station| {
-        let ((sine, cosine), (east, north)) = (libm::sincos(at.inclination), libm::sincos(at.azimuth));
-        [sine * north, sine * east, cosine]
-    };
-    let dot = |a: [f64; 3], b: [f64; 3]| a.into_iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let [high, right] = across(from).map(|unit| dot(unit, direction(to)));
-    libm::atan2(high.hypot(right), dot(direction(from), direction(to))) / (NEXT_METRE as f64 * SPACING)
 }
 
 /// A rate of the tool as configured, with its range.
@@ -139,6 +126,8 @@ pub fn compute(config: &Config, weight: f64, seed: u64, stop: &AtomicBool) -> Re
         ranged(&track, &members, curvature),
     ];
     let known = members.iter().flatten().count();
+    let spread = spread(&track, &members);
+    let plan = compare(config, &drilling, weight, &track, &members, &spread, stop);
     let rates = match rates {
         [Some(build), Some(walk), Some(curvature)] => Some([build, walk, curvature]),
         _ => None,
@@ -148,8 +137,9 @@ pub fn compute(config: &Config, weight: f64, seed: u64, stop: &AtomicBool) -> Re
         long: Long::from(long),
         arc: arc_above_the_bit(config),
         any_bit: [any_bit.low, any_bit.high],
-        spread: spread(&track, &members),
+        spread,
         track,
+        plan,
         rates,
         members: [known, MEMBERS - known].map(|count| u32::try_from(count).unwrap_or(u32::MAX)),
     })

@@ -3,6 +3,8 @@
 use super::Draft;
 use super::answer::{Ahead, Ranged};
 use crate::drilling::SPACING;
+use crate::drilling::to_plan::{At, ToPlan};
+use flexdrill_core::units::kn_to_n;
 use flexdrill_messages::HoleAhead;
 
 /// What stands where nothing is known.
@@ -66,6 +68,15 @@ fn means(draft: &Draft) -> HoleAhead {
         radius_any_bit_low: unknown,
         radius_any_bit_high: unknown,
         since_survey: unknown,
+        plan_target: unknown,
+        plan_build_rate: unknown,
+        plan_off: unknown,
+        plan_weight_low: unknown,
+        plan_weight_high: unknown,
+        plan_nearest_weight: unknown,
+        plan_nearest_off: unknown,
+        plan_nearest_radius: unknown,
+        plan_weight: unknown,
         window: means.window,
         turns: means.turns,
         side_force_low: means.side_force[1],
@@ -119,4 +130,38 @@ fn fill(ahead: &Ahead, out: &mut HoleAhead) {
     out.azimuths_high = of(|at| at.azimuth.high);
     out.half_width_high = of(|at| at.high.half());
     out.half_width_right = of(|at| at.right.half());
+    match &ahead.plan {
+        Some(Ok(plan)) => to_plan(plan, out),
+        Some(Err(why)) => out.plan_because.clone_from(why),
+        None => {}
+    }
+}
+
+/// The plan against it.
+fn to_plan(plan: &ToPlan, out: &mut HoleAhead) {
+    out.plan_target = plan.target;
+    out.plan_build_rate = plan.build;
+    // Beyond the end of the plan there is no distance to it.
+    let stations = out.measured_depths.len();
+    let of = |number: fn(&At) -> f64| {
+        let known = plan.stations.iter().map(number);
+        known.chain(std::iter::repeat(f64::NAN)).take(stations).collect()
+    };
+    out.plan_high = of(|at| at.high);
+    out.plan_right = of(|at| at.right);
+    out.plan_inclination = of(|at| at.inclination);
+    out.plan_azimuth = of(|at| at.azimuth);
+    out.plan_within = of(|at| at.within);
+    out.plan_off = plan.off;
+    if let Some(tried) = plan.tried {
+        (out.plan_weight_low, out.plan_weight_high) = (kn_to_n(tried.low), kn_to_n(tried.high));
+    }
+    if let Some(nearest) = plan.nearest {
+        out.plan_nearest_weight = nearest.weight;
+        out.plan_nearest_off = nearest.off;
+        out.plan_nearest_radius = radius(nearest.curvature);
+    }
+    out.plan_weight = plan.weight().unwrap_or(f64::NAN);
+    out.plan_no_weight = plan.no_weight();
+    out.plan_no_guide = plan.no_guide;
 }

@@ -1020,6 +1020,49 @@ export interface HoleAhead {
   surveys_used: number;
   /** How far the bit is beyond the last of them (m); NaN without any. */
   since_survey: number;
+  /** Why there is no comparison where the configuration has a plan; empty otherwise. */
+  plan_because: string;
+  /** Radius around the plan within which the bit is on plan (m). */
+  plan_target: number;
+  /** Build rate of the plan over the next metre (rad/m). */
+  plan_build_rate: number;
+  /**
+   * By measured_depths, NaN beyond the end of the plan. Distance of the bit from the nearest point of the plan, to the high
+   * side (m): above 0 the bit is above the plan.
+   */
+  plan_high: Float64Array;
+  /** The same to the right (m). */
+  plan_right: Float64Array;
+  /** Inclination less that of the plan at the same measured depth (rad): below 0 the hole builds less than planned. */
+  plan_inclination: Float64Array;
+  /** Azimuth less that of the plan (rad): above 0 the hole is to the right of it. NaN within 3 deg of the vertical. */
+  plan_azimuth: Float64Array;
+  /** Share of the plausible tools that stay within plan_target from the bit up to there, 0 to 1. */
+  plan_within: Float64Array;
+  /**
+   * How far the plan is from the middle of the range of the plausible tools, in half widths of that range: the largest of the
+   * inclination and, outside plan_target, of the position, from 1 m ahead on. Above 1 the hole leaves its plan.
+   */
+  plan_off: number;
+  /**
+   * Where plan_off is above 0.9, the weights from plan_weight_low to plan_weight_high are searched: within a half of the present
+   * one and inputs.weight_on_bit.
+   */
+  plan_weight_low: number;
+  plan_weight_high: number;
+  /** The weight of these with the smallest plan_off (N), with that and the radius of the next metre (m). NaN where none is known. */
+  plan_nearest_weight: number;
+  plan_nearest_off: number;
+  plan_nearest_radius: number;
+  /** The same weight where it brings the hole back to its plan, with a plan_off of at most 0.9 (N); NaN otherwise. */
+  plan_weight: number;
+  /** Whether the hole leaves its plan and none of these weights brings it back. */
+  plan_no_weight: boolean;
+  /**
+   * Whether this guide drills no such hole with any bit, in any rock, at any weight that the inputs allow: the mean build rate of
+   * the plan over 5 m is outside kf -+ sqrt(2 p c/EI).
+   */
+  plan_no_guide: boolean;
 }
 /** Reads a `flexdrill/msg/HoleAhead`. */
 export function decodeHoleAhead(reader: CdrReader): HoleAhead {
@@ -1075,6 +1118,23 @@ export function decodeHoleAhead(reader: CdrReader): HoleAhead {
     failed: reader.uint32(),
     surveys_used: reader.uint32(),
     since_survey: reader.float64(),
+    plan_because: reader.string(),
+    plan_target: reader.float64(),
+    plan_build_rate: reader.float64(),
+    plan_high: reader.float64Array(reader.length()),
+    plan_right: reader.float64Array(reader.length()),
+    plan_inclination: reader.float64Array(reader.length()),
+    plan_azimuth: reader.float64Array(reader.length()),
+    plan_within: reader.float64Array(reader.length()),
+    plan_off: reader.float64(),
+    plan_weight_low: reader.float64(),
+    plan_weight_high: reader.float64(),
+    plan_nearest_weight: reader.float64(),
+    plan_nearest_off: reader.float64(),
+    plan_nearest_radius: reader.float64(),
+    plan_weight: reader.float64(),
+    plan_no_weight: reader.bool(),
+    plan_no_guide: reader.bool(),
   };
 }
 
