@@ -38,6 +38,8 @@ pub enum AlarmId {
     KnownWindow,
     /// What the rig measures is beyond the band that the twin expects.
     RigDisagrees,
+    /// The plan of the hole is outside the range in which plausible tools drill.
+    HoleLeavesPlan,
     /// A client has changed values that alarms depend on.
     ChangedParameters,
     /// Rotary speed not received, refused or stale.
@@ -62,7 +64,7 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 24] = [
+    pub const ALL: [AlarmId; 25] = [
         AlarmId::BitStuck,
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
@@ -77,6 +79,7 @@ impl AlarmId {
         AlarmId::ModelQuality,
         AlarmId::KnownWindow,
         AlarmId::RigDisagrees,
+        AlarmId::HoleLeavesPlan,
         AlarmId::ChangedParameters,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
@@ -106,6 +109,7 @@ impl AlarmId {
             AlarmId::ModelQuality => "model_quality",
             AlarmId::KnownWindow => "known_window",
             AlarmId::RigDisagrees => "rig_disagrees",
+            AlarmId::HoleLeavesPlan => "hole_leaves_plan",
             AlarmId::ChangedParameters => "changed_parameters",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
@@ -136,6 +140,7 @@ impl AlarmId {
             AlarmId::ModelQuality => "model unreliable",
             AlarmId::KnownWindow => "outside the known window",
             AlarmId::RigDisagrees => "twin and rig disagree",
+            AlarmId::HoleLeavesPlan => "hole leaves its plan",
             AlarmId::ChangedParameters => "changed parameters",
             AlarmId::RotarySpeedInput => "no valid rotary speed",
             AlarmId::WeightOnBitInput => "no valid weight on bit",
@@ -219,6 +224,7 @@ impl AlarmId {
             AlarmId::ModelQuality => tool(&alarms.model_quality),
             AlarmId::KnownWindow => tool(&alarms.known_window),
             AlarmId::RigDisagrees => tool(&alarms.rig_disagrees),
+            AlarmId::HoleLeavesPlan => tool(&alarms.hole_leaves_plan),
             AlarmId::ChangedParameters => tool(&alarms.changed_parameters),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),

@@ -7,7 +7,7 @@
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
 //!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
 //!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes;
-//!   `adjusted`: what followed from it. `changed`: what clients have changed of the configuration.
+//!   `adjusted`: what followed from it. `plan`: where the tool drills against the plan of the hole. `changed`: what clients have changed of the configuration.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `plausible`: in how
 //!   many plausible tools an alarm stands. `sentence`: parts of sentences. `set`: sets of alarms.
 //! - `fill`: messages. `state_file`: the state that outlasts a restart.
@@ -21,6 +21,7 @@ mod changed;
 mod fill;
 mod finding;
 mod node;
+mod plan;
 mod plausible;
 mod request;
 mod rig;
@@ -38,6 +39,7 @@ pub(crate) use fill::priority as priority_code;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};
+pub use plan::BACK as BACK_ON_PLAN;
 pub use request::Request;
 pub use rig::{Followed, Judged, in_words};
 pub use set::AlarmSet;
@@ -47,7 +49,7 @@ use std::sync::Arc;
 
 use crate::messages::std_msgs::Header;
 use crate::messages::topics;
-use crate::messages::{AlarmEvent, AlarmList, Bands, CdrError, Residuals, to_cdr_into};
+use crate::messages::{AlarmEvent, AlarmList, Bands, CdrError, HoleAhead, Residuals, to_cdr_into};
 use flexdrill_alarms::{
     AlarmSystem, Event, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time,
 };
@@ -92,6 +94,8 @@ pub struct AlarmBook {
     unknown: Unknown,
     /// When rig and twin were compared last in steady motion.
     rig_judged: Time,
+    /// When the hole ahead was compared last with its plan.
+    plan_judged: Time,
     /// What the twin expects of the rig, as the journal has it.
     adjusted: Adjusted,
     /// What clients have changed of the configuration.
@@ -155,6 +159,7 @@ impl AlarmBook {
             lead: None,
             unknown: Unknown::default(),
             rig_judged: Time::MIN,
+            plan_judged: Time::MIN,
             adjusted: Adjusted::default(),
             changed: Changed::new(Arc::clone(&config)),
             restored: (0..AlarmId::ALL.len())
@@ -233,6 +238,20 @@ impl AlarmBook {
                 }
             }
         }
+    }
+
+    /// Observes where the tool drills against the plan of the hole, at the message's stamp. A standing alarm outlasts a change
+    /// of the weight, until whose answer nothing is known.
+    pub fn observe_hole(&mut self, hole: &HoleAhead, stamp: Time) {
+        let stands = self.active(AlarmId::HoleLeavesPlan).is_some();
+        let lead = self.leading().map(|leading| leading.alarm);
+        let finding = plan::finding(hole, stands, lead, self.unknown);
+        if finding.is_some() {
+            self.plan_judged = stamp;
+        } else if stands && stamp.saturating_sub(self.plan_judged) <= plan::OUTLASTS {
+            return;
+        }
+        self.observe([(AlarmId::HoleLeavesPlan, finding.unwrap_or_default())], stamp);
     }
 
     /// Enters what changed of what the twin expects of the rig, as a comparison has it at its stamp.

@@ -38,6 +38,7 @@ pub fn items(
         motion.shock(),
         motion.joint_load(),
         motion.transfer(),
+        MotionEvidence::hole(),
         recording(status),
         network(status),
     ];

@@ -115,6 +115,15 @@ impl MotionEvidence {
         }
     }
 
+    pub(super) fn hole() -> Item {
+        Item {
+            name: "hole",
+            alarms: &[AlarmId::HoleLeavesPlan],
+            calm: "no alarm on where the tool drills".to_owned(),
+            values: Vec::new(),
+        }
+    }
+
     pub(super) fn joint_load(&self) -> Item {
         let load = self.joint_load.unwrap_or(Hazard::calm(HazardKind::JointLoad));
         // Below the first level the location changes with every turn.

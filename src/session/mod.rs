@@ -161,6 +161,7 @@ impl Session {
     pub fn reconfigure(&mut self, config: &Arc<Config>, changes: &[ParameterChange]) {
         self.alarms.reconfigure(config, changes);
         self.rig.reconfigure(config);
+        self.hole.reconfigure(config);
         if let Some(outputs) = &mut self.outputs {
             outputs.reconfigure(config);
         }
@@ -302,8 +303,8 @@ impl Session {
         Ok(())
     }
 
-    /// Publishes where the tool drills next, up to the first message whose answer is not there. Where the run can `wait` for
-    /// it, it does.
+    /// Publishes where the tool drills next, and judges the alarm on the plan, up to the first message whose answer is not
+    /// there. Where the run can `wait` for it, it does.
     ///
     /// # Errors
     /// As [`Session::begin`].
@@ -319,6 +320,7 @@ impl Session {
             message.header = self.header(stamp);
             let answered = answered.and_then(|ticks| self.instant(ticks));
             message.answered = answered.map_or_else(Time::default, Time::from_nanoseconds);
+            self.alarms.observe_hole(&message, stamp);
             host.send(Encoded {
                 topic: &topics::HOLE_AHEAD,
                 stamp,

@@ -814,7 +814,7 @@ fn a_state_of_an_earlier_run_is_marked_until_it_changes() {
 }
 
 /// The items of `/diagnostics` with their alarms.
-const ITEMS: [(&str, &[AlarmId]); 12] = [
+const ITEMS: [(&str, &[AlarmId]); 13] = [
     ("pacing", &[AlarmId::RealTime]),
     ("solver", &[AlarmId::Solver, AlarmId::ModelQuality]),
     (
@@ -843,6 +843,7 @@ const ITEMS: [(&str, &[AlarmId]); 12] = [
             AlarmId::PressureFolding,
         ],
     ),
+    ("hole", &[AlarmId::HoleLeavesPlan]),
     ("recording", &[AlarmId::Recording]),
     ("network", &[AlarmId::Network]),
 ];

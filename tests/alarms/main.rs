@@ -30,6 +30,7 @@ mod chatter;
 mod disagrees;
 mod forecast;
 mod leading;
+mod plan;
 mod rig;
 mod transfer;
 mod whirl;

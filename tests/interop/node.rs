@@ -117,6 +117,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "shock",
         "joint load",
         "transfer",
+        "hole",
         "recording",
         "network",
         "alarms",

@@ -42,6 +42,8 @@ section! {
         known_window: ToolAlarm = ToolAlarm { on_delay: 5.0, off_delay: 1.0, ..ToolAlarm::default() }, below;
         /// What the rig measures is beyond the band that the twin expects.
         rig_disagrees: ToolAlarm = ToolAlarm { on_delay: 10.0, off_delay: 30.0, ..ToolAlarm::default() }, below;
+        /// The plan of the hole (`well.plan`) is outside the range in which plausible tools drill.
+        hole_leaves_plan: ToolAlarm = ToolAlarm { on_delay: 5.0, off_delay: 10.0, ..ToolAlarm::default() }, below;
         /// A client has changed values that alarms depend on, and the twin differs from its configuration.
         changed_parameters: ToolAlarm = ToolAlarm { off_delay: 1.0, ..ToolAlarm::default() }, below;
         /// The rotary speed is not received, refused or stale.

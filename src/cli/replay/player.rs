@@ -259,9 +259,10 @@ impl Player {
         }
         self.session.frame(&self.frame, &mut self.sink)?;
         if judges {
+            // The hole ahead has an alarm, whose event is of this instant.
+            self.session.publish_hole(true, &mut self.sink)?;
             self.publish_alarms(stamp)?;
             self.session.publish_bands(false, &mut self.sink)?;
-            self.session.publish_hole(true, &mut self.sink)?;
         }
         self.sink.tally.publishing(monotonic::now().saturating_sub(began));
         Ok(())

@@ -6,7 +6,7 @@ import type { Plan, Session, Tool } from "../src/api";
 import type { HoleAhead } from "../src/messages";
 import { distance, laid, type Point } from "../src/plan";
 import { Store } from "../src/store/store";
-import { details, drawing, drilledOf, summary, toPlan, withheld } from "../src/views/hole";
+import { details, drawing, drilledOf, needs, summary, toPlan, withheld } from "../src/views/hole";
 
 const RADIUS = 3.2;
 const radians = (angle: number) => (angle * Math.PI) / 180;
@@ -180,6 +180,46 @@ test("the distance to the plan is named at 1, 3 and 5 m, and not beyond its end"
     /0\.1[56] m after 1 m; 1\.31 m after 3 m, off target \(target 0\.50 m\)\.$/,
   );
   assert.equal(said([bit, 20], [bit + 0.5, 20]), "The plan ends here.");
+});
+
+test("one sentence says what the plan needs and which weight helps", () => {
+  const bit = hole().measured_depths[0];
+  const depth = Array.from({ length: 21 }, (_, index) => 0.25 * index);
+  const compared: Partial<HoleAhead> = {
+    plan_because: "",
+    plan_off: 1.2,
+    plan_build_rate: 1 / 3.2,
+    plan_inclination: Float64Array.from(depth, (s) => radians(-2 * s)),
+    plan_within: Float64Array.from(depth, () => 0.75),
+    plan_weight_low: 9.5e3,
+    plan_weight_high: 15e3,
+    plan_nearest_weight: 15e3,
+    plan_nearest_radius: 3.33,
+    plan_weight: 15e3,
+    plan_no_weight: false,
+    plan_no_guide: false,
+  };
+  const said = (more: Partial<HoleAhead>) => needs(hole({ ...compared, ...more }), "si");
+  assert.equal(said({}), "The plan needs 3.20 m: 6.0° behind it after 3 m. At 15.0 kN: 3.33 m.");
+  const none = { plan_weight: NaN, plan_no_weight: true };
+  assert.match(said(none), /No weight from 9\.5 kN to 15\.0 kN brings it back; at 15\.0 kN: 3\.33 m\.$/);
+  assert.match(said({ ...none, plan_no_guide: true }), /cannot drill the plan at any weight; change the guide\.$/);
+  // On its plan no weight is searched, and a straight plan has no radius.
+  const on = { plan_weight: NaN, plan_nearest_weight: NaN, plan_off: 0.3, plan_build_rate: 0 };
+  assert.equal(said(on), "The plan needs a straight hole: 6.0° behind it after 3 m.");
+  // A plan that ends 2 m ahead, and one that is passed.
+  const short = Float64Array.from(depth, (s) => (s <= 2 ? radians(s) : NaN));
+  assert.match(said({ plan_inclination: short }), /: 2\.0° ahead of it after 2 m\./);
+  assert.equal(said({ plan_off: NaN }), "");
+  assert.equal(said({ known: false }), "");
+  assert.match(said({ plan_because: "it ends here.", plan_off: NaN }), /^The plan is not compared: it ends here\.$/);
+  // The chance is that of the last metre that is named.
+  const plan = planOf(0, [0, 0], [9, (9 / RADIUS) * (180 / Math.PI)]);
+  const points = laid(tool(bit, plan), bit, bit + 5.5);
+  assert.match(
+    toPlan(hole(compared), points, plan, "si"),
+    /target 0\.50 m; 75 % of the plausible tools stay on target\)/,
+  );
 });
 
 test("the cone is as wide as the message has it, across the hole", () => {

@@ -101,6 +101,44 @@ export function details(hole: HoleAhead, units: System): string {
   return said.join(" ");
 }
 
+/** A curvature (1/m) as a radius in words. */
+function radiusOf(curvature: number, units: System): string {
+  if (Math.abs(curvature) < STRAIGHT) return "a straight hole";
+  const length = withUnit(1 / Math.abs(curvature), "depth", units);
+  return curvature < 0 ? `a drop with ${length}` : length;
+}
+
+/** What the plan needs, how far the hole is behind it, and which weight helps; empty without a plan that is compared. */
+export function needs(hole: HoleAhead, units: System): string {
+  if (!hole.known) return "";
+  if (hole.plan_because) return `The plan is not compared: ${hole.plan_because.replace(/\.$/, "")}.`;
+  if (!Number.isFinite(hole.plan_off)) return "";
+  const planned = Array.from(hole.plan_inclination, (off, index) => ({ off, index })).filter(({ off }) =>
+    isFinite(off),
+  );
+  // Three metres ahead, or the last station of a plan that ends before them.
+  const three = ahead(hole, 3);
+  const { off, index } = planned.find((at) => at.index === three) ?? planned[planned.length - 1];
+  const metres = hole.measured_depths[index] - hole.measured_depths[0];
+  const places = units === "si" && Number.isInteger(metres) ? 0 : 1;
+  const after = `${number(convert(metres, "depth", units), places)} ${quantity("depth", units).unit}`;
+  const side = off < 0 ? "behind" : "ahead of";
+  const said = [
+    `The plan needs ${radiusOf(hole.plan_build_rate, units)}: ${degrees(Math.abs(off))}° ${side} it after ${after}.`,
+  ];
+  const weight = (force: number) => withUnit(force, "weight", units);
+  const nearest = Number.isFinite(hole.plan_nearest_weight)
+    ? `${weight(hole.plan_nearest_weight)}: ${radiusOf(1 / hole.plan_nearest_radius, units)}`
+    : "";
+  if (hole.plan_no_guide) said.push("This guide cannot drill the plan at any weight; change the guide.");
+  else if (Number.isFinite(hole.plan_weight)) said.push(`At ${nearest}.`);
+  else if (hole.plan_no_weight) {
+    const range = `${weight(hole.plan_weight_low)} to ${weight(hole.plan_weight_high)}`;
+    said.push(`No weight from ${range} brings it back${nearest === "" ? "" : `; at ${nearest}`}.`);
+  }
+  return said.join(" ");
+}
+
 /** Distances to the plan in words; empty without a plan. The plan is laid as points, and ends at its last station. */
 export function toPlan(hole: HoleAhead, points: readonly Point[], plan: Plan | null, units: System): string {
   if (!hole.known || !plan || points.length < 2) return "";
@@ -117,7 +155,11 @@ export function toPlan(hole: HoleAhead, points: readonly Point[], plan: Plan | n
     const judged = off > plan.target ? ", off target" : "";
     return `${length(off, 2)} ${unit} after ${length(metres, units === "si" ? 0 : 1)} ${unit}${judged}`;
   });
-  return `From the plan: ${parts.join("; ")} (target ${length(plan.target, 2)} ${unit}).`;
+  const { index } = found[found.length - 1];
+  const share = hole.plan_within?.[index] ?? NaN;
+  // The last metre that is named: before it as many stay, or more.
+  const stay = Number.isFinite(share) ? `; ${number(100 * share, 0)} % of the plausible tools stay on target` : "";
+  return `From the plan: ${parts.join("; ")} (target ${length(plan.target, 2)} ${unit}${stay}).`;
 }
 
 /** A picture's coordinates: two lengths (m), the second down. */
@@ -413,7 +455,7 @@ export class HoleView implements View {
       this.planned,
       tool?.plan?.file
         ? `The plan of ${tool.plan.file} is not shown: only stations in the configuration are (well.plan.stations).`
-        : toPlan(hole, plan, tool?.plan ?? null, settings.units),
+        : `${needs(hole, settings.units)} ${toPlan(hole, plan, tool?.plan ?? null, settings.units)}`.trim(),
     );
     setText(this.rest, details(hole, settings.units));
     const key = `${hole.header.stamp.sec} ${hole.header.stamp.nanosec} ${hole.members} ${context.revision}`;
