@@ -6,6 +6,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::alarms::BACK_ON_PLAN as BACK;
 use flexdrill_config::Config;
 use flexdrill_core::units::{deg_to_rad, kn_to_n, n_to_kn};
 
@@ -16,8 +17,6 @@ use super::{Band, Drilling, NEXT_METRE, Plan, SPACING, STEEP, Spread, Station, T
 
 /// Weights that are tried over the whole range: the search is part of an answer that takes a second.
 const COARSE: usize = 8;
-/// [`ToPlan::off`] up to which a hole is back on its plan.
-pub const BACK: f64 = 0.9;
 /// Least half width of a range of inclinations: 0.5 deg. No survey knows a hole better.
 const LEAST_ANGLE: f64 = 0.5;
 /// Least half width of a range of positions (m).
@@ -72,7 +71,9 @@ pub struct ToPlan {
 impl ToPlan {
     /// The weight that brings the hole back (N).
     pub fn weight(&self) -> Option<f64> {
-        self.nearest.filter(|nearest| nearest.off <= BACK).map(|nearest| nearest.weight)
+        self.nearest
+            .filter(|nearest| nearest.off <= BACK)
+            .map(|nearest| nearest.weight)
     }
 
     /// Whether no allowed weight brings it back.
@@ -138,7 +139,10 @@ impl Cone<'_> {
         let of = |(station, at): (usize, &Station)| {
             let distance = self.plan.distance(at);
             let [inclination, azimuth] = self.heading(station);
-            let steep = [inclination, at.inclination].map(libm::sin).into_iter().any(|sine| sine < STEEP);
+            let steep = [inclination, at.inclination]
+                .map(libm::sin)
+                .into_iter()
+                .any(|sine| sine < STEEP);
             let stay = leaves.iter().filter(|left| **left > station).count();
             At {
                 high: distance.high,
@@ -152,18 +156,30 @@ impl Cone<'_> {
     }
 }
 
-/// Compares the next metres at a weight (N) with the stations of the plan of a configuration; none without a plan. `nominal`
-/// and `members` are the tracks of the tool as configured and of the plausible ones.
+/// Where the tool as configured and the plausible ones drill.
+pub struct Ranges<'a> {
+    /// The stations of the tool as configured.
+    pub nominal: &'a [Station],
+    /// Those of the plausible tools, or why one has none.
+    pub members: &'a [Result<Track, String>],
+    /// Where they are at each station.
+    pub spread: &'a [Spread],
+}
+
+/// Compares the next metres with the stations of the plan of a configuration; none without a plan. Where the hole leaves it,
+/// weights about a `present` one (N) are searched for the one that brings it back.
 ///
 /// # Errors
 /// Why they cannot be compared, in words.
 pub fn compare(
     config: &Config,
     drilling: &Drilling,
-    weight: f64,
-    nominal: &[Station],
-    members: &[Result<Track, String>],
-    spread: &[Spread],
+    &Ranges {
+        nominal,
+        members,
+        spread,
+    }: &Ranges<'_>,
+    present: Option<f64>,
     stop: &AtomicBool,
 ) -> Option<Result<ToPlan, String>> {
     let planned = config.well.plan.as_ref()?;
@@ -195,7 +211,9 @@ pub fn compare(
     let excluded = Range::of(config).map(|range| range.excluded(config, Some(&rows)));
     let no_guide = excluded.is_some_and(|excluded| excluded.iter().any(|of| matches!(of, Excluded::Plan { .. })));
     // A hole on its plan needs no other weight, and a guide that cannot drill it has none.
-    let tried = (off > BACK && !no_guide).then(|| allowed(config, n_to_kn(weight)));
+    let tried = present
+        .filter(|_| off > BACK && !no_guide)
+        .map(|weight| allowed(config, n_to_kn(weight)));
     let nearest = tried.and_then(|tried| {
         let under = |kilonewton: f64| {
             if stop.load(Ordering::Relaxed) {

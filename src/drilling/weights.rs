@@ -79,7 +79,10 @@ mod tests {
         let (weight, off) = best(tried, 6, |weight| Some((weight - 7.3).abs()), |off| *off).unwrap();
         assert!((weight - 7.3).abs() <= 0.3 && off == (weight - 7.3).abs(), "{weight}");
         // Beyond the range its end is the nearest.
-        assert_eq!(best(tried, 6, |weight| Some(20.0 - weight), |off| *off).unwrap().0, 15.0);
+        assert_eq!(
+            best(tried, 6, |weight| Some(20.0 - weight), |off| *off).unwrap().0,
+            15.0
+        );
         // What is not known is left out.
         let known = |weight: f64| (weight > 10.0).then_some(weight);
         assert!((best(tried, 6, known, |off| *off).unwrap().0 - 10.5).abs() < 0.51);

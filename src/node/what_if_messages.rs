@@ -110,6 +110,13 @@ pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
         quality_good: good,
         quality_degraded: degraded,
         quality_poor: poor,
+        hole_known: false,
+        hole_because: "the hole comes with the result".to_owned(),
+        hole_radius: f64::NAN,
+        hole_radius_low: f64::NAN,
+        hole_radius_high: f64::NAN,
+        hole_plan_distance: f64::NAN,
+        hole_plan_ahead: f64::NAN,
     }
 }
 

@@ -297,7 +297,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_Feedback";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Feedback";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Feedback_";
-        const RIHS01: &'static str = "RIHS01_e435299ca362989b6fd50934224a51215dc9a0718b66fe738d8b7e48f65d2944";
+        const RIHS01: &'static str = "RIHS01_3da0e9b0ff2e18d946e538777ed261775099d9c3c5298a8cd0a88ff010eae94e";
         const SCHEMA: &'static str = concat!(
             "# Members that have ended.\nuint32 done\n# Members that may have to run yet.\nuint32 remaining\n# What they say so far, one per candidate.\nWhatIfAnswer[] answers\n",
             "================================================================================\nMSG: flexdrill/WhatIfAnswer\n",
@@ -324,7 +324,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_FeedbackMessage";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_FeedbackMessage";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_FeedbackMessage_";
-        const RIHS01: &'static str = "RIHS01_492c6995616148904d3864b1eaa79f33d3f7fee53b70339bbf149c4c6ead8210";
+        const RIHS01: &'static str = "RIHS01_05c43ea2965621e44b9bed9799e2d775fc6571d1b12ffc86f0d5ebe0286b66bf";
         const SCHEMA: &'static str = concat!(
             "unique_identifier_msgs/UUID goal_id\nflexdrill/WhatIf_Feedback feedback\n",
             "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
@@ -375,7 +375,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_GetResult_Response";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_GetResult_Response";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_GetResult_Response_";
-        const RIHS01: &'static str = "RIHS01_bf70cea94379287092b3d337bbbcac83211ff67d323972d9a985c0a46b25a556";
+        const RIHS01: &'static str = "RIHS01_47e1f8d418ed640a0c1ceb4364ae8be154e100bd7b5f30946f9ef55ab4741e7d";
         const SCHEMA: &'static str = concat!(
             "int8 status\nflexdrill/WhatIf_Result result\n",
             "================================================================================\nMSG: flexdrill/WhatIf_Result\n",
@@ -444,7 +444,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_Result";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Result";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Result_";
-        const RIHS01: &'static str = "RIHS01_b69781761257e544b7d4cfb16d54131da0abccecac489195e2e6a0ee01ae27f9";
+        const RIHS01: &'static str = "RIHS01_4ebb5dd81f331b83dfc1d2d2574df162732ab99a007e062fe90654c5ebf9641c";
         const SCHEMA: &'static str = concat!(
             "# The instant of the state that was looked ahead from, on the rig's clock.\nbuiltin_interfaces/Time from_stamp\n# Model step of that state.\nuint64 from_step\n# Whether all members ran that were needed; false after a cancellation.\nbool complete\n# In a sentence: what was found, or why nothing was.\nstring message\n# One per candidate, in the order of the goal.\nWhatIfAnswer[] answers\n",
             "================================================================================\nMSG: builtin_interfaces/Time\n",
@@ -2220,6 +2220,18 @@ pub mod flexdrill {
         pub quality_good: u32,
         pub quality_degraded: u32,
         pub quality_poor: u32,
+        /// Whether it is known. Where it is false, all below is NaN.
+        pub hole_known: bool,
+        /// Why it is not known, in one sentence; empty where it is.
+        pub hole_because: std::string::String,
+        /// Radius of the hole over the next metre, with 5 and 95 % of the plausible tools (m); infinite where it is straight.
+        pub hole_radius: f64,
+        pub hole_radius_low: f64,
+        pub hole_radius_high: f64,
+        /// Distance of the bit from the plan (well.plan.stations) at hole_plan_ahead (m); NaN without a plan that is compared.
+        pub hole_plan_distance: f64,
+        /// How far ahead of the bit that is: 5 m, or less where the plan ends before (m).
+        pub hole_plan_ahead: f64,
     }
 
     impl Message for WhatIfAnswer {
@@ -2227,7 +2239,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIfAnswer";
         const ROS_TYPE: &'static str = "flexdrill/msg/WhatIfAnswer";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhatIfAnswer_";
-        const RIHS01: &'static str = "RIHS01_4a210afc4b28ad008bb3e1f11533227192bc517075c2364d2c04ad1a643e57cd";
+        const RIHS01: &'static str = "RIHS01_13da51932d44e6fa8cc2a62356ce46e825cd37aeed845aa3fea6a2669235b323";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/WhatIfAnswer.msg"),
             "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
@@ -2237,7 +2249,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: flexdrill/FigureBand\n",
             include_str!("../../../msg/FigureBand.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhatIfAnswer", "fields": [{"name": "candidate", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfCandidate"}}, {"name": "run_up", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "decided", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "figures", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/FigureBand"}}, {"name": "quality_good", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_degraded", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_poor", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhatIfAnswer", "fields": [{"name": "candidate", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfCandidate"}}, {"name": "run_up", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "decided", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "figures", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/FigureBand"}}, {"name": "quality_good", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_degraded", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_poor", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_known", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_because", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_plan_distance", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_plan_ahead", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// A rotary speed and a weight on bit to be tried in a look-ahead.
@@ -4992,7 +5004,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     },
     ServiceInfo {
         ros_type: "flexdrill/action/WhatIf_GetResult",
-        rihs01: "RIHS01_40e367122f03488e5bb29a6c566e3e1d8f886dc933f46c1565ba7edd50b04cdb",
+        rihs01: "RIHS01_eff14f36d1ff3195eb128d5469426512111cec360d3af59c1e034ec814df2ba8",
         source: "",
         description: r#"{"type_name": "flexdrill/action/WhatIf_GetResult", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Event"}}]}"#,
         event_type: "flexdrill/action/WhatIf_GetResult_Event",
@@ -5220,7 +5232,7 @@ pub const SERVICES: &[ServiceInfo] = &[
 pub const ACTIONS: &[ActionInfo] = &[
     ActionInfo {
         ros_type: "flexdrill/action/WhatIf",
-        rihs01: "RIHS01_8046104adc59ab53605dcfd9a29dee2510e34b28fccbcf9b192362140e2ac955",
+        rihs01: "RIHS01_6b2f7fb903715b8c109246b1704d9894c71de6af52eec07158f76e957ceb6b08",
         source: include_str!("../../../msg/WhatIf.action"),
         description: r#"{"type_name": "flexdrill/action/WhatIf", "fields": [{"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Goal"}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Result"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Feedback"}}, {"name": "send_goal_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal"}}, {"name": "get_result_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult"}}, {"name": "feedback_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_FeedbackMessage"}}]}"#,
     },

@@ -6,7 +6,7 @@ use flexdrill_config::{BitAxis, Config, FreeBend, Section};
 use flexdrill_core::units::{deg_to_rad, n_to_kn, rad_to_deg};
 use flexdrill_hole::{at_rest, bounds, steady};
 
-use crate::drilling::to_plan::{ToPlan, compare};
+use crate::drilling::to_plan::{Ranges, ToPlan, compare};
 use crate::drilling::unknowns;
 use crate::drilling::{
     Band, Drilling, Long, NEXT_METRE, SPACING, STEEP, Spread, Station, Track, build, curvature, drill, spread, turned,
@@ -95,11 +95,12 @@ fn ranged(nominal: &[Station], members: &[Result<Track, String>], of: impl Fn(&[
     })
 }
 
-/// Computes the next metres at a weight at the bit (N), with the draws of a seed. The same arguments give the same bits.
+/// Computes the next metres at a weight at the bit (N), with the draws of a seed. With `searches`, a hole that leaves its plan
+/// has the weight that brings it back. The same arguments give the same bits.
 ///
 /// # Errors
 /// Why there is no answer, in words; also where `stop` was set.
-pub fn compute(config: &Config, weight: f64, seed: u64, stop: &AtomicBool) -> Result<Ahead, String> {
+pub fn compute(config: &Config, weight: f64, seed: u64, searches: bool, stop: &AtomicBool) -> Result<Ahead, String> {
     let in_words = |error: &dyn std::fmt::Display| format!("the next metres cannot be computed: {error}");
     let drilling = Drilling::of(config, weight, 0.0).map_err(|error| in_words(&error))?;
     let rest = at_rest(&drilling.guide, weight, &drilling.hole).map_err(|error| in_words(&error))?;
@@ -127,7 +128,12 @@ pub fn compute(config: &Config, weight: f64, seed: u64, stop: &AtomicBool) -> Re
     ];
     let known = members.iter().flatten().count();
     let spread = spread(&track, &members);
-    let plan = compare(config, &drilling, weight, &track, &members, &spread, stop);
+    let ranged_hole = Ranges {
+        nominal: &track,
+        members: &members,
+        spread: &spread,
+    };
+    let plan = compare(config, &drilling, &ranged_hole, searches.then_some(weight), stop);
     let rates = match rates {
         [Some(build), Some(walk), Some(curvature)] => Some([build, walk, curvature]),
         _ => None,
@@ -153,6 +159,40 @@ impl Ahead {
     /// as its shape and its weight say; where the twin's side force is another one, something else acts on the guide, and
     /// the hole is grown for a tool that there is not. 0.5 % of the weight is what two programs for the same guide differ by.
     pub fn doubt(&self, weight: f64, [side_force, error]: [f64; 2]) -> Option<String> {
+        if let Some(why) = self.short_of() {
+            return Some(why);
+        }
+        let errors = if error.is_finite() { 3.0 * error } else { 0.0 };
+        let tolerance = errors + (0.05 * self.side_force_low.abs()).max(0.005 * weight);
+        let off = (side_force - self.side_force_low).abs();
+        if off.is_nan() || off > tolerance {
+            return Some(format!(
+                "the bit pushes {side_force:.0} N to the low side, and the guide at rest {:.0} N (tolerance {tolerance:.0} N): \
+                 something acts on the guide that this forecast leaves out, such as pressure, shut slots or hinges",
+                self.side_force_low
+            ));
+        }
+        None
+    }
+
+    /// Radius of the next metre (m) with 5 and 95 % of the plausible tools, infinite where it is straight; NaN with fewer tools
+    /// than a range needs.
+    pub fn radius(&self) -> [f64; 3] {
+        let of = |curvature: f64| {
+            if curvature > 0.0 {
+                1.0 / curvature
+            } else {
+                f64::INFINITY
+            }
+        };
+        // The larger curvature is the smaller radius.
+        self.rates.map_or([f64::NAN; 3], |[_, _, curvature]| {
+            [curvature.value, curvature.high, curvature.low].map(of)
+        })
+    }
+
+    /// What it lacks to be believed, whatever the twin's side force is.
+    pub fn short_of(&self) -> Option<String> {
         let [known, failed] = self.members;
         if self.rates.is_none() {
             return Some(format!(
@@ -167,16 +207,6 @@ impl Ahead {
                 "the arc above the bit is {:.2} m long, and this guide needs {needed:.2} m, twice its free length: above a \
                  shorter arc it feels the straight hole",
                 self.arc
-            ));
-        }
-        let errors = if error.is_finite() { 3.0 * error } else { 0.0 };
-        let tolerance = errors + (0.05 * self.side_force_low.abs()).max(0.005 * weight);
-        let off = (side_force - self.side_force_low).abs();
-        if off.is_nan() || off > tolerance {
-            return Some(format!(
-                "the bit pushes {side_force:.0} N to the low side, and the guide at rest {:.0} N (tolerance {tolerance:.0} N): \
-                 something acts on the guide that this forecast leaves out, such as pressure, shut slots or hinges",
-                self.side_force_low
             ));
         }
         None

@@ -10,6 +10,8 @@ mod answer;
 mod means;
 mod message;
 #[cfg(test)]
+mod plan_tests;
+#[cfg(test)]
 mod tests;
 mod worker;
 
@@ -21,11 +23,12 @@ use flexdrill_core::twin::Frame;
 use flexdrill_core::units::n_to_kn;
 use flexdrill_messages::HoleAhead;
 
-use self::answer::{Ahead, refusal, standing};
+use self::answer::standing;
 use self::means::Window;
 use self::worker::{Asked, Found, Worker};
 use crate::drilling::tool;
 
+pub use answer::{Ahead, compute, refusal};
 pub use means::Means;
 
 /// Model time after which an answer is used (s): several times what it takes.
@@ -42,6 +45,11 @@ const SEED: u64 = 1;
 const KEPT: usize = 4;
 /// Messages that may wait: half a minute. A computer that is later does not keep up.
 const WAITING: usize = 30;
+
+/// Seed of the plausible tools of a configuration.
+pub fn seed(config: &Config) -> u64 {
+    config.ensemble.as_ref().map_or(SEED, |ensemble| ensemble.seed)
+}
 
 /// A message before its answer.
 #[derive(Debug, Clone)]
@@ -118,6 +126,19 @@ impl LiveHole {
         }
     }
 
+    /// Adopts a configuration that was changed while the twin runs.
+    ///
+    /// Parameters that change then are frictions and limits. Of these the limits of the weight move what is said of the plan:
+    /// a weight outside them must not be advised, so that an answer with the old ones is not used any more.
+    pub fn reconfigure(&mut self, config: &Arc<Config>) {
+        let limits = |config: &Config| [config.inputs.weight_on_bit.min_kn, config.inputs.weight_on_bit.max_kn];
+        if self.config.well.plan.is_some() && limits(&self.config) != limits(config) {
+            self.current.clear();
+            self.next = None;
+        }
+        self.config = Arc::clone(config);
+    }
+
     /// The motion begins again.
     pub fn reset(&mut self) {
         self.window.clear();
@@ -125,9 +146,6 @@ impl LiveHole {
     }
 
     /// Takes a frame at which the alarms are judged, ten times per second: every second one becomes a message.
-    ///
-    /// Parameters that change while a twin runs are frictions and limits of alarms: they do not move the next metres, but
-    /// by way of the weight.
     pub fn observe(&mut self, frame: &Frame) {
         let snapshot = &frame.snapshot;
         self.window.push(snapshot.steering);
@@ -194,7 +212,7 @@ impl LiveHole {
     }
 
     fn ask(&mut self, ticks: u64, weight: f64) {
-        let seed = self.config.ensemble.as_ref().map_or(SEED, |ensemble| ensemble.seed);
+        let seed = seed(&self.config);
         if self.worker.is_none() && self.ended.is_none() {
             // A run that waits has nothing else to do.
             match Worker::start(seed, !self.waits) {

@@ -5,7 +5,7 @@ use flexdrill_hole::{Bounds, bounds, steady};
 use flexdrill_messages::to_cdr;
 
 /// The paper's tool with a guide of 0.05 of a tube's stiffness, made with a radius of 3.2 m, after 70 degrees of its arc.
-const TOOL: &str = "
+pub(super) const TOOL: &str = "
 well:
   sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
   hole_diameter: 0.118
@@ -23,34 +23,34 @@ environment: {gravity: 9.81, buoyancy_factor: 0.86}
 /// Side force of that guide at rest at 10 kN (N) by a program of finite differences that was written apart from this one.
 const SIDE_FORCE: f64 = 1913.0;
 
-fn config(text: &str) -> Arc<Config> {
+pub(super) fn config(text: &str) -> Arc<Config> {
     Arc::new(Config::from_text("a test's tool", text).unwrap())
 }
 
 /// A tenth of a second: one turn per second at this weight (N) and side force (N).
 #[derive(Debug, Clone, Copy)]
-struct Tenth {
-    turns: f64,
-    weight: f64,
-    side_force: f64,
+pub(super) struct Tenth {
+    pub(super) turns: f64,
+    pub(super) weight: f64,
+    pub(super) side_force: f64,
 }
 
-const STEADY: Tenth = Tenth {
+pub(super) const STEADY: Tenth = Tenth {
     turns: 1.0,
     weight: 10e3,
     side_force: SIDE_FORCE,
 };
 
 /// A twin whose bit does what a test says.
-struct Twin {
-    hole: LiveHole,
+pub(super) struct Twin {
+    pub(super) hole: LiveHole,
     frame: Frame,
     tenth: u64,
-    found: Vec<Ready>,
+    pub(super) found: Vec<Ready>,
 }
 
 impl Twin {
-    fn new(config: &Arc<Config>) -> Self {
+    pub(super) fn new(config: &Arc<Config>) -> Self {
         let mut frame = Frame::default();
         frame.snapshot.contacts.measured_depth = vec![0.0, config.well.length()];
         frame.snapshot.contacts.inclination = vec![0.0, config.well.end_inclination_deg().to_radians()];
@@ -63,7 +63,7 @@ impl Twin {
     }
 
     /// Adds tenths of a second, and waits for answers or not.
-    fn run(&mut self, tenths: usize, tenth: Tenth, wait: bool) {
+    pub(super) fn run(&mut self, tenths: usize, tenth: Tenth, wait: bool) {
         for _ in 0..tenths {
             self.frame.ticks += self.tenth;
             let steering = &mut self.frame.snapshot.steering;
@@ -77,13 +77,13 @@ impl Twin {
         }
     }
 
-    fn last(&self) -> &HoleAhead {
+    pub(super) fn last(&self) -> &HoleAhead {
         &self.found.last().unwrap().message
     }
 }
 
 /// That nothing is said of where the tool drills, and why.
-fn assert_unknown(message: &HoleAhead, words: &str) {
+pub(super) fn assert_unknown(message: &HoleAhead, words: &str) {
     assert!(!message.known && message.because.contains(words), "{}", message.because);
     let numbers = [
         message.build_rate,
@@ -99,6 +99,15 @@ fn assert_unknown(message: &HoleAhead, words: &str) {
         message.free_length,
         message.radius_any_bit_low,
         message.radius_any_bit_high,
+        message.plan_target,
+        message.plan_build_rate,
+        message.plan_off,
+        message.plan_weight_low,
+        message.plan_weight_high,
+        message.plan_nearest_weight,
+        message.plan_nearest_off,
+        message.plan_nearest_radius,
+        message.plan_weight,
     ];
     assert!(numbers.iter().all(|number| number.is_nan()), "{message:?}");
     let arrays = [
@@ -109,9 +118,15 @@ fn assert_unknown(message: &HoleAhead, words: &str) {
         &message.half_width_high,
         &message.half_width_right,
         &message.inclinations_low,
+        &message.plan_high,
+        &message.plan_right,
+        &message.plan_inclination,
+        &message.plan_azimuth,
+        &message.plan_within,
     ];
     assert!(arrays.iter().all(|array| array.is_empty()), "{message:?}");
-    assert!(!message.ripples);
+    assert!(!message.ripples && !message.plan_no_weight && !message.plan_no_guide);
+    assert_eq!(message.plan_because, "");
 }
 
 /// The load of the table in docs/hole_ahead.md: nothing moves for 12 s.

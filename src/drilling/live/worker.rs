@@ -52,7 +52,7 @@ impl Worker {
                     flexdrill_realtime::priority::idle();
                 }
                 for Asked { ticks, weight, config } in asked {
-                    let ahead = compute(&config, weight, seed, &stopped);
+                    let ahead = compute(&config, weight, seed, true, &stopped);
                     if stopped.load(Ordering::Relaxed) || finds.send(Found { ticks, ahead }).is_err() {
                         return;
                     }

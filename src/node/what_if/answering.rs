@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use super::hole::{holes, with_hole};
 use super::{IDLE, Next, WhatIf};
 use crate::ahead::{Start, forecast, look_ahead, search};
 use crate::node::advisor::Advisor;
@@ -145,6 +146,10 @@ impl Answering {
                 begun.stop.store(true, Ordering::Relaxed);
             }
         });
+        // By statics: a second per weight, once the members have ended.
+        let holes = holes(&config, &goal.candidates, &begun.stop);
+        let candidates = answer.candidates.iter().zip(&holes);
+        let answers = candidates.map(|(of, hole)| with_hole(of_candidate(of), hole)).collect();
         Ok(WhatIfResult {
             from_stamp: self.stamp(ticks, &config),
             from_step: applied.step,
@@ -156,7 +161,7 @@ impl Answering {
                 ),
                 None => sentence(&answer, stopped_by),
             },
-            answers: answer.candidates.iter().map(of_candidate).collect(),
+            answers,
         })
     }
 

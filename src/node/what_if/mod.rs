@@ -5,6 +5,7 @@
 //! the reason is in the log, and in the answer to a client that asks for the result nevertheless.
 
 mod answering;
+mod hole;
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -2125,6 +2125,18 @@ export interface WhatIfAnswer {
   quality_good: number;
   quality_degraded: number;
   quality_poor: number;
+  /** Whether it is known. Where it is false, all below is NaN. */
+  hole_known: boolean;
+  /** Why it is not known, in one sentence; empty where it is. */
+  hole_because: string;
+  /** Radius of the hole over the next metre, with 5 and 95 % of the plausible tools (m); infinite where it is straight. */
+  hole_radius: number;
+  hole_radius_low: number;
+  hole_radius_high: number;
+  /** Distance of the bit from the plan (well.plan.stations) at hole_plan_ahead (m); NaN without a plan that is compared. */
+  hole_plan_distance: number;
+  /** How far ahead of the bit that is: 5 m, or less where the plan ends before (m). */
+  hole_plan_ahead: number;
 }
 /** Reads a `flexdrill/msg/WhatIfAnswer`. */
 export function decodeWhatIfAnswer(reader: CdrReader): WhatIfAnswer {
@@ -2143,6 +2155,13 @@ export function decodeWhatIfAnswer(reader: CdrReader): WhatIfAnswer {
     quality_good: reader.uint32(),
     quality_degraded: reader.uint32(),
     quality_poor: reader.uint32(),
+    hole_known: reader.bool(),
+    hole_because: reader.string(),
+    hole_radius: reader.float64(),
+    hole_radius_low: reader.float64(),
+    hole_radius_high: reader.float64(),
+    hole_plan_distance: reader.float64(),
+    hole_plan_ahead: reader.float64(),
   };
 }
 
