@@ -79,6 +79,10 @@ fn a_goal_is_answered_while_the_live_run_goes_on() {
             (&json!("pipe_guide_force"), &json!("N"))
         );
         assert!(force["p50"].as_f64().unwrap() > 0.0, "{force}");
+        // Nothing says which shape this guide was made with.
+        assert_eq!(of["hole_known"], false, "{of}");
+        let because = of["hole_because"].as_str().unwrap();
+        assert!(because.contains("shape of the guide is not given"), "{because}");
     }
     assert!(
         answer["message"].as_str().unwrap().contains("60 r/min and 5 kN"),

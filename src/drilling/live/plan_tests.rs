@@ -1,6 +1,5 @@
 //! The hole ahead against plans whose radius stands to what the closed form of docs/hole_ahead.md has for this guide.
 
-use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use super::tests::{STEADY, TOOL, Tenth, Twin, assert_unknown, config};
@@ -26,6 +25,12 @@ fn planned(text: &str, radius: f64, length: f64) -> String {
         "  hole_diameter",
         &format!("  plan: {{stations: [{stations}]}}\n  hole_diameter"),
     )
+}
+
+/// Whether weights (N) are these, up to the rounding of the mean weight and of the change of units.
+fn are(weights: [f64; 2], expected: [f64; 2]) -> bool {
+    let mut pairs = weights.into_iter().zip(expected);
+    pairs.all(|(weight, expected)| (weight - expected).abs() < 1e-6)
 }
 
 /// What is said after the first answer.
@@ -105,7 +110,8 @@ fn the_weight_that_brings_the_hole_back_is_that_of_the_closed_form() {
         format!("    - {{key: {key}, distribution: {{uniform: {{low: {low}, high: {high}}}}}, source: measured}}\n")
     };
     let worn = format!(
-        "{}rock: {{law: depth_of_cut, depth_of_cut: {{wear_flat_force: 8670}}}}\nuncertainty:\n  keys:\n{}",
+        "{}rock: {{law: depth_of_cut, depth_of_cut: {{wear_flat_force: 8670}}}}\nstring: {{model: line, sections: [{{length: \
+         100, outer_diameter: 0.0603, inner_diameter: 0.0508}}]}}\nuncertainty:\n  keys:\n{}",
         planned(TOOL, 3.25, 5.5),
         keys.map(key).concat()
     );
@@ -124,7 +130,10 @@ fn the_weight_that_brings_the_hole_back_is_that_of_the_closed_form() {
     );
     assert!(!message.plan_no_weight && !message.plan_no_guide);
     assert!(
-        (message.plan_weight_low, message.plan_weight_high) == (8.67e3 * 1.1, 19.5e3),
+        are(
+            [message.plan_weight_low, message.plan_weight_high],
+            [8.67e3 * 1.1, 19.5e3]
+        ),
         "{message:?}"
     );
     // 1.3 % of the curvature are 1.6 kN, by which the closed form is high, and the hole as found, with 3.2 m, another 0.4 kN;
@@ -150,11 +159,18 @@ fn no_weight_brings_a_hole_back_that_needs_another_guide() {
         "{message:?}"
     );
     assert!(message.plan_weight.is_nan());
-    assert!((message.plan_weight_low, message.plan_weight_high) == (5e3, 15e3));
+    assert!(are([message.plan_weight_low, message.plan_weight_high], [5e3, 15e3]));
     // Less weight, larger radius.
     assert!((message.plan_nearest_weight - 5e3).abs() < 1e-6 && message.plan_nearest_off > 1.0);
-    // 1/3.145 - 1/3.9 are 0.0616 1/m: 0.769 m after 5 m, less the third order, s3/6 kb (kb - 1/3.9).. below a tenth.
-    assert!((message.plan_high[20] - 0.77).abs() < 0.1, "{}", message.plan_high[20]);
+    // Two circles with one tangent, by hand: the bit on that of 3.145 m is 0.68 m inside that of 3.9 m after 5 m. 1.3 % of the
+    // curvature and the hole as found are 0.006 1/m, 0.08 m after 5 m.
+    let (sine, cosine) = (5.0_f64 / 3.145).sin_cos();
+    let high = 3.9 - (3.145 * sine).hypot(3.9 - 3.145 * (1.0 - cosine));
+    assert!(
+        (message.plan_high[20] - high).abs() < 0.08,
+        "{} {high}",
+        message.plan_high[20]
+    );
     assert!(message.plan_within[20] < 0.5, "{:?}", message.plan_within);
 }
 
@@ -197,19 +213,21 @@ fn a_weight_outside_the_limits_of_the_present_is_not_advised() {
     let begun = config(&planned(TOOL, 3.9, 5.5));
     let mut twin = Twin::new(&begun);
     twin.run(70, STEADY, true);
-    assert_eq!(twin.last().plan_weight_low, 5e3);
+    assert!(are(
+        [twin.last().plan_weight_low, twin.last().plan_weight_high],
+        [5e3, 15e3]
+    ));
     let now = Arc::new(begun.with_value("inputs.weight_on_bit.max_kn", 12.0).unwrap());
     twin.hole.reconfigure(&now);
     twin.run(10, STEADY, true);
     assert_unknown(twin.last(), "being computed");
     twin.run(60, STEADY, true);
-    assert_eq!((twin.last().plan_weight_low, twin.last().plan_weight_high), (5e3, 12e3));
+    assert!(are(
+        [twin.last().plan_weight_low, twin.last().plan_weight_high],
+        [5e3, 12e3]
+    ));
     // The same limits change nothing.
     twin.hole.reconfigure(&now);
     twin.run(10, STEADY, true);
-    assert!(
-        twin.last().known && FRAC_PI_2 > twin.last().inclination,
-        "{}",
-        twin.last().because
-    );
+    assert!(twin.last().known, "{}", twin.last().because);
 }

@@ -77,10 +77,37 @@ pub(super) fn with_hole(answer: WhatIfAnswer, hole: &Hole) -> WhatIfAnswer {
 mod tests {
     use super::*;
 
-    fn config(weight_kn: &str) -> Config {
-        let text = include_str!("../../../tests/data/ahead.yaml");
-        Config::from_text("tool.yaml", &format!("{text}{weight_kn}")).unwrap()
+    /// The paper's tool with a guide of 0.05 of a tube's stiffness, made with a radius of 3.2 m, after 70 degrees of its arc, with
+    /// a plan that continues with 3.9 m.
+    const TOOL: &str = "
+well:
+  sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
+  plan:
+    stations:
+      - {measured_depth: 0, inclination_deg: 0, azimuth_deg: 0}
+      - {measured_depth: 1.117010, inclination_deg: 0, azimuth_deg: 0}
+      - {measured_depth: 5.026548, inclination_deg: 70, azimuth_deg: 0}
+      - {measured_depth: 11.026548, inclination_deg: 158.1474, azimuth_deg: 0}
+  hole_diameter: 0.118
+tool:
+  links: 33
+  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
+  guide: {outer_diameter: 0.102, inner_diameter: 0.080, bending_factor: 0.05, free_curvature: 0.3125}
+  joint: {limit_deg: 6.0}
+  bit: {diameter: 0.118, lateral_resistance: 20}
+contact:
+  outer: {stiffness: 2.0e+7, friction_tangential: 0.3, friction_axial: 0.3}
+environment: {gravity: 9.81, buoyancy_factor: 0.86}
+";
+
+    fn config(change: [&str; 2]) -> Config {
+        let [from, to] = change;
+        assert!(TOOL.contains(from), "{from}");
+        Config::from_text("tool.yaml", &TOOL.replace(from, to)).unwrap()
     }
+
+    /// Nothing is changed.
+    const AS_IT_IS: [&str; 2] = ["links: 33", "links: 33"];
 
     fn candidate(weight_on_bit: f64) -> Candidate {
         Candidate {
@@ -94,7 +121,7 @@ mod tests {
     #[test]
     fn a_goal_that_is_cancelled_has_no_hole() {
         let candidates = [10.0, 12.0, 10.0].map(candidate);
-        let stopped = holes(&config(""), &candidates, &AtomicBool::new(true));
+        let stopped = holes(&config(AS_IT_IS), &candidates, &AtomicBool::new(true));
         assert_eq!(stopped.len(), 3);
         assert!(
             stopped
@@ -107,7 +134,69 @@ mod tests {
 
     #[test]
     fn off_bottom_the_hole_is_not_known() {
-        let found = holes(&config(""), &[candidate(0.0)], &AtomicBool::new(false));
+        let found = holes(&config(AS_IT_IS), &[candidate(0.0)], &AtomicBool::new(false));
         assert!(found[0].as_ref().is_err_and(|why| why.contains("off bottom")));
+    }
+
+    /// By the closed form the radius is 3.23 m at 5 kN, 3.145 m at 10 kN and 3.08 m at 15 kN in a long arc, and whatever the bit
+    /// 2.81 to 3.65 m at 10 kN.
+    #[test]
+    fn each_weight_has_its_radius_and_its_distance_to_the_plan() {
+        let candidates = [5.0, 10.0, 15.0, 10.0].map(candidate);
+        let found = holes(&config(AS_IT_IS), &candidates, &AtomicBool::new(false));
+        let answers: Vec<WhatIfAnswer> = found
+            .iter()
+            .map(|hole| with_hole(WhatIfAnswer::default(), hole))
+            .collect();
+        assert!(
+            answers
+                .iter()
+                .all(|answer| answer.hole_known && answer.hole_because.is_empty()),
+            "{answers:?}"
+        );
+        let [light, usual, heavy, again] = &answers[..] else {
+            panic!()
+        };
+        assert!(
+            light.hole_radius > usual.hole_radius && usual.hole_radius > heavy.hole_radius,
+            "{answers:?}"
+        );
+        assert!((2.81..3.65).contains(&usual.hole_radius), "{usual:?}");
+        assert!(
+            (usual.hole_radius_low..usual.hole_radius_high).contains(&usual.hole_radius),
+            "{usual:?}"
+        );
+        assert_eq!(usual, again, "the same weight");
+        // Two circles with one tangent: the bit on that of 3.145 m is 0.68 m inside that of 3.9 m after 5 m. 1.3 % of the
+        // curvature and the hole as found, with 3.2 m, are 0.006 1/m, 0.08 m after 5 m.
+        assert_eq!(usual.hole_plan_ahead, 5.0);
+        assert!((usual.hole_plan_distance - 0.68).abs() < 0.08, "{usual:?}");
+        assert!(light.hole_plan_distance < usual.hole_plan_distance, "{answers:?}");
+    }
+
+    #[test]
+    fn what_nothing_is_known_of_says_why() {
+        let cases = [
+            (
+                ["free_curvature: 0.3125", "free_curvature: as_built"],
+                "shape of the guide is not given",
+            ),
+            (
+                [
+                    "straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70",
+                    "straight: {length: 3.909537}}, {arc: {radius: 3.2, build_angle_deg: 20",
+                ],
+                "arc above the bit is 1.12 m long",
+            ),
+        ];
+        for (change, words) in cases {
+            let found = holes(&config(change), &[candidate(10.0)], &AtomicBool::new(false));
+            let answer = with_hole(WhatIfAnswer::default(), &found[0]);
+            assert!(
+                !answer.hole_known && answer.hole_because.contains(words),
+                "{}",
+                answer.hole_because
+            );
+        }
     }
 }

@@ -146,6 +146,13 @@ export interface WhatIfAnswer {
   any_alarm_upper: Figure;
   alarms: AlarmChance[];
   figures: FigureBand[];
+  hole_known: boolean;
+  hole_because: string;
+  hole_radius: Figure;
+  hole_radius_low: Figure;
+  hole_radius_high: Figure;
+  hole_plan_distance: Figure;
+  hole_plan_ahead: Figure;
 }
 
 /** The newest question to the look-ahead, with its answers so far. */

@@ -24,7 +24,7 @@ import {
   summary,
   withdrawn,
 } from "../src/views/forecast";
-import { verdict } from "../src/views/what_if";
+import { holeOf, verdict } from "../src/views/what_if";
 import { cellAt, edges, members, sentence } from "../src/views/window";
 
 function forecast(from: number, values: number[], more: Partial<Forecast> = {}): Forecast {
@@ -214,7 +214,24 @@ test("a candidate without a run that ended is unknown, not safe", () => {
     any_alarm_upper: 0.39,
     alarms: [],
     figures: [],
+    hole_known: true,
+    hole_because: "",
+    hole_radius: 3.15,
+    hole_radius_low: 2.9,
+    hole_radius_high: null,
+    hole_plan_distance: 0.68,
+    hole_plan_ahead: 5,
   };
+  assert.equal(
+    holeOf(answer, "si"),
+    "Hole: radius 3.15 m over the next metre (2.90 to straight); 0.68 m from the plan after 5.00 m.",
+  );
+  assert.equal(
+    holeOf({ ...answer, hole_radius: null, hole_plan_distance: null }, "si"),
+    "Hole: straight over the next metre (2.90 to straight).",
+  );
+  const unknown = { ...answer, hole_known: false, hole_because: "the bit is off bottom" };
+  assert.equal(holeOf(unknown, "si"), "Hole not known: the bit is off bottom.");
   assert.equal(verdict(answer), "no alarm in 6 runs (0.0 % to 39.0 %)");
   assert.equal(verdict({ ...answer, any_alarm: 0.5 }), "alarms in 3 of 6 runs (0.0 % to 39.0 %)");
   assert.match(verdict({ ...answer, failed: 2 }), /4 runs .*; 2 unknown$/);

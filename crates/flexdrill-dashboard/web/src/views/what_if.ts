@@ -2,7 +2,7 @@
 
 import * as api from "../api";
 import { h, setText, show } from "../dom";
-import { bounds, convert, counted, number, quantity } from "../units";
+import { bounds, convert, counted, number, quantity, type System } from "../units";
 import { type Context, Pace, type View } from "../view";
 import { alarmRows } from "./forecast";
 import { percent } from "./transfer";
@@ -31,6 +31,26 @@ export function verdict(answer: api.WhatIfAnswer): string {
 
 /** A number of the answer, which JSON has as null where it is none. */
 const known = (value: number | null) => value ?? NaN;
+
+/** The hole under a candidate's weight in words. */
+export function holeOf(answer: api.WhatIfAnswer, units: System): string {
+  if (!answer.hole_known) return answer.hole_because === "" ? "" : `Hole not known: ${answer.hole_because}.`;
+  const length = (value: number | null) => number(convert(known(value), "depth", units), 2);
+  const { unit } = quantity("depth", units);
+  // JSON has null for the radius of a straight hole too.
+  const radius =
+    answer.hole_radius === null
+      ? "straight over the next metre"
+      : `radius ${length(answer.hole_radius)} ${unit} over the next metre`;
+  const [low, high] = [answer.hole_radius_low, answer.hole_radius_high].map((end) =>
+    end === null ? "straight" : length(end),
+  );
+  const plan =
+    answer.hole_plan_distance === null
+      ? ""
+      : `; ${length(answer.hole_plan_distance)} ${unit} from the plan after ${length(answer.hole_plan_ahead)} ${unit}`;
+  return `Hole: ${radius} (${low} to ${high})${plan}.`;
+}
 
 export class WhatIfView implements View {
   readonly element: HTMLElement;
@@ -288,6 +308,7 @@ export class WhatIfView implements View {
           h("p", {}, verdict(answer)),
           h("ul", { class: "chances" }, ...alarmRows(answer.alarms.map((of) => ({ ...of, ...numbers(of) })))),
           h("p", { class: "hint" }, figures),
+          h("p", { class: "hint" }, holeOf(answer, this.context.settings.units)),
         );
       }),
     );
