@@ -131,15 +131,17 @@ fn what_to_do(hole: &HoleAhead, lead: Option<AlarmId>, unknown: Unknown) -> Stri
 /// The finding on where the tool drills; none while that is not known or not compared with a plan. `stands` says whether the
 /// alarm stands already, `lead` which alarm of the motion leads.
 pub(super) fn finding(hole: &HoleAhead, stands: bool, lead: Option<AlarmId>, unknown: Unknown) -> Option<Finding> {
+    // What is not known is not on plan either: the caller decides how long a standing alarm outlasts it.
     if !hole.known || !hole.plan_off.is_finite() {
         return None;
     }
+    // A range that wavers with the weight must not toggle the alarm.
     let limit = LEAVES[usize::from(stands)];
     if hole.plan_off <= limit {
         return Some(Finding::default());
     }
     let helps = hole.plan_weight.is_finite();
-    let shorter = if hole.plan_build_rate > hole.build_rate {
+    let builds = if hole.plan_build_rate > hole.build_rate {
         "less"
     } else {
         "more"
@@ -155,7 +157,7 @@ pub(super) fn finding(hole: &HoleAhead, stands: bool, lead: Option<AlarmId>, unk
             "The radius of the plan is outside what this guide drills with any bit, in any rock, at any allowed weight."
                 .to_owned()
         } else {
-            format!("At the present weight this guide and this bit build {shorter} than the plan.")
+            format!("At the present weight this guide and this bit build {builds} than the plan.")
         },
         consequence: consequence(hole),
         what_to_do: what_to_do(hole, lead, unknown),

@@ -7,7 +7,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::alarms::BACK_ON_PLAN as BACK;
-use flexdrill_config::Config;
+use flexdrill_config::{Config, WellPlan};
 use flexdrill_core::units::{deg_to_rad, kn_to_n, n_to_kn};
 
 use super::plan::{Row, covers, heading, in_plane_at};
@@ -166,6 +166,17 @@ pub struct Ranges<'a> {
     pub spread: &'a [Spread],
 }
 
+/// The stations of a plan, turned so that it lies in the plane of the hole at a bit at this depth (m).
+fn rows(planned: &WellPlan, bit: f64) -> Result<Vec<Row>, String> {
+    // A live twin opens no file: its folder is not part of a configuration that a recording repeats.
+    if planned.file.is_some() {
+        return Err("well.plan.file is not read here: give the stations near the bit as well.plan.stations".to_owned());
+    }
+    let rows: Vec<Row> = planned.stations.iter().map(Row::from).collect();
+    covers("well.plan.stations", &rows, bit).map_err(|error| error.to_string())?;
+    Ok(in_plane_at(&rows, bit))
+}
+
 /// Compares the next metres with the stations of the plan of a configuration; none without a plan. Where the hole leaves it,
 /// weights about a `present` one (N) are searched for the one that brings it back.
 ///
@@ -184,17 +195,12 @@ pub fn compare(
 ) -> Option<Result<ToPlan, String>> {
     let planned = config.well.plan.as_ref()?;
     let bit = config.well.length();
-    let rows: Vec<Row> = planned.stations.iter().map(Row::from).collect();
-    if planned.file.is_some() {
-        let why = "well.plan.file is not read here: give the stations near the bit as well.plan.stations";
-        return Some(Err(why.to_owned()));
-    }
-    if let Err(error) = covers("well.plan.stations", &rows, bit) {
-        return Some(Err(error.to_string()));
-    }
+    let rows = match rows(planned, bit) {
+        Ok(rows) => rows,
+        Err(why) => return Some(Err(why)),
+    };
     // A range needs a number of tools; without one nothing here is known either.
     let ahead = nominal.len().min(spread.len()).checked_sub(1)?;
-    let rows = in_plane_at(&rows, bit);
     let plan = Plan::laid(&rows, drilling, bit, ahead as f64 * SPACING);
     let cone = Cone {
         last: ((plan.ahead() / SPACING + 1e-9).floor() as usize).min(ahead),
@@ -208,6 +214,7 @@ pub fn compare(
     let known: Vec<&Track> = members.iter().flatten().collect();
     let [first, next] = [0, NEXT_METRE].map(|station| cone.heading(station)[0]);
     let off = cone.off(nominal);
+    // The bounds hold for any bit, so that they are asked before the weights, which are many runs.
     let excluded = Range::of(config).map(|range| range.excluded(config, Some(&rows)));
     let no_guide = excluded.is_some_and(|excluded| excluded.iter().any(|of| matches!(of, Excluded::Plan { .. })));
     // A hole on its plan needs no other weight, and a guide that cannot drill it has none.
@@ -215,6 +222,7 @@ pub fn compare(
         .filter(|_| off > BACK && !no_guide)
         .map(|weight| allowed(config, n_to_kn(weight)));
     let nearest = tried.and_then(|tried| {
+        // The tool as configured decides; its range is taken over from the present weight, which saves the other tools.
         let under = |kilonewton: f64| {
             if stop.load(Ordering::Relaxed) {
                 return None;

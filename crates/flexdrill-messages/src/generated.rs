@@ -1394,7 +1394,7 @@ pub mod flexdrill {
         pub plan_nearest_radius: f64,
         /// The same weight where it brings the hole back to its plan, with a plan_off of at most 0.9 (N); NaN otherwise.
         pub plan_weight: f64,
-        /// Whether the hole leaves its plan and none of these weights brings it back.
+        /// Whether plan_off is above 0.9 and no weight brings the hole back.
         pub plan_no_weight: bool,
         /// Whether this guide drills no such hole with any bit, in any rock, at any weight that the inputs allow: the mean build rate of
         /// the plan over 5 m is outside kf -+ sqrt(2 p c/EI).

@@ -1056,7 +1056,7 @@ export interface HoleAhead {
   plan_nearest_radius: number;
   /** The same weight where it brings the hole back to its plan, with a plan_off of at most 0.9 (N); NaN otherwise. */
   plan_weight: number;
-  /** Whether the hole leaves its plan and none of these weights brings it back. */
+  /** Whether plan_off is above 0.9 and no weight brings the hole back. */
   plan_no_weight: boolean;
   /**
    * Whether this guide drills no such hole with any bit, in any rock, at any weight that the inputs allow: the mean build rate of
