@@ -41,10 +41,10 @@ fn station(hole: &HoleAhead, metres: f64) -> Option<(usize, f64)> {
     let bit = hole.measured_depths.first()?;
     let depths = hole.measured_depths.iter().enumerate();
     // Depths are quarters of a metre from the bit, up to rounding.
-    let near = depths.filter(|(index, depth)| {
+    let mut near = depths.filter(|(index, depth)| {
         **depth - bit < metres + 0.01 && hole.plan_inclination.get(*index).is_some_and(|off| off.is_finite())
     });
-    near.last().map(|(index, depth)| (index, depth - bit))
+    near.next_back().map(|(index, depth)| (index, depth - bit))
 }
 
 /// What the hole does, and what the plan needs.

@@ -82,7 +82,10 @@ fn a_goal_is_answered_while_the_live_run_goes_on() {
         // Nothing says which shape the guide of this tool was made with.
         assert_eq!(of["hole_known"], false, "{of}");
         let because = of["hole_because"].as_str().unwrap();
-        assert!(!because.is_empty() && !because.contains("comes with the result"), "{because}");
+        assert!(
+            !because.is_empty() && !because.contains("comes with the result"),
+            "{because}"
+        );
     }
     assert!(
         answer["message"].as_str().unwrap().contains("60 r/min and 5 kN"),

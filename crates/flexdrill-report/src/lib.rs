@@ -7,7 +7,7 @@
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
 //!   `transfer` (torque, weight and power from the surface to the bit), `balances` (of the whole tool), `incidents`
-//!   (alarms), `tools` (what plausible tools did), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
+//!   (alarms), `tools` (what plausible tools did), `hole` (where the tool drilled next), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
 //!   their orbits), `health` (pace, model, recording).
 //! - [`calibration`]: the page of a calibration.
 //! - `compare`: two summaries next to each other, a [`Comparison`].
@@ -22,6 +22,7 @@ mod envelope;
 mod error;
 mod health;
 mod history;
+mod hole;
 mod incidents;
 mod locations;
 pub mod map;

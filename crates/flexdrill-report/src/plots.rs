@@ -50,10 +50,10 @@ impl Axis {
     }
 
     /// Adds the area between the first and the last of three histories of the same instants, and the one between.
-    fn between(&self, mut panel: Panel, color: usize, histories: &[History; 3], factor: f64) -> Panel {
+    fn between(&self, mut panel: Panel, name: &str, color: usize, histories: &[History; 3], factor: f64) -> Panel {
         let [low, middle, high] = histories.each_ref().map(|history| history.segments(factor));
         for (index, ((low, middle), high)) in low.into_iter().zip(middle).zip(high).enumerate() {
-            let name = if index == 0 { "median of the tools" } else { "" };
+            let name = if index == 0 { name } else { "" };
             let outline = high.mean.into_iter().chain(low.mean.into_iter().rev()).collect();
             panel = panel
                 .line(Line::new("", self.scaled(outline)).area().color(color))
@@ -97,12 +97,30 @@ pub(crate) fn tools(summary: &Summary) -> Option<Figure> {
             continue;
         }
         let (unit, factor) = band.kind.unit();
-        let panel = axis.between(axis.panel(title, unit), 0, &band.quantiles, factor);
+        let panel = axis.between(
+            axis.panel(title, unit),
+            "median of the tools",
+            0,
+            &band.quantiles,
+            factor,
+        );
         panels.push(axis.draw(panel, "the twin", 6, &own.history, factor));
     }
     let any = axis.panel("Plausible tools in which an alarm stands", "%").from_zero();
     panels.push(axis.draw(any, "", 1, &tools.any_alarm, 100.0));
     figure("tools", 2, ROW, panels)
+}
+
+/// Build rate of the next metre with its range, and the plan of the hole.
+pub(crate) fn hole(summary: &Summary) -> Option<Figure> {
+    let axis = Axis::of(summary);
+    let hole = &summary.hole;
+    let build = axis.panel("Build rate of the next metre", "°/m");
+    let build = axis.between(build, "as configured", 0, &hole.build, rad_to_deg(1.0));
+    let build = axis.draw(build, "the plan", 6, &hole.planned, rad_to_deg(1.0));
+    let distance = axis.panel("Distance to the plan ahead", "m").from_zero();
+    let distance = axis.draw(distance, "", 1, &hole.distance, 1.0);
+    figure("hole", 2, ROW, vec![build, distance])
 }
 
 fn has_lines(panel: &Panel) -> bool {

@@ -6,6 +6,7 @@ use crate::ReportError;
 use crate::balances::Balances;
 use crate::drive::Drive;
 use crate::health::Health;
+use crate::hole::HoleHistory;
 use crate::incidents::Incidents;
 use crate::locations::Locations;
 use crate::roles::{OUTPUTS, Roles};
@@ -19,8 +20,8 @@ use flexdrill_field_log::LogRows;
 use flexdrill_messages::std_msgs::{Float64, Header};
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{
-    AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, JointDeflections, Message, Reactions,
-    RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState,
+    AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, HoleAhead, JointDeflections, Message,
+    Reactions, RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState,
 };
 use flexdrill_text::counted;
 
@@ -48,6 +49,7 @@ pub struct Summary {
     pub(crate) transfer: TransferHistory,
     pub(crate) steady: SteadyDrilling,
     pub(crate) tools: PlausibleTools,
+    pub(crate) hole: HoleHistory,
     pub(crate) balances: Balances,
     pub(crate) incidents: Incidents,
     /// The rows of the field log that drove the run; none of another run.
@@ -141,6 +143,7 @@ impl Reader {
                 transfer: TransferHistory::default(),
                 steady: SteadyDrilling::default(),
                 tools: PlausibleTools::default(),
+                hole: HoleHistory::default(),
                 balances: Balances::default(),
                 incidents: Incidents::default(),
                 log_rows: LogRows::default(),
@@ -249,6 +252,11 @@ impl Reader {
                 let bands: Bands = message.decode()?;
                 let time = self.stamp(&bands.header);
                 self.summary.tools.push(time, &bands);
+            }
+            HoleAhead::ROS_TYPE => {
+                let hole: HoleAhead = message.decode()?;
+                let time = self.stamp(&hole.header);
+                self.summary.hole.push(time, &hole);
             }
             Reactions::ROS_TYPE => {
                 let reactions: Reactions = message.decode()?;

@@ -60,7 +60,7 @@ pub(super) fn with_hole(answer: WhatIfAnswer, hole: &Hole) -> WhatIfAnswer {
     };
     let [radius, low, high] = ahead.radius();
     let plan = ahead.plan.as_ref().and_then(|plan| plan.as_ref().ok());
-    let end = plan.and_then(|plan| plan.stations.iter().enumerate().last());
+    let end = plan.and_then(|plan| plan.stations.iter().enumerate().next_back());
     WhatIfAnswer {
         hole_known: true,
         hole_because: String::new(),

@@ -5,6 +5,7 @@ mod balances;
 pub(crate) mod comparison;
 mod drive;
 mod health;
+mod hole;
 mod locations;
 pub(crate) mod text;
 mod tools;
@@ -51,6 +52,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
         (drive::torque(summary)?)
         (transfer::section(summary)?)
         (tools::section(summary)?)
+        (hole::section(summary)?)
         (balances::section(summary))
         (health::section(summary)?)
         (limits())
