@@ -3,7 +3,8 @@
 //! The hole grows at the bit, in the direction in which the bit points plus the direction into which its side force cuts
 //! ([`BitLaw`]). Tilt and side force follow from the statics of the guide in the hole that it has drilled ([`at_rest`]).
 //! [`Propagation`] joins both, chord by chord in depth. [`steady`] has the curvature that results in closed form, and
-//! [`bounds`] between which curvatures it lies for any bit.
+//! [`bounds`] between which curvatures it lies for any bit. [`SurveyFilter`] learns from surveys where the hole is, and by
+//! how much its curvature differs from that of a model.
 //!
 //! # Frames and signs
 //! World: X horizontal, in the build's direction at azimuth 0; Y to the right of it; Z down. Along the hole: x down the
@@ -14,7 +15,8 @@
 //!
 //! # Layout
 //! `bit_law` is the law, `guide` the tool, `closed_form` and `ripple` have formulas, `hole` the drilled path; `beam`,
-//! `blocks` and `statics` compute the equilibrium, and `propagation` lets the hole grow.
+//! `blocks` and `statics` compute the equilibrium, and `propagation` lets the hole grow. `surveys` corrects a forecast by what
+//! was measured.
 
 mod beam;
 mod bit_law;
@@ -26,6 +28,7 @@ mod hole;
 mod propagation;
 mod ripple;
 mod statics;
+mod surveys;
 
 pub use bit_law::BitLaw;
 pub use closed_form::{Bounds, Steady, bounds, indifferent_resistance, steady};
@@ -35,6 +38,10 @@ pub use hole::{Frame, Hole};
 pub use propagation::{Advance, Propagation};
 pub use ripple::{RIPPLE_THRESHOLD, Ripple, ripple_of_two_contacts};
 pub use statics::{Equilibrium, at_rest};
+pub use surveys::{
+    KEPT, PlaneModel, PlaneState, Planes, RunStart, Survey, SurveyFilter, USUAL_INCLINATION_DEVIATION,
+    usual_azimuth_deviation,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

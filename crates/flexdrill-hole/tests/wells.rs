@@ -1,0 +1,223 @@
+//! The forecast after surveys, judged by wells that other laws drill.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+#[path = "support/plants.rs"]
+mod plants;
+mod support;
+
+use fastrand::Rng;
+use flexdrill_hole::{BitLaw, Gravity, Guide, PlaneModel, Planes, RunStart, Survey, SurveyFilter, steady};
+use plants::{BEGIN, LENGTH, Plant, Well, normal};
+use support::{ARC, SOFT, guide};
+
+/// Metres of a forecast.
+const AHEAD: f64 = 5.0;
+/// Pieces of the filter (m).
+const PIECE: f64 = 0.25;
+/// 90 % of a normal distribution are within so many standard deviations.
+const NINETY: f64 = 1.6449;
+
+/// A forecast.
+#[derive(Debug, Clone, Copy)]
+struct Forecast {
+    /// Depth of the bit (m).
+    depth: f64,
+    /// Error of the angle (rad).
+    error: f64,
+    /// Half width of 90 % (rad).
+    half: f64,
+}
+
+impl Forecast {
+    fn holds(&self) -> bool {
+        self.error.abs() <= self.half
+    }
+}
+
+/// The curvature that the nominal tool drills, against the nominal arc (1/m).
+fn model() -> Planes<f64> {
+    let level = Guide {
+        gravity: Gravity::LowSide,
+        ..guide(SOFT)
+    };
+    let nominal = steady(&level, &BitLaw::sharp(10e3, 20.0), 1.0).unwrap();
+    Planes {
+        build: nominal.curvature - ARC,
+        right: 0.0,
+    }
+}
+
+/// The forecasts in a well: one before any survey, and one after each survey.
+fn forecasts(build: PlaneModel, well: &Well, spacing: f64, deviation: f64, rng: &mut Rng) -> Vec<Forecast> {
+    let models = Planes {
+        build,
+        right: PlaneModel::RIGHT,
+    };
+    let start = RunStart {
+        depth: 0.0,
+        inclination: BEGIN,
+        azimuth: 0.0,
+        deviation: deviation.max(1e-6),
+    };
+    let mut filter = SurveyFilter::begin(models, start).unwrap();
+    let ahead = [model(); (AHEAD / PIECE) as usize];
+    let mut found = Vec::new();
+    let mut judge = |filter: &SurveyFilter, depth: f64| {
+        let at = filter.forecast(PIECE, &ahead).unwrap()[ahead.len() - 1].build;
+        found.push(Forecast {
+            depth,
+            error: well.angle(depth + AHEAD) - at.angle,
+            half: NINETY * at.angle_deviation(),
+        });
+    };
+    judge(&filter, 0.0);
+    let pieces = (spacing / PIECE).round() as usize;
+    let mut depth = 0.0;
+    while depth + spacing + AHEAD < LENGTH {
+        for _ in 0..pieces {
+            depth += PIECE;
+            filter.drilled_to(depth, model()).unwrap();
+        }
+        filter
+            .survey(Survey {
+                depth,
+                inclination: well.angle(depth) + deviation * normal(rng),
+                inclination_deviation: deviation,
+                azimuth: None,
+            })
+            .unwrap();
+        judge(&filter, depth);
+    }
+    found
+}
+
+/// What the judge sees of some wells.
+#[derive(Debug, Default)]
+struct Judged {
+    forecasts: usize,
+    held: usize,
+    wells: usize,
+    first_held: usize,
+    half: f64,
+    first_half: f64,
+    squares: f64,
+    blind: f64,
+    blind_held: usize,
+}
+
+impl Judged {
+    fn add(&mut self, forecasts: &[Forecast], settling: f64) {
+        let (blind, rest) = forecasts.split_first().unwrap();
+        self.wells += 1;
+        self.blind += blind.half;
+        self.blind_held += usize::from(blind.holds());
+        // Surveys of the first metres do not say what the tool drills.
+        let mut first = true;
+        for at in rest.iter().filter(|at| at.depth >= settling) {
+            self.forecasts += 1;
+            self.held += usize::from(at.holds());
+            self.half += at.half;
+            self.squares += at.error.powi(2);
+            if first {
+                self.first_held += usize::from(at.holds());
+                self.first_half += at.half;
+            }
+            first = false;
+        }
+    }
+
+    fn share(&self) -> f64 {
+        self.held as f64 / self.forecasts as f64
+    }
+
+    fn first_share(&self) -> f64 {
+        self.first_held as f64 / self.wells as f64
+    }
+
+    fn mean_half(&self) -> f64 {
+        (self.half / self.forecasts as f64).to_degrees()
+    }
+
+    fn mean_first_half(&self) -> f64 {
+        (self.first_half / self.wells as f64).to_degrees()
+    }
+
+    fn mean_blind(&self) -> f64 {
+        (self.blind / self.wells as f64).to_degrees()
+    }
+
+    fn print(&self, name: &str) {
+        println!(
+            "{name}: {:.3} of {} held, first {:.3} of {}, half width {:.2} deg, first {:.2}, rms error {:.2}, no survey {:.2} \
+             ({:.2} held)",
+            self.share(),
+            self.forecasts,
+            self.first_share(),
+            self.wells,
+            self.mean_half(),
+            self.mean_first_half(),
+            (self.squares / self.forecasts as f64).sqrt().to_degrees(),
+            self.mean_blind(),
+            self.blind_held as f64 / self.wells as f64
+        );
+    }
+}
+
+/// Wells of each plant and distance of surveys.
+const WELLS: u64 = 50;
+
+/// Judges 50 wells each for both plants and for surveys every 1 m (0.2 deg) and 3 m (0.3 deg).
+fn judge(build: PlaneModel, seeds: u64) -> Vec<(String, Judged)> {
+    let mut cells = Vec::new();
+    for plant in [Plant::TwoLags, Plant::DeadZone] {
+        for (spacing, deviation) in [(1.0, 0.2), (3.0, 0.3)] {
+            let mut judged = Judged::default();
+            for well in 0..WELLS {
+                // Wells of all cells differ.
+                let mut rng = Rng::with_seed(seeds + 1000 * cells.len() as u64 + well);
+                let drilled = Well::drill(plant, &mut rng);
+                let found = forecasts(build, &drilled, spacing, f64::to_radians(deviation), &mut rng);
+                judged.add(&found, build.settling);
+            }
+            cells.push((format!("{plant:?}, every {spacing} m"), judged));
+        }
+    }
+    cells
+}
+
+/// The seeds by which the constants of the filter were chosen, and those that judge it.
+const CHOSEN_BY: u64 = 500_000;
+const JUDGED_BY: u64 = 1;
+
+#[test]
+#[ignore = "a choice of constants: cargo test -p flexdrill-hole --test wells choose -- --ignored --nocapture"]
+fn choose_constants() {
+    for correction_walk in [0.004, 0.005, 0.006] {
+        for beginning_factor in [2.0, 3.0] {
+            for correction in [0.025, 0.035] {
+                let build = PlaneModel {
+                    correction,
+                    correction_walk,
+                    beginning_factor,
+                    ..PlaneModel::BUILD
+                };
+                println!("b_0 {correction}, q_b {correction_walk}, factor {beginning_factor}:");
+                for (name, judged) in judge(build, CHOSEN_BY) {
+                    judged.print(&format!("  {name}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_cone_holds_wells_of_other_laws() {
+    for (name, judged) in judge(PlaneModel::BUILD, JUDGED_BY) {
+        judged.print(&name);
+    }
+}
