@@ -53,7 +53,13 @@ fn model() -> Planes<f64> {
 }
 
 /// The forecasts in a well: one before any survey, and one after each survey.
-fn forecasts(build: PlaneModel, well: &Well, spacing: f64, deviation: f64, rng: &mut Rng) -> Vec<Forecast> {
+fn forecasts(
+    build: PlaneModel,
+    model: Planes<f64>,
+    well: &Well,
+    [spacing, deviation]: [f64; 2],
+    rng: &mut Rng,
+) -> Vec<Forecast> {
     let models = Planes {
         build,
         right: PlaneModel::RIGHT,
@@ -62,10 +68,10 @@ fn forecasts(build: PlaneModel, well: &Well, spacing: f64, deviation: f64, rng: 
         depth: 0.0,
         inclination: BEGIN,
         azimuth: 0.0,
-        deviation: deviation.max(1e-6),
+        deviation,
     };
     let mut filter = SurveyFilter::begin(models, start).unwrap();
-    let ahead = [model(); (AHEAD / PIECE) as usize];
+    let ahead = [model; (AHEAD / PIECE) as usize];
     let mut found = Vec::new();
     let mut judge = |filter: &SurveyFilter, depth: f64| {
         let at = filter.forecast(PIECE, &ahead).unwrap()[ahead.len() - 1].build;
@@ -81,7 +87,7 @@ fn forecasts(build: PlaneModel, well: &Well, spacing: f64, deviation: f64, rng: 
     while depth + spacing + AHEAD < LENGTH {
         for _ in 0..pieces {
             depth += PIECE;
-            filter.drilled_to(depth, model()).unwrap();
+            filter.drilled_to(depth, model).unwrap();
         }
         filter
             .survey(Survey {
@@ -99,15 +105,15 @@ fn forecasts(build: PlaneModel, well: &Well, spacing: f64, deviation: f64, rng: 
 /// What the judge sees of some wells.
 #[derive(Debug, Default)]
 struct Judged {
-    forecasts: usize,
-    held: usize,
-    wells: usize,
-    first_held: usize,
+    forecasts: u32,
+    held: u32,
+    wells: u32,
+    first_held: u32,
     half: f64,
     first_half: f64,
     squares: f64,
     blind: f64,
-    blind_held: usize,
+    blind_held: u32,
 }
 
 impl Judged {
@@ -115,16 +121,16 @@ impl Judged {
         let (blind, rest) = forecasts.split_first().unwrap();
         self.wells += 1;
         self.blind += blind.half;
-        self.blind_held += usize::from(blind.holds());
+        self.blind_held += u32::from(blind.holds());
         // Surveys of the first metres do not say what the tool drills.
         let mut first = true;
         for at in rest.iter().filter(|at| at.depth >= settling) {
             self.forecasts += 1;
-            self.held += usize::from(at.holds());
+            self.held += u32::from(at.holds());
             self.half += at.half;
             self.squares += at.error.powi(2);
             if first {
-                self.first_held += usize::from(at.holds());
+                self.first_held += u32::from(at.holds());
                 self.first_half += at.half;
             }
             first = false;
@@ -132,23 +138,23 @@ impl Judged {
     }
 
     fn share(&self) -> f64 {
-        self.held as f64 / self.forecasts as f64
+        f64::from(self.held) / f64::from(self.forecasts)
     }
 
     fn first_share(&self) -> f64 {
-        self.first_held as f64 / self.wells as f64
+        f64::from(self.first_held) / f64::from(self.wells)
     }
 
     fn mean_half(&self) -> f64 {
-        (self.half / self.forecasts as f64).to_degrees()
+        (self.half / f64::from(self.forecasts)).to_degrees()
     }
 
     fn mean_first_half(&self) -> f64 {
-        (self.first_half / self.wells as f64).to_degrees()
+        (self.first_half / f64::from(self.wells)).to_degrees()
     }
 
     fn mean_blind(&self) -> f64 {
-        (self.blind / self.wells as f64).to_degrees()
+        (self.blind / f64::from(self.wells)).to_degrees()
     }
 
     fn print(&self, name: &str) {
@@ -161,9 +167,9 @@ impl Judged {
             self.wells,
             self.mean_half(),
             self.mean_first_half(),
-            (self.squares / self.forecasts as f64).sqrt().to_degrees(),
+            (self.squares / f64::from(self.forecasts)).sqrt().to_degrees(),
             self.mean_blind(),
-            self.blind_held as f64 / self.wells as f64
+            f64::from(self.blind_held) / f64::from(self.wells)
         );
     }
 }
@@ -174,6 +180,7 @@ const WELLS: u64 = 50;
 /// Judges 50 wells each for both plants and for surveys every 1 m (0.2 deg) and 3 m (0.3 deg).
 fn judge(build: PlaneModel, seeds: u64) -> Vec<(String, Judged)> {
     let mut cells = Vec::new();
+    let nominal = model();
     for plant in [Plant::TwoLags, Plant::DeadZone] {
         for (spacing, deviation) in [(1.0, 0.2), (3.0, 0.3)] {
             let mut judged = Judged::default();
@@ -181,7 +188,13 @@ fn judge(build: PlaneModel, seeds: u64) -> Vec<(String, Judged)> {
                 // Wells of all cells differ.
                 let mut rng = Rng::with_seed(seeds + 1000 * cells.len() as u64 + well);
                 let drilled = Well::drill(plant, &mut rng);
-                let found = forecasts(build, &drilled, spacing, f64::to_radians(deviation), &mut rng);
+                let found = forecasts(
+                    build,
+                    nominal,
+                    &drilled,
+                    [spacing, f64::to_radians(deviation)],
+                    &mut rng,
+                );
                 judged.add(&found, build.settling);
             }
             cells.push((format!("{plant:?}, every {spacing} m"), judged));
@@ -217,7 +230,34 @@ fn choose_constants() {
 
 #[test]
 fn the_cone_holds_wells_of_other_laws() {
-    for (name, judged) in judge(PlaneModel::BUILD, JUDGED_BY) {
-        judged.print(&name);
+    let cells = judge(PlaneModel::BUILD, JUDGED_BY);
+    let (mut forecasts, mut held) = (0, 0);
+    for (name, judged) in &cells {
+        judged.print(name);
+        forecasts += judged.forecasts;
+        held += judged.held;
+        assert!(judged.mean_half() <= 6.0, "{name}: too wide");
+        // Two surveys 1 m apart, and one 3 m below the start of the run, whose inclination is known.
+        assert!(
+            judged.mean_first_half() <= 0.5 * judged.mean_blind(),
+            "{name}: not narrower"
+        );
+    }
+    // Too narrow a cone misleads, and too wide a one says nothing.
+    let share = f64::from(held) / f64::from(forecasts);
+    assert!(
+        forecasts >= 300 && (0.85..=0.97).contains(&share),
+        "{share} of {forecasts}"
+    );
+    for plant in cells.chunks(2) {
+        let of = |figure: fn(&Judged) -> u32| plant.iter().map(|(_, judged)| f64::from(figure(judged))).sum::<f64>();
+        let share = of(|judged| judged.held) / of(|judged| judged.forecasts);
+        let first = of(|judged| judged.first_held) / of(|judged| judged.wells);
+        println!(
+            "{}: {share:.3}, first {first:.3} of {}",
+            plant[0].0,
+            of(|judged| judged.wells)
+        );
+        assert!(share >= 0.87 && first >= 0.85, "{share} {first}");
     }
 }

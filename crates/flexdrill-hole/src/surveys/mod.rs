@@ -36,7 +36,11 @@ pub const USUAL_INCLINATION_DEVIATION: f64 = 0.2 * std::f64::consts::PI / 180.0;
 /// Standard deviation of the azimuth of a magnetic tool where none is given (rad), at a depth below the window (m): 5 deg down
 /// to 10 m, where the casing disturbs it, and 1 deg below. A gyro has 0.5 deg.
 pub fn usual_azimuth_deviation(depth: f64) -> f64 {
-    if depth < NEAR_CASING { 5.0_f64.to_radians() } else { 1.0_f64.to_radians() }
+    if depth < NEAR_CASING {
+        5.0_f64.to_radians()
+    } else {
+        1.0_f64.to_radians()
+    }
 }
 
 /// One value for the plane of the build, and one across it.
@@ -274,11 +278,7 @@ impl SurveyFilter {
     ///
     /// # Errors
     /// [`ValidationError`] for a length that is not above 0, or a curvature that is not finite.
-    pub fn forecast(
-        &self,
-        step: f64,
-        curvatures: &[Planes<f64>],
-    ) -> Result<Vec<Planes<PlaneState>>, ValidationError> {
+    pub fn forecast(&self, step: f64, curvatures: &[Planes<f64>]) -> Result<Vec<Planes<PlaneState>>, ValidationError> {
         Bound::Positive.check("forecast.step", step, "m")?;
         let mut at = self.now;
         let mut states = Vec::with_capacity(curvatures.len());

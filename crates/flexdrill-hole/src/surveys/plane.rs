@@ -56,7 +56,11 @@ impl PlaneModel {
     /// [`ValidationError`] with the first number out of bounds.
     pub fn check(&self) -> Result<(), ValidationError> {
         Bound::NotNegative.check("filter.correction", self.correction, "1/m")?;
-        Bound::NotNegative.check("filter.correction_walk", self.correction_walk, "1/m per root of a metre")?;
+        Bound::NotNegative.check(
+            "filter.correction_walk",
+            self.correction_walk,
+            "1/m per root of a metre",
+        )?;
         Bound::NotNegative.check("filter.angle_walk", self.angle_walk, "rad per root of a metre")?;
         Bound::NotNegative.check("filter.beginning_factor", self.beginning_factor, "")?;
         Bound::NotNegative.check_all(
@@ -122,17 +126,8 @@ impl PlaneState {
         Self {
             angle: self.angle + p / whole * surprise,
             correction: self.correction + gain * surprise,
-            covariance: [
-                p * variance / whole,
-                both * variance / whole,
-                correction - gain * both,
-            ],
+            covariance: [p * variance / whole, both * variance / whole, correction - gain * both],
         }
-    }
-
-    /// How far a measured angle (rad) with a variance (rad2) is from the state, in standard deviations of the difference.
-    pub(super) fn surprise(&self, angle: f64, variance: f64) -> f64 {
-        (angle - self.angle) / (self.covariance[0] + variance).sqrt()
     }
 
     /// Standard deviation of the angle (rad).
@@ -218,9 +213,17 @@ mod tests {
         }
         let mean = depths.iter().sum::<f64>() / 5.0;
         let spread: f64 = depths.iter().map(|depth| (depth - mean).powi(2)).sum();
-        let line: f64 = depths.iter().zip(errors).map(|(depth, error)| (depth - mean) * error).sum::<f64>() / spread;
+        let line: f64 = depths
+            .iter()
+            .zip(errors)
+            .map(|(depth, error)| (depth - mean) * error)
+            .sum::<f64>()
+            / spread;
         // A variance of 1e6 loses 12 digits of its sixteen to one of 1e-6: 1e-4 of it remain.
-        assert!((at.correction - slope - line).abs() < 1e-4 * line.abs() + 1e-7, "{at:?} {line}");
+        assert!(
+            (at.correction - slope - line).abs() < 1e-4 * line.abs() + 1e-7,
+            "{at:?} {line}"
+        );
         assert!((at.covariance[2] / (r / spread) - 1.0).abs() < 1e-3, "{at:?}");
     }
 
