@@ -175,7 +175,7 @@ impl Judged {
 }
 
 /// Wells of each plant and distance of surveys.
-const WELLS: u64 = 50;
+const WELLS: u64 = 200;
 
 /// Judges 50 wells each for both plants and for surveys every 1 m (0.2 deg) and 3 m (0.3 deg).
 fn judge(build: PlaneModel, seeds: u64) -> Vec<(String, Judged)> {
@@ -210,16 +210,16 @@ const JUDGED_BY: u64 = 1;
 #[test]
 #[ignore = "a choice of constants: cargo test -p flexdrill-hole --test wells choose -- --ignored --nocapture"]
 fn choose_constants() {
-    for correction_walk in [0.004, 0.005, 0.006] {
-        for beginning_factor in [2.0, 3.0] {
-            for correction in [0.025, 0.035] {
+    for correction_walk in [0.005, 0.0055, 0.006] {
+        for beginning_factor in [3.0, 4.0, 5.0] {
+            for beginning in [1.5, 2.0, 2.5] {
                 let build = PlaneModel {
-                    correction,
                     correction_walk,
                     beginning_factor,
+                    beginning,
                     ..PlaneModel::BUILD
                 };
-                println!("b_0 {correction}, q_b {correction_walk}, factor {beginning_factor}:");
+                println!("q_b {correction_walk}, factor {beginning_factor} over {beginning} m:");
                 for (name, judged) in judge(build, CHOSEN_BY) {
                     judged.print(&format!("  {name}"));
                 }

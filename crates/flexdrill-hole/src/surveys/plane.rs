@@ -35,9 +35,9 @@ impl PlaneModel {
     /// The plane of the build. The figures were chosen with synthetic wells of other laws, see `docs/hole_ahead.md`.
     pub const BUILD: Self = Self {
         correction: 0.035,
-        correction_walk: 0.006,
+        correction_walk: 0.0055,
         angle_walk: 0.004,
-        beginning: 2.0,
+        beginning: 2.5,
         beginning_factor: 3.0,
         settling: 1.5,
     };
