@@ -1,6 +1,7 @@
 //! `flexdrill ahead`: where the tool drills in the next metres.
 
-use std::path::PathBuf;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
@@ -11,7 +12,8 @@ use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
 use crate::hole_ahead::words::{Goal, words};
 use crate::hole_ahead::{
-    Drilling, Plan, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, picture, plan, table, tool,
+    Drilling, Learnt, Plan, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, learnt, picture,
+    plan, surveys, table, tool,
 };
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, n_to_kn};
@@ -20,7 +22,7 @@ use flexdrill_text::counted;
 /// Computes where the tool drills in the next metres, with the range of plausible tools, and writes ahead.csv and ahead.svg.
 ///
 /// The hole is that of the configuration, up to the bit. With a plan, the words have the distance to it and the weight under
-/// which the bit comes nearest.
+/// which the bit comes nearest. With surveys, the forecast begins in the surveyed direction with the measured curvature.
 #[derive(Debug, Args)]
 pub struct AheadArgs {
     /// The tool in its hole (YAML).
@@ -47,6 +49,14 @@ pub struct AheadArgs {
     /// Plan: an arc of this radius (m) that continues the hole.
     #[arg(long, value_parser = numbers::arc_radius)]
     radius: Option<f64>,
+    /// Surveys: a table (CSV) with the columns measured_depth_m from the kick-off, inclination_deg and azimuth_deg, and
+    /// optionally inclination_sd_deg and azimuth_sd_deg. An azimuth may be empty.
+    #[arg(long)]
+    surveys: Option<PathBuf>,
+    /// Measured depth (m) from which on this tool has drilled: surveys above it say nothing of the tool. By default where the
+    /// arc above the bit begins.
+    #[arg(long, requires = "surveys", value_parser = numbers::measured_depth)]
+    drilled_from: Option<f64>,
     /// Distance from the plan that counts as on plan (m); that of the configuration's plan by default, else 0.5.
     #[arg(long, value_parser = numbers::distance)]
     target: Option<f64>,
@@ -57,6 +67,8 @@ pub struct AheadArgs {
 
 /// Distance that counts as on plan where none is given (m).
 const USUAL_TARGET: f64 = 0.5;
+/// Largest table of surveys (bytes).
+const LARGEST: u64 = 4 << 20;
 
 /// A number of members.
 fn members() -> clap::builder::RangedU64ValueParser<usize> {
@@ -66,7 +78,7 @@ fn members() -> clap::builder::RangedU64ValueParser<usize> {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// When configuration or plan are refused, nothing can be predicted for them, or a file cannot be written. A plausible tool
+/// When configuration, plan or surveys are refused, nothing can be predicted for them, or a file cannot be written. A plausible tool
 /// without a result is part of the results.
 pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     let (config, name) = built_in::load(&args.config)?;
@@ -96,7 +108,11 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         .or_else(|| args.radius.map(|radius| Plan::arc(radius, &drilling, bit, ahead)));
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     let mut progress = Progress::share();
-    let found = answer(&config, &question, |share| progress.at(share)).with_context(|| name.clone())?;
+    let learnt = match &args.surveys {
+        Some(path) => Some(learnt(args, path, &config, &drilling, azimuth)?),
+        None => None,
+    };
+    let found = answer(&config, &question, learnt, |share| progress.at(share)).with_context(|| name.clone())?;
     progress.done();
     let goal = planned.as_ref().map(|plan| Goal {
         plan,
@@ -106,6 +122,10 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     let svg = flexdrill_plot::svg(&picture::figure(&found, planned.as_ref(), azimuth))?;
     whole_file::write(&args.out, "ahead.csv", &table::csv(&found, planned.as_ref()))?;
     whole_file::write(&args.out, "ahead.svg", &svg)?;
+    if let Some(learnt) = &found.learnt {
+        let used = learnt.surveys.iter().map(|survey| (survey, learnt.corrects(survey)));
+        whole_file::write(&args.out, "surveys.csv", &surveys::csv(used))?;
+    }
     for line in words(&config, &question, &found, goal.as_ref()) {
         say!("{line}");
     }
@@ -116,6 +136,44 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         args.out.join("ahead.csv").display()
     );
     Ok(())
+}
+
+/// What the surveys of a table say.
+fn learnt(args: &AheadArgs, path: &Path, config: &Config, drilling: &Drilling, azimuth: f64) -> anyhow::Result<Learnt> {
+    let bit = config.well.length();
+    let (name, text) = read_table(path)?;
+    let read = surveys::read(&name, &text, bit)?;
+    let since = args.drilled_from.unwrap_or_else(|| learnt::arc_begins(config));
+    if since >= bit {
+        return Err(WrongUse::new(format!(
+            "--drilled-from {since} m: must be below {bit:.3} m, the measured depth of the bit: give the depth at which this \
+             tool began to drill{}",
+            if args.drilled_from.is_none() {
+                ", because the hole as configured has no arc above the bit"
+            } else {
+                ""
+            }
+        ))
+        .into());
+    }
+    Learnt::of(config, drilling, read, since, azimuth).with_context(|| name.clone())
+}
+
+/// Name and text of a table.
+fn read_table(path: &Path) -> anyhow::Result<(String, String)> {
+    let name = path.display().to_string();
+    let file = std::fs::File::open(path).with_context(|| format!("cannot read {name}"))?;
+    let mut text = String::new();
+    // One byte more than allowed shows that the file is longer.
+    file.take(LARGEST + 1)
+        .read_to_string(&mut text)
+        .with_context(|| format!("cannot read {name}"))?;
+    anyhow::ensure!(
+        text.len() as u64 <= LARGEST,
+        "{name}: must be at most {} MB: give the surveys of the hole above the bit",
+        LARGEST >> 20
+    );
+    Ok((name, text))
 }
 
 /// What is asked, SI.

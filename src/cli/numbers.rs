@@ -79,6 +79,11 @@ pub(super) fn distance(text: &str) -> Result<f64, NumberError> {
     number(text, 0.01, 100.0, "m")
 }
 
+/// A measured depth from the kick-off (m).
+pub(super) fn measured_depth(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.0, 100_000.0, "m")
+}
+
 /// A number of threads.
 pub(super) fn jobs() -> clap::builder::RangedU64ValueParser<usize> {
     clap::builder::RangedU64ValueParser::<usize>::new().range(1..=256)
@@ -101,7 +106,7 @@ mod tests {
     #[test]
     fn implausible_numbers_are_refused_with_the_bounds() {
         type Parser = fn(&str) -> Result<f64, NumberError>;
-        let parsers: [Parser; 13] = [
+        let parsers: [Parser; 14] = [
             seconds,
             time_step,
             rpm,
@@ -115,6 +120,7 @@ mod tests {
             metres_ahead,
             arc_radius,
             distance,
+            measured_depth,
         ];
         for parse in parsers {
             for text in [

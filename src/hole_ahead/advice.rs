@@ -52,7 +52,11 @@ pub fn advise(config: &Config, question: &Question, answer: &Answer, plan: &Plan
     }
     let distance = |weight: f64| {
         let drilling = Drilling::of(config, kn_to_n(weight), question.azimuth).ok()?;
-        let track = drill(&drilling, last).ok()?;
+        let mut track = drill(&drilling, last).ok()?;
+        // What was measured under the present weight is taken to hold under others.
+        if let Some(learnt) = &answer.learnt {
+            track = learnt.corrected(&track);
+        }
         Some(plan.distance(track.last()?).whole)
     };
     let tried = allowed(config, n_to_kn(question.weight));

@@ -3,10 +3,13 @@
 //!
 //! # Layout
 //! - [`advice`]: what the plan needs, and under which weight the bit comes nearest to it.
+//! - [`surveys`]: a table of surveys; [`learnt`]: what they correct.
 //! - [`table`], [`words`], [`picture`]: the results.
 
 pub mod advice;
+pub mod learnt;
 pub mod picture;
+pub mod surveys;
 pub mod table;
 pub mod words;
 
@@ -20,6 +23,7 @@ pub use crate::drilling::{
 use crate::drilling::{middle_inclination, spread, unknowns};
 use crate::runs::{KeepError, KeptAs, Work, run_all};
 pub use advice::Advice;
+pub use learnt::Learnt;
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,9 +51,11 @@ pub struct Answer {
     pub depth: f64,
     /// The tool as configured.
     pub drilling: Drilling,
-    /// Its stations.
+    /// Its stations, with what surveys correct.
     pub nominal: Track,
-    /// Those of the members, or why one is not known.
+    /// What surveys say; none without any.
+    pub learnt: Option<Learnt>,
+    /// Those of the plausible tools, or of the plausible holes where surveys correct the curvature; or why one is not known.
     pub members: Vec<Result<Track, String>>,
     /// Where the known members are, by station; empty without any.
     pub spread: Vec<Spread>,
@@ -121,11 +127,16 @@ pub enum AnswerError {
     Keep(#[from] KeepError),
 }
 
-/// Answers for a configuration.
+/// Answers for a configuration, with what surveys say.
 ///
 /// # Errors
 /// When nothing can be predicted for the configuration as it is. A member that fails is part of the answer.
-pub fn answer(config: &Config, question: &Question, progress: impl FnMut(f64)) -> Result<Answer, AnswerError> {
+pub fn answer(
+    config: &Config,
+    question: &Question,
+    learnt: Option<Learnt>,
+    progress: impl FnMut(f64),
+) -> Result<Answer, AnswerError> {
     let drilling = Drilling::of(config, question.weight, question.azimuth)?;
     let nominal = drill(&drilling, question.stations)?;
     let Question {
@@ -135,10 +146,18 @@ pub fn answer(config: &Config, question: &Question, progress: impl FnMut(f64)) -
         seed,
         ..
     } = *question;
+    // Where the curvature was measured, plausible tools say nothing more of it.
+    let measured = learnt.as_ref().is_some_and(Learnt::corrects_curvature);
+    let members = if measured { 0 } else { members };
     let tools = unknowns::members(config, weight, azimuth, members, seed)?;
     let stations = question.stations;
     let runs: Vec<Run<'_>> = tools.iter().map(|drilling| Run { drilling, stations }).collect();
-    let members = run_all(&runs, question.jobs, None, progress)?;
+    let mut members = run_all(&runs, question.jobs, None, progress)?;
+    let mut nominal = nominal;
+    if let Some(learnt) = &learnt {
+        members = learnt.plausible(&nominal, &members, seed)?;
+        nominal = learnt.corrected(&nominal);
+    }
     let sine = libm::sin(middle_inclination(&nominal));
     let long = steady(&drilling.guide, &drilling.law, sine).ok();
     // The weight across the hole is largest in a level one: the widest range.
@@ -150,6 +169,7 @@ pub fn answer(config: &Config, question: &Question, progress: impl FnMut(f64)) -
         long: long.map(Long::from),
         drilling,
         nominal,
+        learnt,
         members,
     })
 }

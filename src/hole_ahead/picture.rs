@@ -52,20 +52,45 @@ fn drawn(
         }))
     };
     let stations = || answer.nominal.iter().zip(&answer.spread);
+    let (range, way) = match &answer.learnt {
+        Some(learnt) if learnt.corrects_curvature() => ("90 % by the surveys", "ahead, by the surveys"),
+        Some(_) => ("90 % of the plausible tools", "ahead, from the surveyed direction"),
+        None => ("90 % of the plausible tools", "ahead, as configured"),
+    };
     let low: Vec<(f64, f64)> = stations().map(|pair| off(pair, &|band| band.low)).collect();
     let high = stations().rev().map(|pair| off(pair, &|band| band.high));
     if low.len() > 1 {
         let around = low.iter().copied().chain(high).collect();
-        panel = panel.line(Line::new("90 % of the plausible tools", around).area().color(AHEAD));
+        panel = panel.line(Line::new(range, around).area().color(AHEAD));
     }
     let hole = answer.drilling.hole.points().iter();
     let hole = hole.map(|point| at([point.x, point.y, point.z])).collect();
     panel = panel.line(Line::new("hole as it is", hole).color(HOLE));
+    if let Some(learnt) = &answer.learnt {
+        let places = learnt.used().map(|survey| at(on_hole(answer, survey.depth))).collect();
+        panel = panel.line(Line::new("surveys", places).dots().color(HOLE));
+    }
     let path = answer.nominal.iter().map(|station| at(station.position)).collect();
-    panel = panel.line(Line::new("ahead, as configured", path).color(AHEAD));
+    panel = panel.line(Line::new(way, path).color(AHEAD));
     if let Some(plan) = plan {
         let planned = plan.points().map(at).collect();
         panel = panel.line(Line::new("plan", planned).dashed().color(PLAN));
     }
     panel
+}
+
+/// Position of the hole as configured at a measured depth (m).
+fn on_hole(answer: &Answer, depth: f64) -> [f64; 3] {
+    let points = answer.drilling.hole.points();
+    let mut above = 0.0;
+    for pair in points.windows(2) {
+        let way = pair[1] - pair[0];
+        let length = way.norm();
+        if depth <= above + length {
+            let at = pair[0] + way * ((depth - above) / length);
+            return [at.x, at.y, at.z];
+        }
+        above += length;
+    }
+    points.last().map_or([0.0; 3], |at| [at.x, at.y, at.z])
 }

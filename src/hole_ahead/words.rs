@@ -2,9 +2,11 @@
 
 use flexdrill_config::{Config, FreeBend};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_hole::PlaneModel;
 use flexdrill_text::{counted, fixed};
 
 use super::advice::{Tried, allowed, last_station};
+use super::learnt::{Learnt, NINETY};
 use super::tool::wear_flats;
 use super::{Advice, Answer, Band, Plan, Question, SPACING, Track, build};
 use crate::drilling::words::{STRAIGHT, any_bit, in_a_long_arc, needed, radii, radius};
@@ -13,6 +15,9 @@ use crate::drilling::words::{STRAIGHT, any_bit, in_a_long_arc, needed, radii, ra
 const NAMED: [f64; 3] = [1.0, 3.0, 5.0];
 /// Sine of the inclination below which an azimuth says nothing: 6 deg from the vertical.
 const STEEP: f64 = 0.1;
+/// Difference of the inclination at the bit from the configured one (deg) from which on the configuration is wrong: a hole
+/// that is 3 deg off over 2 m has another curvature by 8 % of a 3.2 m arc's.
+const FAR_OFF: f64 = 3.0;
 /// Most causes of unknown members that are named.
 const CAUSES: usize = 3;
 
@@ -55,6 +60,7 @@ fn rate(build: f64) -> String {
 /// The sentences.
 pub fn words(config: &Config, question: &Question, answer: &Answer, goal: Option<&Goal<'_>>) -> Vec<String> {
     let mut lines = vec![beginning(question, answer)];
+    lines.extend(answer.learnt.as_ref().map_or_else(Vec::new, surveyed));
     lines.push(first_metre(answer));
     lines.extend(ahead(answer));
     lines.push(in_a_long_arc(answer.long.as_ref(), ""));
@@ -74,7 +80,13 @@ fn beginning(question: &Question, answer: &Answer) -> String {
     } else {
         format!("{known} known of {} plausible tools", answer.members.len())
     };
-    let ranges = if known < Band::LEAST {
+    let measured = answer.learnt.as_ref().filter(|learnt| learnt.corrects_curvature());
+    let ranges = if let Some(learnt) = measured {
+        format!(
+            "in brackets 90 % by {}",
+            counted(learnt.used().count() as u64, "survey")
+        )
+    } else if known < Band::LEAST {
         format!("no ranges, which need {} plausible tools: {tools}", Band::LEAST)
     } else {
         format!("in brackets 90 % of {tools}")
@@ -85,6 +97,62 @@ fn beginning(question: &Question, answer: &Answer) -> String {
         answer.depth,
         answer.nominal.first().map_or(f64::NAN, |at| rad_to_deg(at.inclination))
     )
+}
+
+/// What surveys correct.
+fn surveyed(learnt: &Learnt) -> Vec<String> {
+    let used = learnt.used().count();
+    let above = learnt.surveys.len() - used;
+    let mut lines = Vec::new();
+    let at = learnt.filter.at_bit();
+    if used > 0 {
+        let depths: Vec<f64> = learnt.used().map(|survey| survey.depth).collect();
+        let depths = match depths[..] {
+            [one] => format!("at {one:.2} m"),
+            _ => format!("from {:.2} to {:.2} m", depths[0], depths[used - 1]),
+        };
+        lines.push(format!(
+            "{} {depths}, in the hole drilled since {:.2} m: inclination at the bit {:.1} deg (+- {:.1}), as configured {:.1} \
+             deg.",
+            counted(used as u64, "survey"),
+            learnt.since,
+            rad_to_deg(at.build.angle),
+            rad_to_deg(NINETY * at.build.angle_deviation()),
+            rad_to_deg(learnt.configured)
+        ));
+        lines.push(if learnt.corrects_curvature() {
+            let more = rad_to_deg(at.build.correction);
+            format!(
+                "The tool builds {:.1} deg/m (+- {:.1}) {} than as configured; the forecast has this correction.",
+                more.abs(),
+                rad_to_deg(NINETY * at.build.correction_deviation()),
+                if more < 0.0 { "less" } else { "more" }
+            )
+        } else {
+            format!(
+                "They correct the direction at the bit alone: a curvature needs a survey {} m or more below the start of the \
+                 run.",
+                PlaneModel::BUILD.settling
+            )
+        });
+    }
+    if above > 0 {
+        lines.push(format!(
+            "{} above {:.2} m, in the hole of another tool: not used.",
+            counted(above as u64, "survey"),
+            learnt.since
+        ));
+    }
+    let away = rad_to_deg(at.build.angle - learnt.configured);
+    if away.abs() > FAR_OFF {
+        lines.push(format!(
+            "The hole at the bit is {:.1} deg {} than well.sections has it: correct well.sections, because the guide is taken \
+             to lie in that hole.",
+            away.abs(),
+            if away < 0.0 { "steeper" } else { "flatter" }
+        ));
+    }
+    lines
 }
 
 /// Curvature of the first metre with its range.
@@ -166,11 +234,19 @@ fn to_plan(config: &Config, question: &Question, answer: &Answer, goal: &Goal<'_
             metres(station),
             distance.whole,
             side(distance.high, distance.right),
-            counted(known.len() as u64, "known tool")
+            counted(known.len() as u64, known_as(answer))
         ));
     }
     lines.push(what_to_do(config, question, target, advice, last));
     lines
+}
+
+/// What is counted.
+fn known_as(answer: &Answer) -> &'static str {
+    match &answer.learnt {
+        Some(learnt) if learnt.corrects_curvature() => "plausible hole",
+        _ => "known tool",
+    }
 }
 
 /// Where the bit is against the plan.

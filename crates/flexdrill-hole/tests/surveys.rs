@@ -184,3 +184,29 @@ fn magnetic_azimuths_near_the_casing_are_hardly_used() {
     assert_eq!(usual_azimuth_deviation(9.9).to_degrees().round(), 5.0);
     assert_eq!(usual_azimuth_deviation(10.0).to_degrees().round(), 1.0);
 }
+
+#[test]
+fn plausible_holes_scatter_as_the_forecast_says() {
+    let mut filter = drilled(begin(MODELS, 0.02), 7.0);
+    filter.survey(survey(6.5, 1.3, 3e-3)).unwrap();
+    let straight = [STRAIGHT; 20];
+    let forecast = filter.forecast(0.25, &straight).unwrap()[19].build;
+    let mut rng = fastrand::Rng::with_seed(3);
+    let mut normal = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (std::f64::consts::TAU * rng.f64()).cos();
+    let count = 4000;
+    let ends: Vec<f64> = (0..count)
+        .map(|_| filter.plausible(0.25, 20, &mut normal).unwrap()[20].build)
+        .collect();
+    let mean = ends.iter().sum::<f64>() / f64::from(count);
+    let deviation = (ends.iter().map(|end| (end - mean).powi(2)).sum::<f64>() / f64::from(count)).sqrt();
+    // Four standard errors: of a mean 1/sqrt(n), of a deviation 1/sqrt(2 n).
+    let expected = forecast.angle_deviation();
+    assert!(
+        (mean - forecast.angle).abs() < 4.0 * expected / 63.0,
+        "{mean} {forecast:?}"
+    );
+    assert!(
+        (deviation / expected - 1.0).abs() < 4.0 / 89.0,
+        "{deviation} {expected}"
+    );
+}

@@ -293,6 +293,38 @@ impl SurveyFilter {
         }
         Ok(states)
     }
+
+    /// Angles of a hole that is as likely as the filter says (rad): at the bit, and after each of some steps of a length (m)
+    /// over which the model does not turn it. `normal` gives independent standard normal numbers.
+    ///
+    /// # Errors
+    /// [`ValidationError`] for a length that is not above 0.
+    pub fn plausible(
+        &self,
+        step: f64,
+        steps: usize,
+        mut normal: impl FnMut() -> f64,
+    ) -> Result<Vec<Planes<f64>>, ValidationError> {
+        Bound::Positive.check("plausible.step", step, "m")?;
+        let mut drawn = |at: Planes<PlaneState>| Planes {
+            build: at.build.drawn([normal(), normal()]),
+            right: at.right.drawn([normal(), normal()]),
+        };
+        let straight = Planes { build: 0.0, right: 0.0 };
+        let mut at = self.now;
+        let mut angles = Vec::with_capacity(steps + 1);
+        for index in 0..=steps {
+            if index > 0 {
+                at = self.moved(at, at.depth + step, straight);
+            }
+            at.planes = drawn(at.planes);
+            angles.push(Planes {
+                build: at.planes.build.angle,
+                right: at.planes.right.angle,
+            });
+        }
+        Ok(angles)
+    }
 }
 
 /// Angle (rad) and variance (rad2) of a survey in both planes.
