@@ -13,6 +13,7 @@ mod plan;
 mod posterior;
 mod reach;
 mod sensitivity;
+mod surveys;
 mod sweep;
 mod usage;
 mod verify;
