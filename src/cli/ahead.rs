@@ -17,6 +17,7 @@ use crate::hole_ahead::{
 };
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, n_to_kn};
+use flexdrill_hole::Survey;
 use flexdrill_text::counted;
 
 /// Computes where the tool drills in the next metres, with the range of plausible tools, and writes ahead.csv and ahead.svg.
@@ -94,8 +95,15 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     if let Some(table) = &table {
         plan::covers(&table.name, &table.rows, bit)?;
     }
-    // A configuration has no azimuth: the hole lies in the plane of the plan.
-    let azimuth = table.as_ref().map_or(0.0, |table| plan::azimuth(&table.rows, bit));
+    let surveys = match &args.surveys {
+        Some(path) => Some(surveyed(path, bit)?),
+        None => None,
+    };
+    // A configuration has no azimuth: the hole lies in the plane of the plan, or else in that of the surveys.
+    let planned = table.as_ref().map(|table| [plan::azimuth(&table.rows, bit), 0.0]);
+    let measured = surveys.as_ref().and_then(|(_, read)| surveys::plane(read));
+    let plane = planned.or(measured).unwrap_or([0.0; 2]);
+    let azimuth = plane[0];
     let target = args
         .target
         .or(config.well.plan.as_ref().map(|plan| plan.target))
@@ -108,8 +116,11 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         .or_else(|| args.radius.map(|radius| Plan::arc(radius, &drilling, bit, ahead)));
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     let mut progress = Progress::share();
-    let learnt = match &args.surveys {
-        Some(path) => Some(learnt(args, path, &config, &drilling, azimuth)?),
+    let learnt = match surveys {
+        Some((file, read)) => {
+            let since = drilled_from(args, &config)?;
+            Some(Learnt::of(&config, &drilling, read, since, plane).context(file)?)
+        }
         None => None,
     };
     let found = answer(&config, &question, learnt, |share| progress.at(share)).with_context(|| name.clone())?;
@@ -129,34 +140,43 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     for line in words(&config, &question, &found, goal.as_ref()) {
         say!("{line}");
     }
+    // Holes that are drawn from what surveys say are no runs.
+    let tools = match &found.learnt {
+        Some(learnt) if learnt.corrects_curvature() => 0,
+        _ => found.members.len() as u64,
+    };
     say!(
         "{} in {:.1} s: {} and ahead.svg",
-        counted(found.members.len() as u64 + 1, "run"),
+        counted(tools + 1, "run"),
         progress.elapsed(),
         args.out.join("ahead.csv").display()
     );
     Ok(())
 }
 
-/// What the surveys of a table say.
-fn learnt(args: &AheadArgs, path: &Path, config: &Config, drilling: &Drilling, azimuth: f64) -> anyhow::Result<Learnt> {
-    let bit = config.well.length();
+/// Name and surveys of a table.
+fn surveyed(path: &Path, bit: f64) -> anyhow::Result<(String, Vec<Survey>)> {
     let (name, text) = read_table(path)?;
     let read = surveys::read(&name, &text, bit)?;
+    Ok((name, read))
+}
+
+/// Measured depth from which on this tool has drilled (m).
+fn drilled_from(args: &AheadArgs, config: &Config) -> Result<f64, WrongUse> {
+    let bit = config.well.length();
     let since = args.drilled_from.unwrap_or_else(|| learnt::arc_begins(config));
-    if since >= bit {
-        return Err(WrongUse::new(format!(
-            "--drilled-from {since} m: must be below {bit:.3} m, the measured depth of the bit: give the depth at which this \
-             tool began to drill{}",
-            if args.drilled_from.is_none() {
-                ", because the hole as configured has no arc above the bit"
-            } else {
-                ""
-            }
-        ))
-        .into());
+    if since < bit {
+        return Ok(since);
     }
-    Learnt::of(config, drilling, read, since, azimuth).with_context(|| name.clone())
+    Err(WrongUse::new(format!(
+        "--drilled-from {since} m: must be above the bit, less than {bit:.3} m of measured depth: give the depth at which this \
+         tool began to drill{}",
+        if args.drilled_from.is_none() {
+            ", because the hole as configured has no arc above the bit"
+        } else {
+            ""
+        }
+    )))
 }
 
 /// Name and text of a table.

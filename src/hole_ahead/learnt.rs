@@ -34,6 +34,8 @@ pub struct Learnt {
     pub filter: SurveyFilter,
     /// Inclination at the bit as configured (rad).
     pub configured: f64,
+    /// Standard deviation of the azimuth of the plane of the build (rad): 0 where a plan has it.
+    plane_deviation: f64,
 }
 
 /// Inclination of the hole as configured at a measured depth (rad).
@@ -60,7 +62,8 @@ pub fn arc_begins(config: &Config) -> f64 {
 
 impl Learnt {
     /// What surveys say of a tool that has drilled from a measured depth (m) to the bit. Surveys above that depth are in
-    /// another tool's hole and are not used.
+    /// another tool's hole and are not used. `plane` is the azimuth of the plane of the build with its standard deviation
+    /// (rad).
     ///
     /// # Errors
     /// [`HoleError`] for a start that is not above the bit, surveys that cannot be, and a tool without a steady curvature.
@@ -69,7 +72,7 @@ impl Learnt {
         drilling: &Drilling,
         mut surveys: Vec<Survey>,
         since: f64,
-        azimuth: f64,
+        [azimuth, plane_deviation]: [f64; 2],
     ) -> Result<Self, HoleError> {
         let bit = config.well.length();
         surveys.sort_by(|a, b| a.depth.total_cmp(&b.depth));
@@ -107,6 +110,7 @@ impl Learnt {
             since,
             filter,
             surveys,
+            plane_deviation,
         })
     }
 
@@ -148,7 +152,7 @@ impl Learnt {
             };
             state.angle + correction * index as f64 * SPACING
         };
-        turned_by(track, |index| {
+        turned_by(track, 0.0, |index| {
             self.offset(Planes {
                 build: ahead(index, at.build),
                 right: ahead(index, at.right),
@@ -179,9 +183,10 @@ impl Learnt {
                 .map_or(0.0, |law| law.quantile(rng.f64().clamp(1e-12, 1.0 - 1e-12)))
         };
         let mut drawn = |track: &[Station], steps: usize| -> Result<Track, HoleError> {
+            let plane = self.plane_deviation * normal();
             let angles = self.filter.plausible(SPACING, steps, &mut normal)?;
             // With one step the direction at the bit is that of all stations.
-            Ok(turned_by(track, |index| self.offset(angles[index.min(steps)])))
+            Ok(turned_by(track, plane, |index| self.offset(angles[index.min(steps)])))
         };
         if self.corrects_curvature() {
             let steps = nominal.len().saturating_sub(1);
@@ -195,15 +200,20 @@ impl Learnt {
     }
 }
 
-/// A track whose directions are turned by angles (rad) at each station, with its positions from the same bit on.
-fn turned_by(track: &[Station], by: impl Fn(usize) -> Planes<f64>) -> Track {
+/// A track whose plane is turned by an azimuth (rad), and its directions by angles (rad) in and across the plane at each
+/// station, with its positions from the same bit on.
+fn turned_by(track: &[Station], plane: f64, by: impl Fn(usize) -> Planes<f64>) -> Track {
     let mut turned: Track = Vec::with_capacity(track.len());
     let mut before: Option<[f64; 3]> = None;
     for (index, station) in track.iter().enumerate() {
         let Planes { build, right } = by(index);
+        let station = Station {
+            azimuth: station.azimuth + plane,
+            ..*station
+        };
         let in_plane = station.inclination + build;
         let ((sine, cosine), (east, north)) = (libm::sincos(in_plane), libm::sincos(station.azimuth));
-        let [_, side] = across(station);
+        let [_, side] = across(&station);
         let (across, along) = libm::sincos(right);
         let tangent: [f64; 3] =
             std::array::from_fn(|axis| along * [sine * north, sine * east, cosine][axis] + across * side[axis]);
@@ -248,17 +258,21 @@ mod tests {
             }
         };
         let track: Track = (0..=20).map(station).collect();
-        let same = turned_by(&track, |_| Planes { build: 0.0, right: 0.0 });
+        let same = turned_by(&track, 0.0, |_| Planes { build: 0.0, right: 0.0 });
         for (a, b) in track.iter().zip(&same) {
             assert!((a.inclination - b.inclination).abs() < 1e-12 && (a.azimuth - b.azimuth).abs() < 1e-12);
             let apart: f64 = (0..3).map(|axis| (a.position[axis] - b.position[axis]).abs()).sum();
             // Minimum curvature is exact on a circle.
             assert!(apart < 1e-12, "{apart}");
         }
-        let right = turned_by(&track, |_| Planes { build: 0.0, right: 0.1 });
+        let right = turned_by(&track, 0.0, |_| Planes { build: 0.0, right: 0.1 });
         // In a hole of inclination i an angle a to the right is an azimuth of atan(tan a / sin i).
         let last = right[20];
         let expected = 0.4 + libm::atan(libm::tan(0.1) / libm::sin(track[20].inclination));
         assert!((last.azimuth - expected).abs() < 1e-12, "{last:?}");
+        let other = turned_by(&track, 0.3, |_| Planes { build: 0.0, right: 0.0 });
+        assert!(
+            (other[20].azimuth - 0.7).abs() < 1e-12 && (other[20].inclination - track[20].inclination).abs() < 1e-12
+        );
     }
 }

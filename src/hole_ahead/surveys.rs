@@ -141,6 +141,23 @@ pub fn read(file: &str, text: &str, bit: f64) -> Result<Vec<Survey>, SurveyError
     Ok(surveys)
 }
 
+/// Azimuth of the plane in which surveys lie, with its standard deviation (rad): the mean of their horizontal directions, each
+/// by its precision. None without an azimuth.
+pub fn plane(surveys: &[Survey]) -> Option<[f64; 2]> {
+    let (mut north, mut east, mut precision) = (0.0, 0.0, 0.0);
+    for survey in surveys {
+        if let Some([azimuth, deviation]) = survey.azimuth {
+            // Near the vertical an azimuth says little.
+            let sine = libm::sin(survey.inclination);
+            let weight = sine * sine / (deviation * deviation);
+            north += weight * libm::cos(azimuth);
+            east += weight * libm::sin(azimuth);
+            precision += weight;
+        }
+    }
+    (precision > 0.0).then(|| [libm::atan2(east, north), libm::sqrt(1.0 / precision)])
+}
+
 /// The table of what was used: `corrects` is what a survey corrected.
 pub fn csv<'a>(used: impl Iterator<Item = (&'a Survey, &'static str)>) -> String {
     let mut out = [COLUMNS.as_slice(), &DEVIATIONS, &["corrects"]].concat().join(",") + "\n";
@@ -184,6 +201,24 @@ mod tests {
         assert_eq!(read[1].azimuth, None);
         // Near the casing.
         assert!((rad_to_deg(read[2].azimuth.unwrap()[1]) - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_plane_is_that_of_the_azimuths() {
+        let survey = |degrees: f64, deviation: f64| Survey {
+            depth: 1.0,
+            inclination: deg_to_rad(90.0),
+            inclination_deviation: 1e-3,
+            azimuth: Some([deg_to_rad(degrees), deg_to_rad(deviation)]),
+        };
+        // Across north, and two of them halve the variance.
+        let [azimuth, deviation] = plane(&[survey(359.0, 5.0), survey(3.0, 5.0)]).unwrap();
+        assert!((rad_to_deg(azimuth) - 1.0).abs() < 1e-9);
+        assert!((rad_to_deg(deviation) - 5.0 / 2.0_f64.sqrt()).abs() < 1e-9);
+        // A gyro decides against a magnetic tool.
+        let [azimuth, _] = plane(&[survey(10.0, 0.5), survey(20.0, 5.0)]).unwrap();
+        assert!((rad_to_deg(azimuth) - 10.1).abs() < 0.01, "{azimuth}");
+        assert_eq!(plane(&[]), None);
     }
 
     #[test]

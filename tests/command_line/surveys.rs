@@ -34,7 +34,7 @@ fn width(rows: &[std::collections::BTreeMap<String, String>]) -> f64 {
 fn table(folder: &Path, rows: &[(f64, f64)]) -> String {
     let rows: Vec<String> = rows
         .iter()
-        .map(|(depth, inclination)| format!("{depth},{inclination},0"))
+        .map(|(depth, inclination)| format!("{depth},{inclination},137"))
         .collect();
     let path = folder.join("surveys.csv");
     let text = format!("measured_depth_m,inclination_deg,azimuth_deg\n{}\n", rows.join("\n"));
@@ -67,6 +67,14 @@ fn two_inclinations_narrow_the_cone_and_correct_the_curvature() {
     };
     let more_build = (slope(&after) - slope(&before)) / 4.0;
     assert!((0.3..1.5).contains(&more_build), "{more_build}");
+    // Without a plan the hole lies in the plane of the surveys. Near the casing each azimuth has 5 deg, which
+    // two of them do not halve: 90 % are more than 8 deg wide.
+    let last = after.last().unwrap();
+    assert!((number(last, "azimuth_deg") - 137.0).abs() < 0.5, "{last:?}");
+    assert!(
+        number(last, "azimuth_high_deg") - number(last, "azimuth_low_deg") > 8.0,
+        "{last:?}"
+    );
     // The same seed gives the same bytes.
     assert_eq!(ahead(&config, &out, &more).1, after);
     for part in [
@@ -153,7 +161,7 @@ fn surveys_that_cannot_be_are_refused_with_what_to_do() {
         (
             &[(4.0, 20.0)],
             &["--drilled-from=6"],
-            "--drilled-from 6 m: must be below 5.027 m",
+            "--drilled-from 6 m: must be above the bit, less than 5.027 m",
         ),
     ];
     for (rows, more, said) in cases {
