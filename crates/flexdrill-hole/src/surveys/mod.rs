@@ -9,7 +9,7 @@
 //! survey:   z = theta + noise,   K = P H'/(P_11 + r)  with H = [1 0]
 //! ```
 //!
-//! b has what cannot be told apart from inclinations: lateral resistance of the bit, shape and stiffness of the guide, hole
+//! b has what inclinations cannot separate: lateral resistance of the bit, shape and stiffness of the guide, hole
 //! size, dip of the rock. Two rules are for the beginning of a run, in which the hole turns from the curvature of the last tool
 //! to that of this one: surveys of the first [`PlaneModel::settling`] metres correct the angle only, and b wanders
 //! [`PlaneModel::beginning_factor`] times as much over the first [`PlaneModel::beginning`] metres.
