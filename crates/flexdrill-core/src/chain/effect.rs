@@ -1,11 +1,14 @@
 //! What acts inside the spans of a chain and at its nodes, as the chain sees it. The chain has no word of physics for it: it hands an effect its
 //! motion, and gathers forces on the ends of spans, their derivative, and energies.
 
+use flexdrill_base::energies::Energies;
+
 use super::Chain;
 use super::precision::Precision;
 use super::tangent::Additions;
+use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::energy::LedgerPoint;
+use crate::dynamics::energy::{LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
@@ -16,6 +19,20 @@ pub(crate) struct Under<'a> {
     pub conditions: &'a Conditions,
     /// Whether the axial forces of the state count as they are.
     pub keeps_axial: bool,
+}
+
+/// What effects do to the pipe of a span along its axis, as the last residual found it. One effect may read what an earlier one
+/// has written.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Along {
+    /// Axial force of a pipe without strain (N, tension positive): the mean over the span.
+    pub unstrained: f64,
+    /// The same as the span's ends have it.
+    pub on_strain: f64,
+    /// Force on the span's top end, whatever the motion (N), along the axes of the link above.
+    pub on_top: [f64; 3],
+    /// How much shorter the pipe is than by the motion of its ends along it (m).
+    pub shortening: f64,
 }
 
 /// Something that acts inside spans or at nodes, beyond beams, contacts and joints. It keeps what it found at the last residual: its tangent
@@ -32,11 +49,21 @@ pub(crate) trait Effect {
     /// Adds its forces at nodes to the `residual`, on nodes whose first unknown is `wanted`.
     fn at_nodes(&self, _residual: &mut [f64], _state: &State, _under: &Under<'_>, _wanted: &impl Fn(usize) -> bool) {}
 
+    /// Adds what it does to nodes whatever their motion, as the last residual found it, to the `residual`, on unknowns that are
+    /// `wanted`.
+    fn applied(&self, _residual: &mut [f64], _wanted: &impl Fn(usize) -> bool) {}
+
     /// Adds to `point` what it stores, takes and moves in the whole tool. Gives the energy that it stores (J), the kinetic one
     /// left out, which it adds to `point`.
     fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         0.0
     }
+
+    /// Writes what its figures and its works read of it at the end of a step to `carried`.
+    fn carry(&self, _carried: &mut Carried) {}
+
+    /// Enters its works over a step into its rows of the `ledger`, beyond those of its forces in damping and inertia.
+    fn work(&self, _chain: &Chain, _step: &StepWork<'_>, _ledger: &mut Energies) {}
 
     /// Whether the axial forces of the pipe's spans come from the energy of this effect. Its tangent then has their geometric
     /// stiffness, and the energy of the spans has none.
@@ -58,5 +85,20 @@ pub(crate) trait Effect {
     /// differences of their tilts `bent` (rad).
     fn guide_moment(&self, _e: usize, _spin: f64, _bent: [f64; 2]) -> f64 {
         0.0
+    }
+
+    /// What the pins of a joint carry of it beyond the force between both links' ends (N, tension positive).
+    fn on_pins(&self, _joint: usize, _carried: &Carried) -> f64 {
+        0.0
+    }
+
+    /// Force by which it pulls the guide down the hole and pushes the pipe up (N): the supports of both give it back at the top.
+    fn pulls_guide(&self, _carried: &Carried) -> f64 {
+        0.0
+    }
+
+    /// Whether it pushes the pipe together at the end of the last step; `None` where it never does.
+    fn pushes_pipe(&self, _carried: &Carried) -> Option<bool> {
+        None
     }
 }

@@ -32,7 +32,6 @@ impl Chain {
         let instructions = self.model.instructions;
         point.mud.fill(0.0);
         let mut stored = instructions.run(SpanEnergies {
-            at_top: model.pressure_at_top(conditions.standpipe_pressure),
             has_tension: effects.has_tension(),
             chain: self,
             joints: &mut carried.joints,
@@ -60,6 +59,7 @@ impl Chain {
             model,
             interactions,
         });
+        effects.carry(carried);
         self.deflect_spans(&mut carried.deflection, model, interactions);
         carried.joints.multipliers.copy_from_slice(&self.multipliers);
         let numbered = self.model.numbered(model);
@@ -154,8 +154,6 @@ struct SpanEnergies<'a> {
     point: &'a mut LedgerPoint,
     state: &'a State,
     conditions: &'a Conditions,
-    /// Pressure in the pipe at the tool's top (Pa).
-    at_top: f64,
 }
 
 impl Kernel for SpanEnergies<'_> {
@@ -170,7 +168,6 @@ impl Kernel for SpanEnergies<'_> {
             point,
             state,
             conditions,
-            at_top,
         } = self;
         let (alpha, beta) = (V::splat(conditions.rayleigh.alpha), V::splat(conditions.rayleigh.beta));
         let zero = [V::splat(0.0); 2];
@@ -218,9 +215,9 @@ impl Kernel for SpanEnergies<'_> {
                     // The axial force is that of an energy: nothing is foreseen, and N G q is no update.
                     (V::splat(0.0), V::splat(0.0))
                 } else {
-                    let by_pressure = if body == 0 { at_top * link.unstrained } else { 0.0 };
+                    let unstrained = if body == 0 { chain.along[l].unstrained } else { 0.0 };
                     (
-                        V::splat(in_use - (chain.geometric_forces[l][body][TENSION] + by_pressure)),
+                        V::splat(in_use - (chain.geometric_forces[l][body][TENSION] + unstrained)),
                         V::splat(in_use),
                     )
                 };
@@ -257,7 +254,7 @@ impl Kernel for SpanEnergies<'_> {
                 if body == 0 {
                     let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
                     // A joint carries what the span below needs at its top,
-                    // contacts included, less weight and pressure there.
+                    // contacts included, less weight and what effects push with there.
                     for (i, top) in joints.on_top[l].iter_mut().enumerate() {
                         let inside = if chain.has_inside[l] {
                             chain.inside[l][0][i]
@@ -265,7 +262,7 @@ impl Kernel for SpanEnergies<'_> {
                             0.0
                         };
                         *top = linear[i] + in_use * geometric_forces[i] + inside
-                            - (link.weight_on_top[i] + at_top * link.pressure_on_top[i]);
+                            - (link.weight_on_top[i] + chain.along[l].on_top[i]);
                     }
                 }
                 let forces = &mut point.spans[l];

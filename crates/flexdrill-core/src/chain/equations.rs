@@ -72,7 +72,7 @@ impl<E: Effect> ChainEquations<'_, E> {
             stopwatch,
         } = self;
         stopwatch.lap(Phase::Other);
-        chain.span_forces(evaluation, model, to, conditions);
+        chain.span_forces(evaluation, to, conditions);
         stopwatch.lap(Phase::Assembly);
         chain.contact_forces(interactions, model, to, conditions);
         let under = Under {

@@ -21,13 +21,6 @@ pub(crate) struct Link {
     pub clearance_squared: Aligned<[f64; 8]>,
     /// Force of the pipe's weight on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
-    /// Effective tension of the pipe without strain (N/Pa), mean of its elements, and force of the pressure on its top end
-    /// (N/Pa) along the axes of the link above, per pressure at the tool's top.
-    pub unstrained: f64,
-    pub pressure_on_top: [f64; 3],
-    /// Effective tension without strain per pressure at the tool's top (N/Pa) as the span's ends have it: the mean of the
-    /// elements by their compliance.
-    pub on_strain: f64,
     /// Lateral deflection of the inner stations under the weight of pipe and guide and constant forces (m), as
     /// [`LinkMatrices::lateral`].
     pub by_weight: Aligned<Deflection>,
@@ -50,9 +43,6 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
             offset: Aligned([[0.0; 8]; 2]),
             clearance_squared: Aligned([f64::MAX; 8]),
             weight_on_top: [0.0; 3],
-            unstrained: 0.0,
-            pressure_on_top: [0.0; 3],
-            on_strain: 0.0,
             by_weight: Aligned([[0.0; 16]; 2]),
         };
         for i in 0..per {
@@ -108,10 +98,10 @@ pub(super) fn constant_forces(
             }
             // The slaving condenses forces on inner stations to the ends, as it condenses displacements.
             let kind = &kinds[link.kind];
-            let on_ends = kind.slaved[body].tr_mul(&weight);
+            let on_ends = kind.on_ends(body, &weight);
             let [top, bottom] = ends(l, body);
             if let Some(forces) = parts.forces.as_ref().filter(|_| body == 1) {
-                let on_ends = kind.slaved[body].tr_mul(forces);
+                let on_ends = kind.on_ends(body, forces);
                 out.potential.resize(unknowns, 0.0);
                 for i in 0..6 {
                     out.potential[top + i] += on_ends[i];
@@ -134,47 +124,6 @@ pub(super) fn constant_forces(
                 out.weight[bottom + i] += on_ends[6 + i];
             }
         }
-    }
-    out
-}
-
-/// Forces of the pressure in the pipe per pressure at the tool's top (N/Pa), in the chain's numbering, where the pipe's end
-/// moves along `pipe_end` and the guide's along
-/// `guide_end`; empty without it.
-pub(super) fn pressure_forces(
-    model: &Model,
-    nodes: &Nodes,
-    kinds: &[LinkMatrices],
-    links: &mut [Link],
-    unknowns: usize,
-    [pipe_end, guide_end]: [usize; 2],
-) -> Vec<f64> {
-    let Some(pressure) = &model.pressure else {
-        return Vec::new();
-    };
-    let mut out = vec![0.0; unknowns];
-    for (l, link) in links.iter_mut().enumerate() {
-        let (first, per) = (nodes.first(l), nodes.elements(l));
-        let of_elements = &pressure.unstrained[first..first + per];
-        let mut along = DVector::<f64>::zeros(6 * (per + 1));
-        for (e, tension) in of_elements.iter().enumerate() {
-            along[6 * e] += tension;
-            along[6 * (e + 1)] -= tension;
-        }
-        let on_ends = kinds[link.kind].slaved[0].tr_mul(&along);
-        link.unstrained = of_elements.iter().sum::<f64>() / per as f64;
-        // The lower end has its rotations first, and its axes are the span's own.
-        link.on_strain = -on_ends[9];
-        link.pressure_on_top = [on_ends[0], on_ends[1], on_ends[2]];
-        let [top, bottom] = ends(l, 0);
-        for i in 0..6 {
-            out[top + i] += on_ends[i];
-            out[bottom + i] += on_ends[6 + i];
-        }
-    }
-    out[pipe_end] += pressure.on_end;
-    for (k, force) in model.pressure_on_guide().into_iter().enumerate() {
-        out[guide_end + k] += force;
     }
     out
 }

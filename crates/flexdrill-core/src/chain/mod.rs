@@ -64,7 +64,7 @@ use slaving::LinkMatrices;
 use solve::Sweep;
 
 pub(crate) use contacts::SpanMotion;
-pub(crate) use effect::{Effect, Under};
+pub(crate) use effect::{Along, Effect, Under};
 pub(crate) use energy::add_to_ends;
 pub(crate) use equations::ChainEquations;
 pub(crate) use linear::{Acting, CoupledParts, Parts, Segment};
@@ -125,8 +125,6 @@ pub(crate) struct ChainModel {
     potential: Vec<f64>,
     /// Sum of both.
     constant: Vec<f64>,
-    /// Forces of the pressure in the pipe, per pressure at the top (N/Pa); empty without it.
-    pressure: Vec<f64>,
     /// Rows of each node whose unknowns are free, 1, or held, 0; `None` where all are free.
     rows: Vec<Option<[f64; NODE]>>,
     /// Per unknown 1, or 0 for the tie's multiplier, which has no velocity.
@@ -146,7 +144,6 @@ impl ChainModel {
             model,
             places: &self.places,
             weight: &self.weight,
-            pressure: &self.pressure,
         }
     }
 }
@@ -173,6 +170,8 @@ pub(crate) struct Chain {
     /// Those of contacts and effects inside the spans, and whether there are any.
     inside: Vec<Aligned<EndForces>>,
     has_inside: Vec<bool>,
+    /// What effects do to the pipe of each span along its axis.
+    pub(crate) along: Vec<Along>,
     /// The rotations of each node that follow from its others.
     dependents: Vec<Dependents>,
     /// The same of joints with one row, eight at a time.
@@ -277,11 +276,7 @@ impl Chain {
             held.iter().for_each(|&unknown| limits[unknown] = f64::INFINITY);
             limits.iter().map(|limit| 1.0 / limit).collect::<Vec<f64>>()
         };
-        // Pressure and weight are constant forces per span. They are condensed once, with the spans' own matrices.
-        let pressure = {
-            let ends = [places.pipe_end, places.guide_end];
-            links::pressure_forces(model, &points, &kinds, &mut links, unknowns, ends)
-        };
+        // Weight is a constant force per span. It is condensed once, with the spans' own matrices.
         let ConstantForces { weight, potential } =
             links::constant_forces(model, acting, &points, &kinds, &mut links, unknowns);
         // The residual subtracts one vector; the audit needs both apart.
@@ -302,6 +297,7 @@ impl Chain {
             geometric_forces: vec![Aligned([[0.0; 16]; 2]); spans],
             inside: vec![Aligned([[0.0; 16]; 2]); spans],
             has_inside: vec![false; spans],
+            along: vec![Along::default(); spans],
             dependents: points
                 .list
                 .iter()
@@ -329,7 +325,6 @@ impl Chain {
                 node_masses,
                 potential,
                 constant,
-                pressure,
                 rows,
                 // The tie's multiplier is a force: it has no velocity to predict.
                 moving: (0..unknowns)
@@ -378,6 +373,11 @@ impl Chain {
     #[inline(always)]
     pub(crate) fn stations_below(&self, l: usize) -> std::ops::Range<usize> {
         self.model.nodes.first(l) + 1..self.model.nodes.first(l + 1) + 1
+    }
+
+    /// The elements of span `l`.
+    pub(crate) fn elements_of(&self, l: usize) -> std::ops::Range<usize> {
+        self.model.nodes.first(l)..self.model.nodes.first(l + 1)
     }
 
     /// Forces of what acts inside span `l` on its ends, pipe and guide: zero before the first is added in a residual.

@@ -11,7 +11,6 @@ use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
 use crate::elements::rock::BitLoad;
-use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
@@ -24,24 +23,16 @@ impl Chain {
     }
 
     /// Evaluates the linear and geometric forces of the spans at `to`.
-    pub(super) fn span_forces(
-        &mut self,
-        evaluation: Evaluation,
-        model: &Model,
-        to: &mut State,
-        conditions: &Conditions,
-    ) {
+    pub(super) fn span_forces(&mut self, evaluation: Evaluation, to: &mut State, conditions: &Conditions) {
         if !matches!(evaluation, Evaluation::Correction { .. }) {
             self.active.set_whole();
         }
         let instructions = self.model.instructions;
-        let at_top = model.pressure_at_top(conditions.standpipe_pressure);
         instructions.run(Spans {
             chain: self,
             to,
             conditions,
             evaluation,
-            at_top,
         });
     }
 
@@ -61,7 +52,9 @@ impl Chain {
         let numbered = self.model.numbered(under.model);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
         effects.at_nodes(&mut self.residual, state, under, &affected);
-        numbered.add_end_forces(&mut self.residual, bit, state, under.conditions, affected);
+        numbered.add_ties(&mut self.residual, state, under.conditions, affected);
+        effects.applied(&mut self.residual, &affected);
+        numbered.add_rock_and_loads(&mut self.residual, bit, state, under.conditions, affected);
     }
 }
 
@@ -219,8 +212,6 @@ struct Spans<'a> {
     to: &'a mut State,
     conditions: &'a Conditions,
     evaluation: Evaluation,
-    /// Pressure in the pipe at the tool's top (Pa).
-    at_top: f64,
 }
 
 impl Kernel for Spans<'_> {
@@ -241,11 +232,6 @@ impl Kernel for Spans<'_> {
                 let now = [geometric_forces[0][TENSION], geometric_forces[1][TENSION]];
                 *pipe = now[0] + part * (foreseen[0] - now[0]);
                 *guide = now[1] + part * (foreseen[1] - now[1]);
-            }
-            if self.at_top != 0.0 {
-                for (pipe, link) in self.to.pipe_axial.iter_mut().zip(&self.chain.model.links) {
-                    *pipe += self.at_top * link.unstrained;
-                }
             }
         }
     }

@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 use crate::dynamics::state::Deflection;
 use crate::model::Model;
 
+/// Places for numbers that effects keep at the end of a step. The format of a checkpoint has so many.
+pub(crate) const EFFECT_PLACES: usize = 1;
+
 /// What the joints of a chain carry.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointForces {
@@ -28,8 +31,8 @@ pub struct Carried {
     pub(crate) pin_power: Vec<f64>,
     /// Torque of the drive (N m).
     pub(crate) drive_torque: f64,
-    /// Pressure in the pipe at the tool's top (Pa).
-    pub(crate) pressure: f64,
+    /// What effects keep of the end of the step, each at its place.
+    pub(crate) of_effects: [f64; EFFECT_PLACES],
 }
 
 impl Carried {
@@ -44,7 +47,7 @@ impl Carried {
             reactions: vec![0.0; model.held.len()],
             pin_power: vec![0.0; model.joints_with_friction()],
             drive_torque: 0.0,
-            pressure: 0.0,
+            of_effects: [0.0; EFFECT_PLACES],
         }
     }
 
@@ -65,6 +68,6 @@ impl Carried {
         self.deflection.copy_from_slice(&other.deflection);
         self.reactions.copy_from_slice(&other.reactions);
         self.pin_power.copy_from_slice(&other.pin_power);
-        (self.drive_torque, self.pressure) = (other.drive_torque, other.pressure);
+        (self.drive_torque, self.of_effects) = (other.drive_torque, other.of_effects);
     }
 }

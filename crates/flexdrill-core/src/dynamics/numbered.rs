@@ -1,5 +1,5 @@
 //! What is attached to the tool, in either numbering of its unknowns: the axial tie, the string above and
-//! the connector by which the pipe hangs on the guide below it, pressure in the pipe, the rock's torque and weight, point loads.
+//! the connector by which the pipe hangs on the guide below it, the rock's torque and weight, point loads.
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
@@ -15,17 +15,13 @@ pub(crate) struct Numbered<'a> {
     pub places: &'a Places,
     /// Consistent forces of gravity (N, N m).
     pub weight: &'a [f64],
-    /// Forces of the pressure in the pipe, per pressure at the top (N/Pa); empty without it.
-    pub pressure: &'a [f64],
 }
 
 impl Numbered<'_> {
-    /// Adds axial tie, the string's torque and force, pressure in the pipe, the rock's torque and weight and the loads to the
-    /// residual, on unknowns that are `wanted`.
-    pub(crate) fn add_end_forces(
+    /// Adds axial tie, the string's torque and force, and the hanger's to the residual, on unknowns that are `wanted`.
+    pub(crate) fn add_ties(
         &self,
         residual: &mut [f64],
-        bit: &mut BitLoad,
         state: &State,
         conditions: &Conditions,
         wanted: impl Fn(usize) -> bool,
@@ -55,15 +51,18 @@ impl Numbered<'_> {
                 residual[unknown] += share * force;
             }
         }
-        // Pressure scales one vector of forces, because its distribution along the tool is fixed.
-        if !self.pressure.is_empty() {
-            let at_top = model.pressure_at_top(conditions.standpipe_pressure);
-            for (unknown, force) in self.pressure.iter().enumerate() {
-                if wanted(unknown) {
-                    residual[unknown] -= at_top * force;
-                }
-            }
-        }
+    }
+
+    /// Adds the rock's torque and weight and the loads to the residual, on unknowns that are `wanted`.
+    pub(crate) fn add_rock_and_loads(
+        &self,
+        residual: &mut [f64],
+        bit: &mut BitLoad,
+        state: &State,
+        conditions: &Conditions,
+        wanted: impl Fn(usize) -> bool,
+    ) {
+        let Self { model, places, .. } = *self;
         // The rock is evaluated only with the node of the bit, which a window may leave out.
         let spin = places.bit_spin;
         if wanted(spin) {

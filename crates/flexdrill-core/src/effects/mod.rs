@@ -1,19 +1,24 @@
 //! What acts on the tool beyond beams, contacts and joints: a file each, with law, switch, force, tangent and energy.
 //!
-//! The list below is the only place that names them all. They act in its order, so that sums have one order too. A new effect
+//! The list below is the only place that names them all. They act in its order, so that sums have one order too; an
+//! effect may read what an earlier one has written ([`Along`](crate::chain::Along)). A new effect
 //! is a file that implements [`Effect`], with a constructor `of` that gives `None` for a tool without it, and a line here.
 
 pub(crate) mod bodies;
 pub(crate) mod mud;
 pub(crate) mod mud_wall;
 pub(crate) mod preload;
+pub(crate) mod pressure;
 pub(crate) mod shortening;
 pub(crate) mod slots;
 #[cfg(test)]
 mod tests;
 
+use flexdrill_base::energies::Energies;
+
 use crate::chain::{Acting, Additions, Chain, Effect, Precision, Under};
-use crate::dynamics::energy::LedgerPoint;
+use crate::dynamics::carried::Carried;
+use crate::dynamics::energy::{LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
@@ -55,12 +60,30 @@ macro_rules! effects {
                 })+
             }
 
+            fn applied(&self, residual: &mut [f64], wanted: &impl Fn(usize) -> bool) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.applied(residual, wanted);
+                })+
+            }
+
             fn energy(&self, chain: &Chain, point: &mut LedgerPoint, state: &State, under: &Under<'_>) -> f64 {
                 let mut stored = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
                     stored += effect.energy(chain, point, state, under);
                 })+
                 stored
+            }
+
+            fn carry(&self, carried: &mut Carried) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.carry(carried);
+                })+
+            }
+
+            fn work(&self, chain: &Chain, step: &StepWork<'_>, ledger: &mut Energies) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.work(chain, step, ledger);
+                })+
             }
 
             fn has_tension(&self) -> bool {
@@ -95,6 +118,30 @@ macro_rules! effects {
                 })+
                 sum
             }
+
+            fn on_pins(&self, joint: usize, carried: &Carried) -> f64 {
+                let mut sum = 0.0;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    sum += effect.on_pins(joint, carried);
+                })+
+                sum
+            }
+
+            fn pulls_guide(&self, carried: &Carried) -> f64 {
+                let mut sum = 0.0;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    sum += effect.pulls_guide(carried);
+                })+
+                sum
+            }
+
+            fn pushes_pipe(&self, carried: &Carried) -> Option<bool> {
+                let mut any = None;
+                $($(#[$attribute])* if let Some(pushes) = self.$name.as_ref().and_then(|effect| effect.pushes_pipe(carried)) {
+                    any = Some(pushes || any == Some(true));
+                })+
+                any
+            }
         }
     };
 }
@@ -104,6 +151,7 @@ effects! {
     mud: mud::Mud,
     preload: preload::Preloaded,
     mud_wall: mud_wall::MudWall,
+    pressure: pressure::Pressurised,
     shortening: shortening::Shortened,
     slots: slots::SlottedGuide,
     #[cfg(test)]

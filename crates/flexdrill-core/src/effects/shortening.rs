@@ -13,7 +13,7 @@
 //! link that turns as a rigid body is not damped. The linear element has (E A / L)(a . q + beta a . v) a of it; this
 //! file has the rest. Lengths in m, forces in N, tension positive.
 //!
-//! Under [pressure](crate::elements::pressure) N is the effective tension, N_p = - (1 - 2 nu) p A_i. A span that becomes longer by
+//! Under [pressure](super::pressure) N is the effective tension, N_p = - (1 - 2 nu) p A_i. A span that becomes longer by
 //! de has de more wall and A_i de more bore: the wall takes N_wall de = (E A e / L + 2 nu p A_i) de, the pressure gives
 //! p A_i de, so that pipe and mud resist by N_eff de = N_eff (a + G q) . dq, along and across. U is the strain's part;
 //! the pressure's work on a span is - N_p (d(a . q) + d s), of which - N_p d(a . q) is that of a force on its ends.
@@ -49,18 +49,18 @@ pub struct Stretch {
 impl Stretch {
     /// Of a span with the axial stiffness `axial` = E A / L (N/m) and damping `beta` (s), from the axial force of the linear
     /// element and its rate, t . q and t . v with t = (E A / L) a (N, N/s), and from q . G q (m) and v . G q (m/s).
-    /// `by_pressure` is its effective tension without strain (N).
+    /// `unstrained` is its tension without strain (N).
     #[inline(always)]
     pub fn of(
         axial: f64,
         beta: f64,
-        by_pressure: f64,
+        unstrained: f64,
         [linear, linear_rate]: [f64; 2],
         [square, square_rate]: [f64; 2],
     ) -> Self {
         let shortening = 0.5 * square;
         Self {
-            tension: linear + axial * shortening + by_pressure,
+            tension: linear + axial * shortening + unstrained,
             damped: beta * (linear_rate + axial * square_rate),
             shortening,
             damped_shortening: beta * square_rate,
@@ -173,7 +173,6 @@ fn add_times(to: &mut EndColumn, column: &EndColumn, factor: f64) {
 
 impl Effect for Shortened {
     fn force(&mut self, chain: &mut Chain, state: &mut State, under: &Under<'_>) {
-        let at_top = under.model.pressure_at_top(under.conditions.standpipe_pressure);
         for (l, (stretch, beyond)) in self.stretches.iter_mut().zip(&mut self.beyond).enumerate() {
             if chain.is_active(l) {
                 let slopes = chain.geometric_forces[l][0];
@@ -182,9 +181,9 @@ impl Effect for Shortened {
                 let (p, t) = (twelve(&slopes), twelve(&tension));
                 let (q, v) = (ends_of(&state.q, l), ends_of(&state.v, l));
                 let linear = [slopes[TENSION], dot(&t, &v)];
-                let by_pressure = at_top * chain.model.links[l].on_strain;
+                let unstrained = chain.along[l].on_strain;
                 let beta = under.conditions.rayleigh.beta;
-                *stretch = Stretch::of(kind.axial, beta, by_pressure, linear, [dot(&q, &p), dot(&v, &p)]);
+                *stretch = Stretch::of(kind.axial, beta, unstrained, linear, [dot(&q, &p), dot(&v, &p)]);
                 // The chain has the axial force of the state across the span; the rest and what is along it are left.
                 *beyond = if under.keeps_axial {
                     stretch.across() - state.pipe_axial[l]
@@ -195,6 +194,7 @@ impl Effect for Shortened {
                 add_times(pipe, &slopes, *beyond);
                 add_times(pipe, &tension, stretch.along());
             }
+            chain.along[l].shortening = stretch.shortening;
             if !under.keeps_axial {
                 state.pipe_axial[l] = stretch.tension;
             }
@@ -213,10 +213,8 @@ impl Effect for Shortened {
 
     fn energy(&self, chain: &Chain, point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         let mut energy = 0.0;
-        point.sums.lifted_by_pressure = 0.0;
         for (l, stretch) in self.stretches.iter().enumerate() {
             energy += stretch.energy;
-            point.sums.lifted_by_pressure += stretch.shortening * chain.model.links[l].on_strain;
             let damping = &mut point.spans[l].damping[0];
             add_times(damping, &chain.geometric_forces[l][0], stretch.damped);
             add_times(damping, &chain.model.kind(l).tension[0], stretch.damped_shortening);

@@ -14,7 +14,6 @@ use nalgebra::Vector3;
 
 use crate::elements::beam::{Beam, ElementVector};
 use crate::elements::joint::Joint;
-use crate::elements::pressure::PipePressure;
 use crate::tool::{Direction, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
@@ -41,8 +40,6 @@ pub struct Model {
     pub guide: Vec<GuideElement>,
     /// Consistent forces of gravity on both pipes, per unknown (N, N m).
     pub weight: Vec<f64>,
-    /// Pump pressure in the pipe.
-    pub pressure: Option<PipePressure>,
     /// Unknowns held at zero, in rising order.
     pub held: Vec<usize>,
     /// The nodes of the held unknowns, in the same order.
@@ -142,7 +139,6 @@ impl Model {
             joints,
             joint_stations,
             weight: vec![0.0; layout.unknowns()],
-            pressure: d.pressure.map(|pressure| PipePressure::of(pressure, d, bore.spacing)),
             pipe,
             guide,
             held: Vec::new(),
@@ -189,21 +185,6 @@ impl Model {
         for (ends, element) in self.stations.windows(2).zip(&self.guide) {
             add(&element.weight, [ends[0].guide, ends[1].guide]);
         }
-    }
-
-    /// Force of the pressure on the guide's lower end, along its own axes, per pressure at the tool's top (N/Pa): the reaction
-    /// of that on the pipe's end.
-    pub(crate) fn pressure_on_guide(&self) -> [f64; 3] {
-        let on_pipe = self.pressure.as_ref().map_or(0.0, |pressure| pressure.on_end);
-        let axis = self.stations[self.last()].pipe_to_station.column(0) * -on_pipe;
-        [axis.x, axis.y, axis.z]
-    }
-
-    /// Pressure in the pipe at the tool's top, inside less outside (Pa), under that of the standpipe (Pa); 0 without it.
-    pub fn pressure_at_top(&self, standpipe: f64) -> f64 {
-        self.pressure
-            .as_ref()
-            .map_or(0.0, |pressure| pressure.at_top(standpipe))
     }
 
     /// Number of joints whose pins have friction.

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
+use crate::effects::pressure::PipePressure;
 use crate::elements::beam::ElementVector;
 use crate::model::Model;
 
@@ -37,7 +38,7 @@ impl State {
 
     /// Makes the axial forces of the pipe effective tensions.
     pub(super) fn add_pressure(&mut self, model: &Model, conditions: &Conditions) {
-        if let Some(pressure) = &model.pressure {
+        if let Some(pressure) = PipePressure::around(model) {
             let at_top = pressure.at_top(conditions.standpipe_pressure);
             for (force, unstrained) in self.pipe_axial.iter_mut().zip(&pressure.unstrained) {
                 *force += at_top * unstrained;

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::dynamics::numbered::Numbered;
 use crate::effects::mud::{Lateral, Mud, MudLump};
 use crate::effects::preload::{self, Preload};
+use crate::effects::pressure::PipePressure;
 use crate::elements::beam::ElementMatrix;
 use crate::model::Model;
 
@@ -26,8 +27,8 @@ pub(crate) struct Constants {
     pub elements: Vec<PlainElement>,
     /// Couples of the guide's preload, per unknown (N m).
     pub preload: Vec<f64>,
-    /// Forces of the pressure on pipe and mud, per unknown and per pressure at the top (N/Pa); empty without it.
-    pub pressure: Vec<f64>,
+    /// The pressure in the pipe, with its forces on pipe and mud, per unknown and per pressure at the top (N/Pa).
+    pub pressure: Option<(PipePressure, Vec<f64>)>,
 }
 
 impl Constants {
@@ -53,9 +54,8 @@ impl Constants {
                 preload[nodes[k / 6] + k % 6] += couple;
             }
         }
-        let mut forces = Vec::new();
-        if let Some(pressure) = &model.pressure {
-            forces = vec![0.0; model.unknowns()];
+        let pressure = PipePressure::around(model).map(|pressure| {
+            let mut forces = vec![0.0; model.unknowns()];
             for (ends, tension) in model.stations.windows(2).zip(&pressure.unstrained) {
                 forces[ends[0].pipe_below] += tension;
                 forces[ends[1].pipe_above] -= tension;
@@ -63,14 +63,15 @@ impl Constants {
             let bottom = &model.stations[model.last()];
             forces[bottom.pipe_above] += pressure.on_end;
             // The seal is in the guide's connector, and pulls it along the pipe's axis.
-            for (k, force) in model.pressure_on_guide().into_iter().enumerate() {
+            for (k, force) in pressure.on_guide.into_iter().enumerate() {
                 forces[bottom.guide + k] += force;
             }
-        }
+            (pressure, forces)
+        });
         Self {
             elements,
             preload,
-            pressure: forces,
+            pressure,
         }
     }
 
@@ -80,7 +81,6 @@ impl Constants {
             model,
             places: &model.places,
             weight: &model.weight,
-            pressure: &self.pressure,
         }
     }
 }

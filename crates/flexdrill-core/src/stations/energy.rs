@@ -88,6 +88,9 @@ impl LedgerPoint {
         if crate::effects::shortening::is_on(model) {
             stored += self.add_shortening(model, state, conditions);
         }
+        if let Some((pressure, _)) = &assembler.constants.pressure {
+            carried.of_effects = [pressure.at_top(conditions.standpipe_pressure)];
+        }
         self.add_mud(model, state, conditions);
         if let Some(bodies) = Bodies::at(model, Some) {
             bodies.add_to(self, state, conditions.rayleigh.alpha);

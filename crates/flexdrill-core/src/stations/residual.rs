@@ -26,7 +26,13 @@ impl Assembler {
         self.joint_forces(&mut interactions.joints, model, state);
         let bit = &mut interactions.bit;
         let numbered = self.constants.numbered(model);
-        numbered.add_end_forces(&mut self.residual, bit, state, conditions, |_| true);
+        numbered.add_ties(&mut self.residual, state, conditions, |_| true);
+        if let Some((pressure, forces)) = &self.constants.pressure {
+            let at_top = pressure.at_top(conditions.standpipe_pressure);
+            let entries = self.residual.iter_mut().zip(forces);
+            entries.for_each(|(residual, force)| *residual -= at_top * force);
+        }
+        numbered.add_rock_and_loads(&mut self.residual, bit, state, conditions, |_| true);
     }
 
     /// Sets the residual of unknowns without an equation to zero. Reactions are read before this.

@@ -6,6 +6,7 @@ use super::tangent::add_pipe_element;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::state::State;
+use crate::effects::pressure::{self, PipePressure};
 use crate::effects::shortening::{Stretch, StretchTangent};
 use crate::elements::beam::ElementVector;
 use crate::elements::factors::TangentFactors;
@@ -24,14 +25,10 @@ struct Stretched {
 
 impl Stretched {
     fn of(model: &Model, e: usize, state: &State, conditions: &Conditions) -> Self {
-        let at_top = model.pressure_at_top(conditions.standpipe_pressure);
-        Self::under(model, e, state, conditions.rayleigh.beta, at_top)
-    }
-
-    /// Damped by `beta` (s), under the pressure `at_top` (Pa).
-    fn under(model: &Model, e: usize, state: &State, beta: f64, at_top: f64) -> Self {
-        let pressure = model.pressure.as_ref();
-        let by_pressure = pressure.map_or(0.0, |pressure| at_top * pressure.unstrained[e]);
+        let beta = conditions.rayleigh.beta;
+        let by_pressure = PipePressure::around(model).map_or(0.0, |pressure| {
+            pressure.at_top(conditions.standpipe_pressure) * pressure.unstrained[e]
+        });
         let [top, bottom] = nodes(model, e);
         let at = |values: &[f64]| {
             ElementVector::from_fn(|k, _| if k < 6 { values[top + k] } else { values[bottom + k - 6] })
@@ -108,7 +105,8 @@ impl LedgerPoint {
     /// pressure's force. Gives their elastic energy beyond that (J).
     pub(crate) fn add_shortening(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
         let mut energy = 0.0;
-        self.sums.lifted_by_pressure = 0.0;
+        self.sums.of_effects = [0.0];
+        let pressure = PipePressure::around(model);
         for e in 0..model.pipe.len() {
             let at = Stretched::of(model, e, state, conditions);
             let (along, across) = (at.stretch.damped_shortening, at.stretch.damped);
@@ -116,8 +114,8 @@ impl LedgerPoint {
                 along * at.tension[k] + across * at.slopes[0][k]
             });
             energy += at.stretch.energy;
-            if let Some(pressure) = &model.pressure {
-                self.sums.lifted_by_pressure += pressure.unstrained[e] * at.stretch.shortening;
+            if let Some(pressure) = &pressure {
+                self.sums.of_effects[pressure::PLACE] += pressure.unstrained[e] * at.stretch.shortening;
             }
         }
         energy

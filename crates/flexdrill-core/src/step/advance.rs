@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Stepper;
 use super::settings::Forcing;
 use super::sub_steps::SubSteps;
-use crate::chain::ChainEquations;
+use crate::chain::{ChainEquations, Effect};
 use crate::dynamics::conditions::{Conditions, TopEnd};
 use crate::dynamics::energy::{StepEnd, StepWork};
 use crate::dynamics::newton::{self, Rejected, Stride};
@@ -218,6 +218,7 @@ impl Stepper {
                 point: &track.trial_ledger,
             },
         };
+        effects.work(chain, &work, &mut self.audit);
         work.enter(&mut self.audit, &numbered, self.instructions);
         stopwatch.lap(Phase::Energy);
         track.take();

@@ -6,6 +6,7 @@
 use nalgebra::Vector3;
 
 use super::Stepper;
+use crate::chain::Effect;
 use crate::dynamics::energy::SpanForces;
 use crate::elements::string::StringLine;
 use crate::model::HeldNode;
@@ -102,9 +103,8 @@ impl Stepper {
         if let Some(force) = self.string_force() {
             return Some(force);
         }
-        // A seal pulls the guide and pushes the pipe by the same force, which both supports give back to the string.
-        let by_seal = self.model.pressure_on_guide()[0] * self.track.carried.pressure;
-        Some(self.held_at_guide_top()? + by_seal)
+        // What pulls the guide pushes the pipe by the same force, which both supports give back to the string.
+        Some(self.held_at_guide_top()? + self.effects.pulls_guide(&self.track.carried))
     }
 
     /// Force of the support at the guide's top (N) along the hole, positive where it pushes the guide down; `None` where the
@@ -148,9 +148,14 @@ impl Stepper {
         held.map(|at| self.reaction(at)[0].dot(&axis)).sum()
     }
 
-    /// Pressure in the pipe at the tool's top (Pa); 0 without it.
-    pub fn pressure_at_top(&self) -> f64 {
-        self.track.carried.pressure
+    /// What the pins of a joint carry by effects, beyond the force between both links' ends (N, tension positive).
+    pub fn on_pins(&self, joint: usize) -> f64 {
+        self.effects.on_pins(joint, &self.track.carried)
+    }
+
+    /// Whether an effect pushes the pipe together; `None` where none ever does.
+    pub fn pipe_is_pushed(&self) -> Option<bool> {
+        self.effects.pushes_pipe(&self.track.carried)
     }
 
     /// Sum of the forces of the tensions in the geometric stiffness (N, along the axes of the world). Tensions alone have none:

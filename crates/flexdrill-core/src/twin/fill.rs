@@ -67,8 +67,14 @@ pub(super) fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
 
 /// Bend, motion and forces of all joints.
 ///
-/// `pressure` in the pipe at the tool's top (Pa) adds to what the pins carry.
-pub(super) fn fill_joints(model: &Model, state: &State, forces: &Interactions, pressure: f64, out: &mut Joints) {
+/// The pins carry the force between both links' ends and what is `on_pins` of each joint beyond (N).
+pub(super) fn fill_joints(
+    model: &Model,
+    state: &State,
+    forces: &Interactions,
+    on_pins: impl Fn(usize) -> f64,
+    out: &mut Joints,
+) {
     for (to, stop) in out.stop_moment.iter_mut().zip(forces.joints.stops()) {
         *to = stop.moment;
     }
@@ -84,11 +90,7 @@ pub(super) fn fill_joints(model: &Model, state: &State, forces: &Interactions, p
         // The translational multipliers are the force of the link above on the link below, in world axes.
         let first = model.multipliers(j);
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
-        let on_pins = model
-            .pressure
-            .as_ref()
-            .map_or(0.0, |per_unit| pressure * per_unit.on_pins[j]);
-        out.axial_force[j] = -force.x + on_pins;
+        out.axial_force[j] = -force.x + on_pins(j);
         out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
         let twist = -forces.joints.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.law.kind {

@@ -5,7 +5,7 @@ mod guyan;
 
 use columns_of::{columns, end_column, force_rows, lateral_columns, motion_columns, with_tension};
 use guyan::{Guyan, slowest};
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::columns::EndColumn;
 use super::linear::{Acting, CoupledParts, Parts, Segment};
@@ -150,6 +150,12 @@ impl LinkMatrices {
             slaved,
             compliance,
         }
+    }
+
+    /// What `forces` on all nodes of pipe (0) or guide (1) come to at both ends: the slaving condenses forces as it does
+    /// displacements.
+    pub fn on_ends(&self, body: usize, forces: &DVector<f64>) -> DVector<f64> {
+        self.slaved[body].tr_mul(forces)
     }
 
     /// Largest deflection that contacts of these stiffnesses (N/m; pipe-guide, guide-wall) make between the ends for a

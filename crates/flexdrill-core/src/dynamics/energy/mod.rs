@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use step::{SpanWorks, StepEnd, StepWork};
 
-use crate::dynamics::carried::Carried;
+use crate::dynamics::carried::{Carried, EFFECT_PLACES};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
@@ -65,9 +65,8 @@ pub struct Sums {
     feed: f64,
     /// Work of the weight of what effects have at nodes, since the tool was undeflected (J).
     pub(crate) fallen: f64,
-    /// Shortening of the pipe's spans times the effective tension that they have without strain, per pressure at the top
-    /// (N m/Pa); of spans that shorten only.
-    pub(crate) lifted_by_pressure: f64,
+    /// What the works of effects need of this end of the step, each at its place.
+    pub(crate) of_effects: [f64; EFFECT_PLACES],
 }
 
 /// Forces and energies at one end of a step that the ledger's trapezoid rule needs at the other. Nothing in the motion
@@ -237,6 +236,5 @@ impl LedgerPoint {
         carried.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);
         self.sums.bit_torque = interactions.bit.torque;
         self.sums.weight_on_bit = interactions.bit.weight;
-        carried.pressure = model.pressure_at_top(conditions.standpipe_pressure);
     }
 }

@@ -78,14 +78,9 @@ pub(crate) struct StepWork<'a> {
 }
 
 impl StepWork<'_> {
-    /// Enters the step into the ledger.
+    /// Enters the step into the ledger, to which effects have added their rows, and balances it.
     pub(crate) fn enter(&self, ledger: &mut Energies, numbered: &Numbered<'_>, instructions: Instructions) {
-        let Numbered {
-            model,
-            places,
-            weight,
-            pressure,
-        } = *numbered;
+        let Numbered { model, places, weight } = *numbered;
         let Self {
             h,
             moved,
@@ -151,12 +146,6 @@ impl StepWork<'_> {
         ledger.bit += mean(at0.bit_torque, at1.bit_torque) * moved[places.bit_spin] - twisted;
         for (k, &load) in places.loads.iter().enumerate() {
             ledger.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
-        }
-        if !pressure.is_empty() {
-            let along: f64 = pressure.iter().zip(moved).map(|(force, moved)| force * moved).sum();
-            // The force of the pressure works on the whole strain of a span, its shortening included.
-            let lifted = at1.lifted_by_pressure - at0.lifted_by_pressure;
-            ledger.pressure += mean(before.carried.pressure, after.carried.pressure) * (along - lifted);
         }
         // The wall that moves past a guide at rest does work by its friction; what bristles take they give back.
         let feed = h * mean(at0.feed, at1.feed);

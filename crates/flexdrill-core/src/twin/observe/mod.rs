@@ -100,7 +100,7 @@ impl Observer {
                 .guide_preload
                 .filter(|_| model.description.guide_free_curvature.is_some()))
             .map(|load| LoadWatch::new(&load, model.guide.len())),
-            pressure_folding: (settings.pressure_folding.filter(|_| model.pressure.is_some()))
+            pressure_folding: (settings.pressure_folding.filter(|_| stepper.pipe_is_pushed().is_some()))
                 .map(|load| LoadWatch::new(&load, model.pipe.len())),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
             whirl: WhirlAnalysis::new(&settings.whirl, decimation as f64 * settings.time_step, described),

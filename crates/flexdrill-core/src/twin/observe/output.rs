@@ -75,8 +75,8 @@ impl Observer {
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(in crate::twin) fn fill(&self, stepper: &Stepper, state: &State, out: &mut Snapshot) {
         let (model, forces) = (stepper.model(), stepper.interactions());
-        // Joints first: their forces come from the elements and the pressure in the pipe.
-        fill_joints(model, state, forces, stepper.pressure_at_top(), &mut out.joints);
+        // Joints first: their forces come from the elements and from effects.
+        fill_joints(model, state, forces, |joint| stepper.on_pins(joint), &mut out.joints);
         let contacts = &mut out.contacts;
         // Gaps are computed for all stations, also those without contact;
         // the statistics hold the forces between two snapshots.

@@ -105,7 +105,7 @@ impl Observer {
             }
             if let Some(watch) = &mut self.pressure_folding {
                 // Without pressure nothing of the compression is the pressure's.
-                let pushed = judged && stepper.pressure_at_top() > 0.0;
+                let pushed = judged && stepper.pipe_is_pushed() == Some(true);
                 watch.push(time, elapsed, state.pipe_axial.iter().map(|tension| -tension), pushed);
             }
             self.ageing
