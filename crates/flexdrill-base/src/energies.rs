@@ -118,6 +118,16 @@ impl Energies {
         rows.filter(|(term, _)| term.side == side).map(|(_, value)| value).sum()
     }
 
+    /// What damping takes: that of contacts, of the steel, of the scheme, and of effects.
+    pub fn damped(&self) -> f64 {
+        self.contact_damping + self.rayleigh_damping + self.numerical_damping + self.damped_by_effects()
+    }
+
+    /// What damping by effects takes of it: those of the rows of effects that no motion gives back.
+    pub fn damped_by_effects(&self) -> f64 {
+        self.mud
+    }
+
     /// What is put in, less what is taken, less what is stored: the value of `error` for these rows.
     pub fn unbalanced(&self) -> f64 {
         self.sum(Side::PutIn) - self.sum(Side::Taken) - self.stored

@@ -144,7 +144,7 @@ fn row(name: &str, step: f64, record: &Record, fine: Option<&Record>) -> [String
         against(|record| record.whirl_ratio, 3),
         mean(|quality| quality.energy_error_share),
         mean(|quality| quality.numerical_share),
-        mean(|quality| quality.mud_share),
+        mean(|quality| quality.effects_share),
         words(&judged),
     ]
 }

@@ -65,6 +65,11 @@ pub(crate) trait Effect {
     /// Enters its works over a step into its rows of the `ledger`, beyond those of its forces in damping and inertia.
     fn work(&self, _chain: &Chain, _step: &StepWork<'_>, _ledger: &mut Energies) {}
 
+    /// Whether it has forces in [`LedgerPoint::drag`].
+    fn drags(&self) -> bool {
+        false
+    }
+
     /// Whether the axial forces of the pipe's spans come from the energy of this effect. Its tangent then has their geometric
     /// stiffness, and the energy of the spans has none.
     fn has_tension(&self) -> bool {

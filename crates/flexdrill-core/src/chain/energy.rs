@@ -30,7 +30,7 @@ impl Chain {
         interactions: &Interactions,
     ) {
         let instructions = self.model.instructions;
-        point.mud.fill(0.0);
+        point.drag.fill(0.0);
         let mut stored = instructions.run(SpanEnergies {
             has_tension: effects.has_tension(),
             chain: self,
@@ -197,10 +197,10 @@ impl Kernel for SpanEnergies<'_> {
                         inert[half] = inert[half].plus(parts[1][half]);
                         dragged[half] = parts[2][half].plus(parts[3][half]);
                     }
-                    // The work of the viscosity is audited apart from the damping of the steel.
+                    // What damps by the motion of both is audited apart from the damping of the steel.
                     let mut on = [0.0; 16];
                     store(dragged, &mut on);
-                    add_to_ends(&mut point.mud, l, body, &on);
+                    add_to_ends(&mut point.drag, l, body, &on);
                 }
                 // Forces of geometric stiffness per axial force; the lane that
                 // holds the axial force itself is masked out.

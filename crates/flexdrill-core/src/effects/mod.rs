@@ -86,6 +86,14 @@ macro_rules! effects {
                 })+
             }
 
+            fn drags(&self) -> bool {
+                let mut any = false;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    any |= effect.drags();
+                })+
+                any
+            }
+
             fn has_tension(&self) -> bool {
                 let mut any = false;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {

@@ -29,9 +29,11 @@
 
 use std::f64::consts::PI;
 
+use flexdrill_base::energies::Energies;
 use nalgebra::{DMatrix, Vector3};
 
 use crate::chain::{Chain, CoupledParts, Effect, Parts, Segment, Under};
+use crate::dynamics::energy::StepWork;
 use crate::dynamics::state::State;
 use crate::model::Model;
 use crate::tool::{AddedMass, MudDamping, MudDescription, ToolDescription, Tube};
@@ -200,6 +202,14 @@ impl MudLump {
 }
 
 impl Effect for Mud {
+    fn drags(&self) -> bool {
+        true
+    }
+
+    fn work(&self, chain: &Chain, step: &StepWork<'_>, ledger: &mut Energies) {
+        ledger.mud += step.of_drag(chain.model.instructions);
+    }
+
     fn on_guide(&self, chain: &Chain, station: usize, state: &State, under: &Under<'_>) -> [f64; 2] {
         let at = &under.model.stations[station];
         let moving = |values: &[f64]| -> Vector3<f64> { at.pipe_to_station * chain.pipe_translation(values, station) };

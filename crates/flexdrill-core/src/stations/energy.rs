@@ -127,26 +127,26 @@ impl LedgerPoint {
 
     /// Adds kinetic energy, inertia and damping of the mud at all stations, in the numbering of the model.
     fn add_mud(&mut self, model: &Model, state: &State, conditions: &Conditions) {
-        if self.mud.is_empty() {
+        if self.drag.is_empty() {
             return;
         }
         let alpha = conditions.rayleigh.alpha;
         // The momentum first, from which the kinetic energy follows.
-        self.mud.fill(0.0);
-        model.add_mud_forces(&mut self.mud, |mud| mud.mass, |unknown| state.v[unknown]);
-        self.sums.kinetic += 0.5 * self.mud.iter().zip(&state.v).map(|(p, v)| p * v).sum::<f64>();
-        let damped = self.damping.iter_mut().zip(&self.mud);
+        self.drag.fill(0.0);
+        model.add_mud_forces(&mut self.drag, |mud| mud.mass, |unknown| state.v[unknown]);
+        self.sums.kinetic += 0.5 * self.drag.iter().zip(&state.v).map(|(p, v)| p * v).sum::<f64>();
+        let damped = self.damping.iter_mut().zip(&self.drag);
         damped.for_each(|(force, momentum)| *force += alpha * momentum);
         model.add_mud_forces(&mut self.inertia, |mud| mud.mass, |unknown| state.a[unknown]);
-        self.mud.fill(0.0);
-        model.add_mud_forces(&mut self.mud, |mud| mud.drag, |unknown| state.v[unknown]);
+        self.drag.fill(0.0);
+        model.add_mud_forces(&mut self.drag, |mud| mud.drag, |unknown| state.v[unknown]);
         let near_wall = crate::effects::mud_wall::at_stations(model);
         for (station, near) in model.stations.iter().zip(near_wall) {
             let motions = mud_motions(model, station, state);
             let taken = [0, 1].map(|k| near[k].take(&motions[k]));
             self.sums.kinetic += taken[0].energy + taken[1].energy;
             add_mud_forces(&mut self.inertia, station, taken.map(|taken| taken.inertia));
-            add_mud_forces(&mut self.mud, station, taken.map(|taken| taken.film));
+            add_mud_forces(&mut self.drag, station, taken.map(|taken| taken.film));
         }
     }
 }

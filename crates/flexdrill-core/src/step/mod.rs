@@ -17,7 +17,7 @@ mod track;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::chain::{Chain, ChainEquations};
+use crate::chain::{Chain, ChainEquations, Effect};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
@@ -104,7 +104,8 @@ impl Stepper {
             SolverKind::Chain => Chain::of(&model, &tolerances, h, &effects::acting(&model), instructions),
             SolverKind::Stations => Chain::over_stations(&model, &tolerances, &effects::acting(&model), instructions),
         };
-        let track = Track::new(&model, chain.state(&model), chain.spans());
+        let effects = Effects::of(&model, &chain);
+        let track = Track::new(&model, chain.state(&model), chain.spans(), effects.drags());
         let mut stepper = Self {
             tolerances,
             instructions,
@@ -116,7 +117,7 @@ impl Stepper {
             string: description.string.as_ref().map(|string| StringLine::new(string, h)),
             bit_mark: None,
             stopwatch: Stopwatch::default(),
-            effects: Effects::of(&model, &chain),
+            effects,
             chain,
             track,
             view: State::at_rest(&model),

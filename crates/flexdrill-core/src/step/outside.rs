@@ -182,11 +182,11 @@ impl Stepper {
         let sum = |values: &[f64], spans: fn(&SpanForces) -> &[[f64; 16]; 2]| {
             chain.sum_in_world(model, values, energy.spans.iter().map(spans))
         };
-        // The guide moves against the wall through mud; between pipe and guide it acts on both alike.
-        let mud = if energy.mud.is_empty() {
+        // What drags the guide against the wall is from outside; between pipe and guide it acts on both alike.
+        let drag = if energy.drag.is_empty() {
             Vector3::zeros()
         } else {
-            chain.sum_in_world(model, &energy.mud, std::iter::empty())
+            chain.sum_in_world(model, &energy.drag, std::iter::empty())
         };
         OutsideForces {
             supports: model
@@ -200,7 +200,7 @@ impl Stepper {
             bit: bottom.frame.column(0) * -self.interactions.bit.weight,
             loads: loads.sum(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),
-            damping: -sum(&energy.damping, |span| &span.damping) - mud,
+            damping: -sum(&energy.damping, |span| &span.damping) - drag,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The start: the tool as given, or at rest under gravity and weight on bit.
 
 use super::Stepper;
-use crate::chain::Chain;
+use crate::chain::{Chain, Effect};
 use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
@@ -108,7 +108,7 @@ impl Stepper {
     fn in_full(&mut self, tool: &mut (Chain, Effects), state: &mut State, conditions: &Conditions) -> State {
         let mut full = State::at_rest(self.model());
         let mut carried = Carried::new(self.model(), tool.0.spans());
-        let mut point = LedgerPoint::new(self.model(), tool.0.unknowns(), tool.0.spans());
+        let mut point = LedgerPoint::new(self.model(), tool.0.unknowns(), tool.0.spans(), tool.1.drags());
         let mut equations = self.equations_of(tool);
         equations.evaluate(state, conditions, false);
         equations.energy(&mut carried, &mut point, state, conditions);

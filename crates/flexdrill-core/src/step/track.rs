@@ -23,10 +23,10 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// At `state`, over so many `spans` of a chain; over all stations there are none.
-    pub fn new(model: &Model, state: State, spans: usize) -> Self {
+    /// At `state`, over so many `spans` of a chain; `drags` where an effect damps by viscosity.
+    pub fn new(model: &Model, state: State, spans: usize, drags: bool) -> Self {
         let carried = Carried::new(model, spans);
-        let ledger = LedgerPoint::new(model, state.q.len(), spans);
+        let ledger = LedgerPoint::new(model, state.q.len(), spans, drags);
         Self {
             trial: state.clone(),
             before_step: state.clone(),

@@ -111,8 +111,8 @@ pub struct ModelQuality {
     pub energy_error_share: f64,
     /// Over the window: part of the dissipated energy that is numerical damping's.
     pub numerical_share: f64,
-    /// Over the window: part of all dissipated energy, the mud's included, that the mud takes.
-    pub mud_share: f64,
+    /// Over the window: part of all dissipated energy that the damping by effects takes, which is the mud's.
+    pub effects_share: f64,
     /// Whether the window has been full since the start; before, the level means nothing.
     pub judged: bool,
     /// The refinement in force, and the one that the motion needs.
@@ -157,8 +157,8 @@ struct Block {
     dissipated: f64,
     /// Dissipated by numerical damping (J).
     numerical: f64,
-    /// Taken by the mud (J).
-    mud: f64,
+    /// Dissipated by effects (J).
+    by_effects: f64,
     /// Net change of the energy stored in tool and string (J).
     stored: f64,
 }
@@ -182,9 +182,9 @@ impl QualityWatch {
         let block = &mut self.blocks[self.current];
         block.duration += dt;
         block.error += audit.against_laws - before.against_laws;
-        block.dissipated += dissipated(audit) - dissipated(&before);
+        block.dissipated += audit.damped() - before.damped();
         block.numerical += audit.numerical_damping - before.numerical_damping;
-        block.mud += audit.mud - before.mud;
+        block.by_effects += audit.damped_by_effects() - before.damped_by_effects();
         block.stored += audit.stored - before.stored;
         // Half a step of slack, so that rounding in the sum does not make blocks of different lengths.
         if block.duration + 0.5 * dt < BLOCK {
@@ -204,7 +204,7 @@ impl QualityWatch {
             sum.error += block.error;
             sum.dissipated += block.dissipated;
             sum.numerical += block.numerical;
-            sum.mud += block.mud;
+            sum.by_effects += block.by_effects;
             // Vibration is over within a block and cancels; loading goes on for several.
             sum.stored += block.stored.abs();
         }
@@ -268,7 +268,7 @@ impl QualityWatch {
             bound: bound(bounds),
             energy_error_share: error,
             numerical_share: numerical,
-            mud_share: sum.mud / dissipated,
+            effects_share: sum.by_effects / dissipated,
             judged: true,
             choice: self.quality.choice,
         };
@@ -305,11 +305,6 @@ impl QualityWatch {
         *self = Self::default();
         self.quality.choice = choice;
     }
-}
-
-/// Energy dissipated by damping so far (J).
-fn dissipated(audit: &Energies) -> f64 {
-    audit.contact_damping + audit.rayleigh_damping + audit.numerical_damping + audit.mud
 }
 
 #[cfg(test)]

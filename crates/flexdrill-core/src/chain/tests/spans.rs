@@ -131,7 +131,7 @@ fn a_preload_stores_the_same_energy_over_the_chain() {
             clean(&chain, &mut state);
             let mut room = Room::new(&model, &chain, Instructions::best());
             equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
-            let mut point = LedgerPoint::new(&model, chain.unknowns(), chain.spans());
+            let mut point = LedgerPoint::new(&model, chain.unknowns(), chain.spans(), false);
             let mut carried = Carried::new(&model, chain.spans());
             equations(&model, &mut chain, &mut room).energy(&mut carried, &mut point, &state, &conditions);
             let mut full = State::at_rest(&model);
@@ -139,7 +139,7 @@ fn a_preload_stores_the_same_energy_over_the_chain() {
             let mut whole = Assembler::new(&model, Instructions::best());
             let mut interactions = Interactions::new(&model, Instructions::best());
             whole.residual(&mut interactions, &model, &full, &conditions);
-            let mut at_stations = LedgerPoint::new(&model, model.unknowns(), 0);
+            let mut at_stations = LedgerPoint::new(&model, model.unknowns(), 0, false);
             at_stations.evaluate(
                 &mut Carried::new(&model, 0),
                 &model,
@@ -178,12 +178,12 @@ fn turning_as_a_whole_changes_no_energy() {
         // Over the chain, and station by station.
         let mut stored = |state: &mut State| {
             equations(&model, &mut chain, &mut room).evaluate(state, &conditions, true);
-            let mut point = LedgerPoint::new(&model, chain.unknowns(), chain.spans());
+            let mut point = LedgerPoint::new(&model, chain.unknowns(), chain.spans(), false);
             let mut carried = Carried::new(&model, chain.spans());
             equations(&model, &mut chain, &mut room).energy(&mut carried, &mut point, state, &conditions);
             chain.show(&model, state, &no_forces(&chain), &mut full);
             whole.residual(&mut interactions, &model, &full, &conditions);
-            let mut at_stations = LedgerPoint::new(&model, model.unknowns(), 0);
+            let mut at_stations = LedgerPoint::new(&model, model.unknowns(), 0, false);
             at_stations.evaluate(
                 &mut Carried::new(&model, 0),
                 &model,

@@ -81,8 +81,8 @@ pub struct LedgerPoint {
     pub(crate) damping: Vec<f64>,
     /// Inertia force M a (N, N m).
     pub(crate) inertia: Vec<f64>,
-    /// Viscous damping of the mud on every unknown (N, N m); empty without mud.
-    pub(crate) mud: Vec<f64>,
+    /// Viscous damping by effects on every unknown (N, N m); empty where none damps so.
+    pub(crate) drag: Vec<f64>,
     /// Value of each point load (N, N m).
     pub(crate) loads: Vec<f64>,
     /// Geometric stiffness, damping and inertia of the spans of a chain; in the vectors above are then
@@ -98,13 +98,14 @@ pub struct LedgerPoint {
 
 impl LedgerPoint {
     /// Room for `model` in a numbering of so many unknowns; a chain has so many `spans`, all stations have none.
-    pub fn new(model: &Model, unknowns: usize, spans: usize) -> Self {
+    /// `drags` where an effect damps by viscosity.
+    pub fn new(model: &Model, unknowns: usize, spans: usize, drags: bool) -> Self {
         Self {
             friction: vec![0.0; unknowns],
             geometric: vec![0.0; unknowns],
             damping: vec![0.0; unknowns],
             inertia: vec![0.0; unknowns],
-            mud: vec![0.0; if model.description.mud.is_some() { unknowns } else { 0 }],
+            drag: vec![0.0; if drags { unknowns } else { 0 }],
             loads: vec![0.0; model.loads.len()],
             spans: vec![SpanForces::default(); spans],
             pin_moments: vec![[0.0; 6]; model.joints_with_friction()],
@@ -121,7 +122,7 @@ impl LedgerPoint {
             self.geometric.len(),
             self.damping.len(),
             self.inertia.len(),
-            self.mud.len(),
+            self.drag.len(),
             self.loads.len(),
             self.spans.len(),
             self.pin_moments.len(),
@@ -140,7 +141,7 @@ impl LedgerPoint {
         self.geometric.clone_from(&other.geometric);
         self.damping.clone_from(&other.damping);
         self.inertia.clone_from(&other.inertia);
-        self.mud.clone_from(&other.mud);
+        self.drag.clone_from(&other.drag);
         self.loads.clone_from(&other.loads);
         self.spans.clone_from(&other.spans);
         self.pin_moments.clone_from(&other.pin_moments);
@@ -149,9 +150,9 @@ impl LedgerPoint {
 
     /// Adds what the string above stores, has lost, and has been given by the hoist.
     pub(crate) fn add_string(&mut self, string: &StringLine) {
-        let [friction, mud] = string.lost();
+        let [friction, attenuation] = string.lost();
         self.sums.stored += string.stored();
-        self.sums.string_lost = friction + mud;
+        self.sums.string_lost = friction + attenuation;
         self.sums.hoist_work = string.hoist_work();
         if let Some(hoist) = string.hoist() {
             self.sums.advance = hoist.advance;

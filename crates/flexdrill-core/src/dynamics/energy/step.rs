@@ -78,6 +78,15 @@ pub(crate) struct StepWork<'a> {
 }
 
 impl StepWork<'_> {
+    /// Work of the effects' viscous damping (J).
+    pub(crate) fn of_drag(&self, instructions: Instructions) -> f64 {
+        let [work] = instructions.run(MeanWorks {
+            moved: self.moved,
+            forces: [[&self.before.point.drag, &self.after.point.drag]],
+        });
+        work
+    }
+
     /// Enters the step into the ledger, to which effects have added their rows, and balances it.
     pub(crate) fn enter(&self, ledger: &mut Energies, numbered: &Numbered<'_>, instructions: Instructions) {
         let Numbered { model, places, weight } = *numbered;
@@ -96,14 +105,6 @@ impl StepWork<'_> {
             moved,
             forces: [[&e0.friction, &e1.friction], [weight, weight]],
         });
-        // A tool without mud has no such vector, and its audit no term for it.
-        if !e0.mud.is_empty() {
-            let [work] = instructions.run(MeanWorks {
-                moved,
-                forces: [[&e0.mud, &e1.mud]],
-            });
-            ledger.mud += work;
-        }
         let SpanWorks {
             mut damping,
             mut inertia,

@@ -294,7 +294,7 @@ impl Kernel for Energies<'_> {
             let mut film = [[0.0; 16]; 2];
             on_ends(chain, l, [taken[0].film, taken[1].film], &mut film);
             for (body, film) in film.iter().enumerate() {
-                add_to_ends(&mut point.mud, l, body, film);
+                add_to_ends(&mut point.drag, l, body, film);
             }
         }
     }

@@ -25,7 +25,7 @@ fn spoil(stepper: &mut Stepper) {
             &mut ledger.geometric,
             &mut ledger.damping,
             &mut ledger.inertia,
-            &mut ledger.mud,
+            &mut ledger.drag,
             &mut ledger.loads,
         ];
         vectors.into_iter().for_each(|vector| vector.fill(NONSENSE));

@@ -101,7 +101,7 @@ struct Ends {
     hoist: HoistState,
     /// Energy lost to friction on the wall (J), and by the attenuation of waves (J).
     friction: f64,
-    mud: f64,
+    attenuation: f64,
     /// Work of the hoist's block (J).
     hoist_work: f64,
     /// Power lost at this instant (W), to friction and by attenuation.
@@ -323,7 +323,7 @@ impl StringLine {
         let last = pieces.len() - 1;
         // Works by the trapezoid rule of powers, like all of the audit's.
         ends.friction += 0.5 * h * (state.ends.powers[0] + ends.powers[0]);
-        ends.mud += 0.5 * h * (state.ends.powers[1] + ends.powers[1]);
+        ends.attenuation += 0.5 * h * (state.ends.powers[1] + ends.powers[1]);
         // What arrives at the tool: an impedance and a wave, to which the tool's end adds its own motion.
         StringStep {
             torsion: [pieces[last].torsion.impedance, row[up(last, 0)]],
@@ -423,7 +423,7 @@ impl StringLine {
 
     /// Energy lost so far (J): to friction on the wall, and by the attenuation of waves.
     pub fn lost(&self) -> [f64; 2] {
-        [self.state.ends.friction, self.state.ends.mud]
+        [self.state.ends.friction, self.state.ends.attenuation]
     }
 
     /// Work of the hoist's block so far (J).
