@@ -92,6 +92,11 @@ pub(crate) trait Effect {
         0.0
     }
 
+    /// Whether it bends the guide at rest, without a load: what is rated for a guide so bent then counts.
+    fn bends_guide(&self) -> bool {
+        false
+    }
+
     /// What the pins of a joint carry of it beyond the force between both links' ends (N, tension positive).
     fn on_pins(&self, _joint: usize, _carried: &Carried) -> f64 {
         0.0

@@ -127,6 +127,14 @@ macro_rules! effects {
                 sum
             }
 
+            fn bends_guide(&self) -> bool {
+                let mut any = false;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    any |= effect.bends_guide();
+                })+
+                any
+            }
+
             fn on_pins(&self, joint: usize, carried: &Carried) -> f64 {
                 let mut sum = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {

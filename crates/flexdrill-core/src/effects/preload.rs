@@ -29,29 +29,12 @@ use crate::chain::{Chain, Effect, Parts, Segment};
 use crate::elements::beam::{ElementMatrix, ElementVector};
 use crate::model::Model;
 use crate::tool::FreeCurvature;
+use crate::tool::section::BentTube;
 
 /// Index of (psi, phi_y, phi_z) of both nodes among an element's twelve values.
 const PSI: [usize; 2] = [3, 9];
 const PHI_Y: [usize; 2] = [4, 10];
 const PHI_Z: [usize; 2] = [5, 11];
-
-/// Curvature (1/m) of the path between two node frames that are turned by `turn` (rad) against each other, whose chord has
-/// the length `length` (m): that at which the chord's beam is bent by rotations psi alone as by phi_z, 1/R in an arc.
-pub(crate) fn path_curvature(length: f64, turn: f64) -> f64 {
-    2.0 * libm::sin(0.5 * turn) / length
-}
-
-/// Curvature of a tube against its shape as made (1/m), in the plane of the path and across it, at small tilts: in a path
-/// of curvature `path` (1/m), turned by `spin` (rad) and bent by `bent`, the changes of phi_y and phi_z (rad) over
-/// `length` (m).
-pub(crate) fn change_of_curvature(path: f64, free: FreeCurvature, length: f64, spin: f64, bent: [f64; 2]) -> [f64; 2] {
-    let bent = [path + bent[0] / length, bent[1] / length];
-    if free.curvature == 0.0 {
-        return bent;
-    }
-    let (sin, cos) = libm::sincos(spin + free.phase);
-    [bent[0] - free.curvature * cos, bent[1] - free.curvature * sin]
-}
 
 /// The preload of one guide element, in the frames of its nodes.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,11 +43,9 @@ pub struct Preload {
     pub force: ElementVector,
     /// Second derivatives of dU by the rotations (N m/rad).
     pub stiffness: ElementMatrix,
-    /// Bending stiffness (N m2), length (m), and curvature of the path (1/m).
+    /// Bending stiffness (N m2).
     bending: f64,
-    length: f64,
-    path: f64,
-    free: FreeCurvature,
+    tube: BentTube,
 }
 
 impl Preload {
@@ -72,7 +53,7 @@ impl Preload {
     /// that are turned by `turn` (rad) against each other, positive where the path builds.
     pub fn of(free: FreeCurvature, bending: f64, length: f64, turn: f64) -> Self {
         // Half the turn on each side of the chord: the node frames stand symmetrically to it.
-        let (path, cos) = (path_curvature(length, turn), libm::cos(0.5 * turn));
+        let (path, cos) = (BentTube::path_curvature(length, turn), libm::cos(0.5 * turn));
         let along = free.curvature * libm::cos(free.phase);
         let across = free.curvature * libm::sin(free.phase);
         // The excess of the path's curvature over the free one bends the guide in the plane of the well.
@@ -113,9 +94,12 @@ impl Preload {
             force,
             stiffness,
             bending,
-            length,
-            path,
-            free,
+            tube: BentTube {
+                length,
+                path,
+                made: free.curvature,
+                phase: free.phase,
+            },
         }
     }
 
@@ -123,7 +107,7 @@ impl Preload {
     /// made, which turns with the guide. Closed [slots](super::slots) add theirs. `spin` (rad) is the mean of both nodes;
     /// `bent` the changes of phi_y and phi_z (rad) from the upper to the lower node.
     pub fn moment(&self, spin: f64, bent: [f64; 2]) -> f64 {
-        let [in_plane, across] = change_of_curvature(self.path, self.free, self.length, spin, bent);
+        let [in_plane, across] = self.tube.change(spin, bent);
         self.bending * libm::hypot(in_plane, across)
     }
 
@@ -170,6 +154,10 @@ impl Preloaded {
 }
 
 impl Effect for Preloaded {
+    fn bends_guide(&self) -> bool {
+        true
+    }
+
     fn guide_moment(&self, e: usize, spin: f64, bent: [f64; 2]) -> f64 {
         self.elements[e].moment(spin, bent)
     }

@@ -26,9 +26,9 @@ use crate::chain::{Additions, Chain, Effect, GUIDE, NODE, Precision, Touching, U
 use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
-use crate::effects::preload::{change_of_curvature, path_curvature};
 use crate::model::Model;
-use crate::tool::{FreeCurvature, SectionProperties};
+use crate::tool::SectionProperties;
+use crate::tool::section::BentTube;
 
 /// The rotations of an element's nodes: psi, phi_y, phi_z of the upper one, then of the lower one (rad).
 pub type Rotations = [f64; 6];
@@ -40,12 +40,8 @@ pub struct Slots {
     pub stiffening: f64,
     /// Curvature at which they close (1/m).
     pub close_at: f64,
-    /// Length of the element (m).
-    pub length: f64,
-    /// Curvature of the path between its nodes (1/m).
-    pub path: f64,
-    /// Shape of the tube as made.
-    pub free: FreeCurvature,
+    /// The element in the path, with its shape as made.
+    pub tube: BentTube,
 }
 
 /// What the closed slots of an element do at one state.
@@ -69,7 +65,7 @@ impl Slots {
     /// The part of the closed slots in the bending moment (N m): to be added to that of open ones,
     /// [`Preload::moment`](super::preload::Preload::moment), whose arguments these are.
     pub fn moment(&self, spin: f64, bent: [f64; 2]) -> f64 {
-        let [in_plane, across] = change_of_curvature(self.path, self.free, self.length, spin, bent);
+        let [in_plane, across] = self.tube.change(spin, bent);
         self.stiffening * (libm::hypot(in_plane, across) - self.close_at).max(0.0)
     }
 
@@ -78,14 +74,18 @@ impl Slots {
         let Self {
             stiffening,
             close_at,
+            tube,
+        } = *self;
+        let BentTube {
             length,
             path,
-            free,
-        } = *self;
+            made,
+            phase,
+        } = tube;
         // Slots are evaluated at the mean rotation, one point per element.
         let mean = |i: usize| 0.5 * (q[i] + q[3 + i]);
         let (psi, y, z) = (mean(0), mean(1), mean(2));
-        let [mut a, mut b] = change_of_curvature(path, free, length, psi, [q[4] - q[1], q[5] - q[2]]);
+        let [mut a, mut b] = tube.change(psi, [q[4] - q[1], q[5] - q[2]]);
         // Second order in the tilts: the curvature is that of the turned section.
         a -= 0.5 * path * z * z;
         b += 0.5 * path * y * z;
@@ -97,22 +97,18 @@ impl Slots {
         let beyond = k - close_at;
 
         // Derivatives of the curvature by the rotations.
-        let (sin, cos) = if free.curvature == 0.0 {
+        let (sin, cos) = if made == 0.0 {
             (0.0, 0.0)
         } else {
-            libm::sincos(psi + free.phase)
+            libm::sincos(psi + phase)
         };
         let per_length = 1.0 / length;
         // Each curvature depends on the mean rotations and on the difference of the tilts.
         let by = |of_psi: f64, of_y: [f64; 2], of_z: [f64; 2]| [of_psi, of_y[0], of_z[0], of_psi, of_y[1], of_z[1]];
         let half = 0.5 * path;
-        let a_by = by(
-            0.5 * free.curvature * sin,
-            [-per_length, per_length],
-            [-half * z, -half * z],
-        );
+        let a_by = by(0.5 * made * sin, [-per_length, per_length], [-half * z, -half * z]);
         let b_by = by(
-            -0.5 * free.curvature * cos,
+            -0.5 * made * cos,
             [0.5 * half * z, 0.5 * half * z],
             [0.5 * half * y - per_length, 0.5 * half * y + per_length],
         );
@@ -130,7 +126,7 @@ impl Slots {
             size,
             turn,
             by_means: [
-                moment * free.curvature * (along_a * cos + along_b * sin),
+                moment * made * (along_a * cos + along_b * sin),
                 moment * half * along_b,
                 -moment * path * along_a,
             ],
@@ -170,18 +166,11 @@ pub(crate) fn of_element(model: &Model, e: usize) -> Option<Slots> {
     let close_at = d.guide_slots_close_at?;
     let length = model.guide[e].beam.length;
     let turn = model.stations[e + 1].inclination - model.stations[e].inclination;
-    let path = path_curvature(length, turn);
     let whole = SectionProperties::of(d.guide_section, d.material, 1.0);
     Some(Slots {
         stiffening: whole.bending - model.guide[e].beam.section.bending,
         close_at,
-        length,
-        path,
-        // A tube without stress in the path was made with its curvature.
-        free: d.guide_free_curvature.unwrap_or(FreeCurvature {
-            curvature: path,
-            phase: 0.0,
-        }),
+        tube: d.bent_guide(length, turn),
     })
 }
 
@@ -267,6 +256,7 @@ mod tests {
 
     use super::*;
     use crate::support::Random;
+    use crate::tool::FreeCurvature;
 
     const R: f64 = 3.2;
     const LENGTH: f64 = 0.15;
@@ -275,9 +265,12 @@ mod tests {
         Slots {
             stiffening: 6e5,
             close_at,
-            length: LENGTH,
-            path: 1.0 / R,
-            free,
+            tube: BentTube {
+                length: LENGTH,
+                path: 1.0 / R,
+                made: free.curvature,
+                phase: free.phase,
+            },
         }
     }
 
@@ -380,10 +373,8 @@ mod tests {
         let mut generator = Random(31);
         let turn = LENGTH / R;
         for free in FREE {
-            let slots = Slots {
-                path: 2.0 * (0.5 * turn).sin() / LENGTH,
-                ..slots(free, 1e-3)
-            };
+            let mut slots = slots(free, 1e-3);
+            slots.tube.path = 2.0 * (0.5 * turn).sin() / LENGTH;
             let energy = |q: &Rotations| slots.at(q).map_or(0.0, |closed| closed.energy);
             let exact = |q: &Rotations| {
                 let ends = [0, 1].map(|end: usize| -> Matrix3<f64> {

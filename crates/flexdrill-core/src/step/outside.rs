@@ -153,6 +153,11 @@ impl Stepper {
         self.effects.on_pins(joint, &self.track.carried)
     }
 
+    /// Whether an effect bends the guide at rest.
+    pub fn guide_is_bent(&self) -> bool {
+        self.effects.bends_guide()
+    }
+
     /// Whether an effect pushes the pipe together; `None` where none ever does.
     pub fn pipe_is_pushed(&self) -> Option<bool> {
         self.effects.pushes_pipe(&self.track.carried)

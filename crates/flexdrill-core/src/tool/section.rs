@@ -35,3 +35,35 @@ impl SectionProperties {
         }
     }
 }
+
+/// A part of a round tube between two nodes of a path that bends it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BentTube {
+    /// Length (m, the chord's).
+    pub length: f64,
+    /// Curvature of the path between its nodes (1/m).
+    pub path: f64,
+    /// Curvature of the tube as made (1/m).
+    pub made: f64,
+    /// Angle of that bend from the plane of the path while the tube's spin is 0 (rad).
+    pub phase: f64,
+}
+
+impl BentTube {
+    /// Curvature (1/m) of the path between two node frames that are turned by `turn` (rad) against each other, whose chord
+    /// has the length `length` (m): that at which the chord's beam is bent by rotations psi alone as by phi_z, 1/R in an arc.
+    pub fn path_curvature(length: f64, turn: f64) -> f64 {
+        2.0 * libm::sin(0.5 * turn) / length
+    }
+
+    /// Its curvature against its shape as made (1/m), in the plane of the path and across it, at small tilts: turned by `spin`
+    /// (rad) and bent by `bent`, the changes of phi_y and phi_z (rad) over its length.
+    pub fn change(&self, spin: f64, bent: [f64; 2]) -> [f64; 2] {
+        let bent = [self.path + bent[0] / self.length, bent[1] / self.length];
+        if self.made == 0.0 {
+            return bent;
+        }
+        let (sin, cos) = libm::sincos(spin + self.phase);
+        [bent[0] - self.made * cos, bent[1] - self.made * sin]
+    }
+}

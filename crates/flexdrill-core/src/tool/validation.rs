@@ -2,10 +2,9 @@
 
 use super::description::{
     BitDescription, Body, Direction, FrictionLaw, GapDescription, JointDescription, JointKind, LiveParameters,
-    LoadHistory, Location, Material, PressureEnd, PressureSource, ToolDescription, Tube, WallFrictionFactors,
-    WeightPlace, WellDescription, WellSection, WobPath,
+    LoadHistory, Location, Material, ToolDescription, Tube, WallFrictionFactors, WeightPlace, WellDescription,
+    WellSection, WobPath,
 };
-use super::well::WellPath;
 use crate::validation::{Bound, ValidationError, count, length, require};
 
 /// Most stations: a hundred times the paper's case; more is a slip of the pen, and its memory could not be had.
@@ -33,61 +32,12 @@ impl ToolDescription {
         Bound::Positive.check("slip_speed", self.slip_speed, "m/s")?;
         self.bit.validate()?;
         Bound::NotNegative.check("gravity", self.gravity, "m/s2")?;
-        self.validate_pressure()?;
-        self.validate_mud()?;
+        self.check_along_the_pipes()?;
         self.validate_supports()?;
         self.validate_weight_place()?;
         self.validate_rig()?;
         self.validate_loads()?;
         self.validate_start()
-    }
-
-    fn validate_pressure(&self) -> Checked {
-        let Some(pressure) = self.pressure else {
-            return Ok(());
-        };
-        if let PressureSource::Constant(at_top) = pressure.at_top {
-            Bound::Finite.check("pressure.at_top", at_top, "Pa")?;
-        }
-        // Friction cannot take more than there is.
-        let most = 1.0 / WellPath::new(&self.well).length();
-        Bound::Within(0.0, most).check("pressure.drop_per_metre", pressure.drop_per_metre, "1/m")?;
-        Bound::NotNegative.check("pressure.joint_seal_diameter", pressure.joint_seal_diameter, "m")?;
-        if let PressureEnd::Sealed { diameter } = pressure.end {
-            Bound::NotNegative.check("pressure.end.diameter", diameter, "m")?;
-        }
-        let held = self.wob_path == WobPath::Shared || self.holds_pipe_end();
-        require(
-            held == (pressure.end == PressureEnd::Held),
-            "pressure.end",
-            "held goes with wob_path shared or a support that holds u of the pipe's lower end; closed and sealed ends are \
-             free along the axis",
-        )
-    }
-
-    fn validate_mud(&self) -> Checked {
-        let Some(mud) = self.mud else {
-            return Ok(());
-        };
-        Bound::Positive.check("mud.density", mud.density, "kg/m3")?;
-        Bound::NotNegative.check("mud.viscosity", mud.viscosity, "Pa s")?;
-        Bound::Positive.check("mud.frequency", mud.frequency, "Hz")?;
-        // The mud is between pipe and guide along the whole link, not only where they can touch.
-        let widest = self
-            .pipe_sections
-            .iter()
-            .map(|tube| tube.outer_diameter)
-            .fold(0.0, f64::max);
-        Bound::Over(widest).check("guide_section.inner_diameter", self.guide_section.inner_diameter, "m")
-    }
-
-    /// Whether a support holds the pipe's lower end along the axis.
-    fn holds_pipe_end(&self) -> bool {
-        let last = Location::Station(self.links * self.elements_per_link);
-        self.supports.iter().any(|support| {
-            let at_end = matches!(support.location, Location::Bottom | Location::All) || support.location == last;
-            at_end && support.body == Body::Pipe && support.directions.contains(&Direction::U)
-        })
     }
 
     fn validate_mesh(&self) -> Checked {
@@ -125,20 +75,10 @@ impl ToolDescription {
         Bound::Over(widest).check("guide_section.inner_diameter", self.guide_section.inner_diameter, "m")?;
         Bound::Over(self.guide_section.outer_diameter).check("hole_diameter", self.hole_diameter, "m")?;
         Bound::Positive.check("guide_bending_factor", self.guide_bending_factor, "")?;
-        self.check_guide()?;
-        let Some(free) = self.guide_free_curvature else {
-            return Ok(());
-        };
-        Bound::NotNegative.check("guide_free_curvature.curvature", free.curvature, "1/m")?;
-        Bound::Finite.check("guide_free_curvature.phase", free.phase, "rad")?;
-        require(
-            !self.guide_fixed,
-            "guide_free_curvature",
-            "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
-        )
+        self.check_guide()
     }
 
-    fn validate_location(&self, field: String, location: Location) -> Checked {
+    pub(super) fn validate_location(&self, field: String, location: Location) -> Checked {
         let (last_station, joints) = (self.links * self.elements_per_link, self.links - 1);
         let on_tool = match location {
             Location::Top | Location::Bottom | Location::All => true,
@@ -226,18 +166,7 @@ impl ToolDescription {
             };
             load.history.validate(&format!("loads[{index}].history"), unit)?;
         }
-        for (index, mass) in self.masses.iter().enumerate() {
-            self.validate_location(format!("masses[{index}].location"), mass.location)?;
-            let field = |name: &str| format!("masses[{index}].{name}");
-            Bound::NotNegative.check(&field("mass"), mass.mass, "kg")?;
-            Bound::NotNegative.check(&field("axial_inertia"), mass.axial_inertia, "kg m2")?;
-            // No body has less: its parts lie nearer to two diameters together than to the axis.
-            let disc = Bound::Within(0.5 * mass.axial_inertia, f64::MAX);
-            disc.check(&field("transverse_inertia"), mass.transverse_inertia, "kg m2")?;
-            Bound::NotNegative.check(&field("eccentricity"), mass.eccentricity, "m")?;
-            Bound::Finite.check(&field("eccentricity_phase"), mass.eccentricity_phase, "rad")?;
-        }
-        Ok(())
+        self.check_at_nodes()
     }
 
     fn validate_start(&self) -> Checked {

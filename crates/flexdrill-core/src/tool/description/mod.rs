@@ -4,118 +4,17 @@
 //! [`LiveParameters`] can change.
 
 mod joint;
-mod mud_and_pressure;
 mod rock;
 mod string;
+mod whole;
 
 pub use flexdrill_base::{Body, Location};
 use serde::{Deserialize, Serialize};
 
 pub use joint::*;
-pub use mud_and_pressure::*;
 pub use rock::*;
 pub use string::*;
-
-use crate::validation::{Bound, ValidationError, require};
-
-/// Everything the mechanics needs to know, in SI units and radians.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct ToolDescription {
-    /// The bore's centre line, from the kick-off (measured depth 0) on.
-    pub well: WellDescription,
-    /// Number of rigidly straight links of the flexible pipe.
-    pub links: usize,
-    /// Beam elements per link (the paper's five).
-    pub elements_per_link: usize,
-    /// Steel of both pipes.
-    pub material: Material,
-    /// Section of each element of a link, top to bottom; length `elements_per_link`. All links are alike.
-    pub pipe_sections: Vec<Tube>,
-    /// Outer diameter of the pipe where it meets the guide, per station of a link (m); length
-    /// `elements_per_link + 1`. Decides the inner clearance, Eq. 27.
-    pub pipe_contact_diameters: Vec<f64>,
-    /// Section of the guide pipe.
-    pub guide_section: Tube,
-    /// Factor on the guide's bending stiffness (slotted guides are softer), dimensionless.
-    pub guide_bending_factor: f64,
-    /// Curvature of the guide as made; `None` where it is without stress in the path.
-    pub guide_free_curvature: Option<FreeCurvature>,
-    /// Curvature against its shape as made at which the slots of the guide close (1/m): beyond it the guide bends with the
-    /// stiffness of the whole tube. `None` where they never do.
-    pub guide_slots_close_at: Option<f64>,
-    /// Every guide node held in all six directions (the verification cases' fixed outer beam).
-    pub guide_fixed: bool,
-    /// Diameter of the bore (m), Eq. 31.
-    pub hole_diameter: f64,
-    /// The joints between links.
-    pub joint: JointDescription,
-    /// How the pipe's links shorten along the chord as they tilt across it.
-    pub shortening: Shortening,
-    /// Mass- and stiffness-proportional damping of both pipes, Eq. 7.
-    pub rayleigh: Rayleigh,
-    /// Gap layer between pipe and guide.
-    pub inner: GapDescription,
-    /// Gap layer between guide and wall.
-    pub outer: GapDescription,
-    /// Factors on the friction of the layer between guide and wall.
-    pub wall_friction_factors: WallFrictionFactors,
-    /// Speed at which the regularised friction reaches 71 % of Coulomb's (m/s).
-    pub slip_speed: f64,
-    /// The bit and its rock, Eq. 1.
-    pub bit: BitDescription,
-    /// How the rock answers the bit.
-    pub rock: RockLaw,
-    /// The string above the tool; without one the drive prescribes the spin of the first node.
-    pub string: Option<StringDescription>,
-    /// Acceleration of gravity along world +Z (m/s2), already reduced by the buoyancy factor.
-    pub gravity: f64,
-    /// Pump pressure in the pipe; `None` without flow.
-    pub pressure: Option<PressureDescription>,
-    /// The mud that moves with the pipes; `None` where it is in the gravity only.
-    pub mud: Option<MudDescription>,
-    /// Held directions, Table 1 and its variants.
-    pub supports: Vec<Support>,
-    /// Whether the spin of the first pipe node follows the drive's angle (else it is as `supports` say).
-    pub drive_top: bool,
-    /// How the weight on bit reaches the tool.
-    pub wob_path: WobPath,
-    /// Where the weight on bit of the inputs is measured.
-    pub weight_place: WeightPlace,
-    /// Loads over time, in addition to gravity, drive and bit.
-    pub loads: Vec<PointLoad>,
-    /// Point masses added to nodes.
-    pub masses: Vec<PointMass>,
-    /// Velocity of every pipe node at the start, in the station frame (m/s), for cases that start moving.
-    pub initial_pipe_velocity: [f64; 3],
-    /// Displacement of every pipe node at the start, in the station frame (m).
-    pub initial_pipe_displacement: [f64; 3],
-    /// Spin rate of the pipe at the start (rad/s).
-    pub initial_spin_rate: f64,
-    /// Whether the run starts from rest under gravity and the initial weight on bit.
-    pub static_start: bool,
-    /// With a start from rest: the guide has been slid into the hole, so that the friction of the wall is at its limit
-    /// against an advance that has just ended. Needs [`FrictionLaw::Bristle`] at the wall, which holds it.
-    pub slid_in: bool,
-}
-
-impl ToolDescription {
-    /// Checks what a guide needs whose slots close as it bends.
-    pub(super) fn check_guide(&self) -> Result<(), ValidationError> {
-        if let Some(close_at) = self.guide_slots_close_at {
-            Bound::Positive.check("guide_slots_close_at", close_at, "1/m")?;
-            let needs_slots =
-                "leave it out, or set guide_bending_factor below 1: a tube without slots has none that close";
-            require(self.guide_bending_factor < 1.0, "guide_slots_close_at", needs_slots)?;
-            require(
-                !self.guide_fixed,
-                "guide_slots_close_at",
-                "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
-            )?;
-        }
-        Ok(())
-    }
-}
+pub use whole::*;
 
 /// The bore's centre line: sections one after another in the vertical X-Z plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -215,27 +114,6 @@ pub struct Tube {
     pub outer_diameter: f64,
     /// Inner diameter (m).
     pub inner_diameter: f64,
-}
-
-/// The bend of a tube without load.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct FreeCurvature {
-    /// Curvature (1/m), 0 where it is straight.
-    pub curvature: f64,
-    /// Toolface of the bend while the tube's spin is 0 (rad): the angle from the high side (-z) to the side that it
-    /// bends to, positive towards +y.
-    pub phase: f64,
-}
-
-/// How a tilted span of the pipe shortens along its chord, see `effects/shortening.rs`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Shortening {
-    /// Not at all: the elements are linear, as the paper's.
-    #[default]
-    None,
-    /// By the square of the tilt.
-    SecondOrder,
 }
 
 /// Rayleigh damping C = alpha M + beta K, Eq. 7.
@@ -413,25 +291,6 @@ pub struct PointLoad {
     pub direction: Direction,
     /// How much, when.
     pub history: LoadHistory,
-}
-
-/// A rigid body added to a node, round but for its unbalance.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PointMass {
-    /// Where.
-    pub location: Location,
-    /// On which pipe.
-    pub body: Body,
-    /// Mass (kg).
-    pub mass: f64,
-    /// Rotary inertia about the axis (kg m2).
-    pub axial_inertia: f64,
-    /// Rotary inertia about a diameter (kg m2); at least half of that about the axis, which is a thin disc's.
-    pub transverse_inertia: f64,
-    /// Distance of its centre of mass from the axis (m).
-    pub eccentricity: f64,
-    /// Angle of its centre of mass at spin zero, from the node's y axis towards its z axis (rad).
-    pub eccentricity_phase: f64,
 }
 
 /// Parameters that may change while the model runs; all others are fixed when it is built.

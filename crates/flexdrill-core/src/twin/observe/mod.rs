@@ -96,10 +96,8 @@ impl Observer {
             bit: Means::default(),
             steering: SteeringMeans::default(),
             // A guide as curved as the hole has no preload, whatever the settings say.
-            guide_preload: (settings
-                .guide_preload
-                .filter(|_| model.description.guide_free_curvature.is_some()))
-            .map(|load| LoadWatch::new(&load, model.guide.len())),
+            guide_preload: (settings.guide_preload.filter(|_| stepper.guide_is_bent()))
+                .map(|load| LoadWatch::new(&load, model.guide.len())),
             pressure_folding: (settings.pressure_folding.filter(|_| stepper.pipe_is_pushed().is_some()))
                 .map(|load| LoadWatch::new(&load, model.pipe.len())),
             ageing: AgeingWatch::new(&settings.ageing, model.joints.len(), stations),
