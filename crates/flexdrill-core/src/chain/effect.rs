@@ -2,6 +2,7 @@
 //! motion, and gathers forces on the ends of spans, their derivative, and energies.
 
 use flexdrill_base::energies::Energies;
+use nalgebra::Vector3;
 
 use super::Chain;
 use super::precision::Precision;
@@ -31,8 +32,8 @@ pub(crate) struct Along {
     pub on_strain: f64,
     /// Force on the span's top end, whatever the motion (N), along the axes of the link above.
     pub on_top: [f64; 3],
-    /// How much shorter the pipe is than by the motion of its ends along it (m).
-    pub shortening: f64,
+    /// Elongation of the pipe beyond that by the motion of its ends along it (m).
+    pub beyond_ends: f64,
 }
 
 /// Something that acts inside spans or at nodes, beyond beams, contacts and joints. It keeps what it found at the last residual: its tangent
@@ -95,6 +96,11 @@ pub(crate) trait Effect {
     /// Whether it bends the guide at rest, without a load: what is rated for a guide so bent then counts.
     fn bends_guide(&self) -> bool {
         false
+    }
+
+    /// Its weight, along the world axes (N).
+    fn weight(&self) -> Vector3<f64> {
+        Vector3::zeros()
     }
 
     /// What the pins of a joint carry of it beyond the force between both links' ends (N, tension positive).

@@ -15,6 +15,7 @@ pub(crate) mod slots;
 mod tests;
 
 use flexdrill_base::energies::Energies;
+use nalgebra::Vector3;
 
 use crate::chain::{Acting, Additions, Chain, Effect, Precision, Under};
 use crate::dynamics::carried::Carried;
@@ -133,6 +134,14 @@ macro_rules! effects {
                     any |= effect.bends_guide();
                 })+
                 any
+            }
+
+            fn weight(&self) -> Vector3<f64> {
+                let mut sum = Vector3::zeros();
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    sum += effect.weight();
+                })+
+                sum
             }
 
             fn on_pins(&self, joint: usize, carried: &Carried) -> f64 {

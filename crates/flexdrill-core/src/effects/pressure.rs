@@ -197,7 +197,7 @@ impl Effect for Pressurised {
 
     fn energy(&self, chain: &Chain, point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         let spans = chain.along.iter().zip(self.spans.iter());
-        point.sums.of_effects[PLACE] = spans.fold(0.0, |sum, (along, span)| sum + along.shortening * span.on_strain);
+        point.sums.of_effects[PLACE] = spans.fold(0.0, |sum, (along, span)| sum + along.beyond_ends * span.on_strain);
         0.0
     }
 

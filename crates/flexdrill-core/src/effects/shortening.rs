@@ -194,7 +194,7 @@ impl Effect for Shortened {
                 add_times(pipe, &slopes, *beyond);
                 add_times(pipe, &tension, stretch.along());
             }
-            chain.along[l].shortening = stretch.shortening;
+            chain.along[l].beyond_ends = stretch.shortening;
             if !under.keeps_axial {
                 state.pipe_axial[l] = stretch.tension;
             }

@@ -1,11 +1,11 @@
-//! Supports, loads and masses, resolved to unknowns of the model.
+//! Supports and loads, resolved to unknowns of the model.
 
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::Model;
-use crate::tool::{Body, Direction, Location, PointLoad, PointMass, ToolDescription};
+use crate::tool::{Body, Direction, Location, PointLoad, ToolDescription};
 use crate::validation::ValidationError;
 
 /// A load with its unknown resolved.
@@ -15,17 +15,6 @@ pub struct ResolvedLoad {
     pub unknown: usize,
     /// The described load with its history.
     pub load: PointLoad,
-}
-
-/// A point mass, or the bit's inertia, with its unknown resolved.
-#[derive(Debug, Clone)]
-pub struct ResolvedMass {
-    /// Unknown of the node's u.
-    pub unknown: usize,
-    /// The described mass, with its inertias and its unbalance.
-    pub mass: PointMass,
-    /// Gravity in the node's frame (m/s2).
-    pub gravity: Vector3<f64>,
 }
 
 /// A node with at least one held direction.
@@ -44,7 +33,7 @@ pub struct HeldNode {
 }
 
 impl Model {
-    /// Resolves supports (Table 1), loads and masses.
+    /// Resolves supports (Table 1) and loads.
     pub(super) fn attach(&mut self, d: &ToolDescription) -> Result<(), ValidationError> {
         for support in &d.supports {
             for node in self.nodes("supports", support.location, support.body, true)? {
@@ -81,39 +70,6 @@ impl Model {
                     load: load.clone(),
                 });
             }
-        }
-        for mass in &d.masses {
-            for unknown in self.nodes("masses", mass.location, mass.body, false)? {
-                let station = &self.stations[self.layout.station_of(unknown)];
-                // Gravity in the frame of the body's node, where its eccentricity is given.
-                let frame = match mass.body {
-                    Body::Guide => station.frame,
-                    Body::Pipe => station.frame * station.pipe_to_station,
-                };
-                let gravity = frame.transpose() * (Vector3::z() * d.gravity);
-                self.masses.push(ResolvedMass {
-                    unknown,
-                    mass: *mass,
-                    gravity,
-                });
-            }
-        }
-        // The inertia of the bit acts against its spin; it has no weight here.
-        if d.bit.inertia > 0.0 {
-            self.masses.push(ResolvedMass {
-                unknown: self.stations[self.last()].pipe_above,
-                mass: PointMass {
-                    location: Location::Bottom,
-                    body: Body::Pipe,
-                    mass: 0.0,
-                    axial_inertia: d.bit.inertia,
-                    // That of a thin disc: the smallest ratio that a body can have.
-                    transverse_inertia: 0.5 * d.bit.inertia,
-                    eccentricity: 0.0,
-                    eccentricity_phase: 0.0,
-                },
-                gravity: Vector3::zeros(),
-            });
         }
         Ok(())
     }
@@ -165,17 +121,11 @@ impl Model {
         sum
     }
 
-    /// Weight of both pipes and of the point masses in the world (N).
-    pub(super) fn total_weight(&self) -> Vector3<f64> {
-        let masses = self.masses.iter().map(|mass| {
-            let (_, _, frame) = self.node_of(mass.unknown);
-            frame * mass.gravity * mass.mass.mass
-        });
-        self.sum_in_world(&self.weight) + masses.sum::<Vector3<f64>>()
-    }
-
     /// First unknowns of the nodes at a location; with `both`, both pipe nodes of a joint station.
-    fn nodes(
+    ///
+    /// # Errors
+    /// Where the location is not on the tool, which the checks of a description find too.
+    pub(crate) fn nodes(
         &self,
         what: &'static str,
         location: Location,

@@ -17,7 +17,7 @@ use crate::elements::joint::Joint;
 use crate::tool::{Direction, ToolDescription, WobPath};
 use crate::validation::ValidationError;
 
-pub use attached::{HeldNode, ResolvedLoad, ResolvedMass};
+pub use attached::{HeldNode, ResolvedLoad};
 pub use element::{GuideElement, PipeElement};
 use layout::Layout;
 pub use places::{JointPlaces, Places};
@@ -44,7 +44,7 @@ pub struct Model {
     pub held: Vec<usize>,
     /// The nodes of the held unknowns, in the same order.
     pub held_nodes: Vec<HeldNode>,
-    /// Weight of the whole tool, along the world axes (N).
+    /// Weight of both pipes, along the world axes (N).
     pub total_weight: Vector3<f64>,
     /// Spin of the top pipe node, if driven.
     pub driven: Option<usize>,
@@ -52,8 +52,6 @@ pub struct Model {
     pub padding: Vec<usize>,
     /// Point loads, resolved to unknowns.
     pub loads: Vec<ResolvedLoad>,
-    /// Point masses, resolved to unknowns.
-    pub masses: Vec<ResolvedMass>,
     /// Clearance of the outer layer, Eq. 31 (m).
     pub outer_clearance: f64,
     /// Inner and outer radius of the guide (m).
@@ -134,7 +132,7 @@ impl Model {
             .iter()
             .map(|e| e.beam.section.bending / e.beam.length)
             .fold(0.0, f64::max);
-        // Supports, loads and masses refer to the finished numbering, so they are attached below.
+        // Supports and loads refer to the finished numbering, so they are attached below.
         let mut model = Self {
             joints,
             joint_stations,
@@ -148,7 +146,6 @@ impl Model {
             driven: (d.drive_top && d.string.is_none()).then(|| stations[0].pipe_above + Direction::Psi as usize),
             padding,
             loads: Vec::new(),
-            masses: Vec::new(),
             outer_clearance: 0.5 * (d.hole_diameter - d.guide_section.outer_diameter),
             guide_radii: [
                 0.5 * d.guide_section.inner_diameter,
@@ -164,10 +161,10 @@ impl Model {
             stations,
             description: description.clone(),
         };
-        // In this order: the total weight is that of elements and attached masses, and places need the supports.
+        // In this order: places need the supports.
         model.add_weight();
         model.attach(description)?;
-        model.total_weight = model.total_weight();
+        model.total_weight = model.sum_in_world(&model.weight);
         model.places = Places::of(&model);
         Ok(model)
     }

@@ -200,7 +200,7 @@ impl Stepper {
                 .map(|at| self.reaction(at)[0])
                 .sum::<Vector3<f64>>()
                 + self.string_on_tool().unwrap_or_default(),
-            weight: model.total_weight,
+            weight: model.total_weight + self.effects.weight(),
             wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
             bit: bottom.frame.column(0) * -self.interactions.bit.weight,
             loads: loads.sum(),

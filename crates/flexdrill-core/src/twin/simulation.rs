@@ -289,8 +289,8 @@ impl Simulation {
     /// # Errors
     /// When one is not finite or negative; then both stay.
     pub fn set_slew(&mut self, rotary_speed: f64, weight_on_bit: f64) -> Result<(), ValidationError> {
-        let [.., advance, pressure] = self.settings.slew();
-        let slew = [rotary_speed, weight_on_bit, advance, pressure];
+        let [.., advance, standpipe_pressure] = self.settings.slew();
+        let slew = [rotary_speed, weight_on_bit, advance, standpipe_pressure];
         validate_slew(slew)?;
         self.replace_slew(slew);
         Ok(())

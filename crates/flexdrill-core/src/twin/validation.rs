@@ -55,11 +55,11 @@ impl SimulationSettings {
 }
 
 /// Slew limits of rotary speed (rad/s2), weight on bit (N/s), rate of penetration (m/s2) and standpipe pressure (Pa/s).
-pub(super) fn validate_slew([speed, weight, advance, pressure]: [f64; 4]) -> Checked {
+pub(super) fn validate_slew([speed, weight, advance, standpipe_pressure]: [f64; 4]) -> Checked {
     Bound::NotNegative.check("rotary_speed_slew", speed, "rad/s2")?;
     Bound::NotNegative.check("weight_on_bit_slew", weight, "N/s")?;
     Bound::NotNegative.check("rate_of_penetration_slew", advance, "m/s2")?;
-    Bound::NotNegative.check("standpipe_pressure_slew", pressure, "Pa/s")
+    Bound::NotNegative.check("standpipe_pressure_slew", standpipe_pressure, "Pa/s")
 }
 
 impl Scheme {

@@ -3,12 +3,14 @@
 
 mod law;
 
+use nalgebra::{Matrix3, Vector3};
+
 use crate::chain::{Additions, Chain, Effect, Precision, Under};
 use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
-use crate::model::{Model, ResolvedMass};
-use crate::tool::PointMass;
+use crate::model::Model;
+use crate::tool::{Body, Location, PointMass};
 
 use law::{NodeMotion, PointBody};
 
@@ -26,13 +28,72 @@ pub(crate) struct OnNode {
 #[derive(Debug, Clone)]
 pub(crate) struct Bodies {
     list: Vec<OnNode>,
+    /// Their weight, along the world axes (N).
+    weight: Vector3<f64>,
+}
+
+/// A described body, where its node is in the numbering of the model.
+struct Described {
+    mass: PointMass,
+    /// Unknown of the node's u.
+    unknown: usize,
+    /// Gravity along the node's axes (m/s2).
+    gravity: Vector3<f64>,
+    /// The node's axes, columns in the world.
+    frame: Matrix3<f64>,
+}
+
+/// The bodies of the description, then the bit's inertia.
+fn described(model: &Model) -> Vec<Described> {
+    let d = &model.description;
+    let mut found = Vec::new();
+    for mass in &d.masses {
+        // The checks of the description have found every location on the tool.
+        for unknown in model
+            .nodes("masses", mass.location, mass.body, false)
+            .into_iter()
+            .flatten()
+        {
+            let station = &model.stations[model.layout.station_of(unknown)];
+            // Gravity in the frame of the body's node, where its eccentricity is given.
+            let frame = match mass.body {
+                Body::Guide => station.frame,
+                Body::Pipe => station.frame * station.pipe_to_station,
+            };
+            found.push(Described {
+                mass: *mass,
+                unknown,
+                gravity: frame.transpose() * (Vector3::z() * d.gravity),
+                frame: model.node_of(unknown).2,
+            });
+        }
+    }
+    // The inertia of the bit acts against its spin; it has no weight here.
+    if d.bit.inertia > 0.0 {
+        let unknown = model.stations[model.last()].pipe_above;
+        found.push(Described {
+            mass: PointMass {
+                location: Location::Bottom,
+                body: Body::Pipe,
+                mass: 0.0,
+                axial_inertia: d.bit.inertia,
+                // That of a thin disc: the smallest ratio that a body can have.
+                transverse_inertia: 0.5 * d.bit.inertia,
+                eccentricity: 0.0,
+                eccentricity_phase: 0.0,
+            },
+            unknown,
+            gravity: Vector3::zeros(),
+            frame: model.node_of(unknown).2,
+        });
+    }
+    found
 }
 
 /// The masses (kg, kg m2) that bodies add to the six directions of nodes, with the node's first unknown in the model.
-pub(crate) fn at_nodes(model: &Model) -> impl Iterator<Item = (usize, [f64; 6])> {
-    model
-        .masses
-        .iter()
+pub(crate) fn at_nodes(model: &Model) -> impl Iterator<Item = (usize, [f64; 6])> + use<> {
+    described(model)
+        .into_iter()
         .map(|at| (at.unknown, PointBody::of(&at.mass).diagonal()))
 }
 
@@ -92,7 +153,8 @@ impl Bodies {
 
     /// The same in another numbering, by the `place` of the model's unknowns in it.
     pub(crate) fn at(model: &Model, place: impl Fn(usize) -> Option<usize>) -> Option<Self> {
-        let on_node = |at: &ResolvedMass| {
+        let described = described(model);
+        let on_node = |at: &Described| {
             let mut places = [0; 6];
             for (k, to) in places.iter_mut().enumerate() {
                 *to = place(at.unknown + k)?;
@@ -103,8 +165,12 @@ impl Bodies {
                 places,
             })
         };
-        let list: Vec<OnNode> = model.masses.iter().filter_map(on_node).collect();
-        (!list.is_empty()).then_some(Self { list })
+        let list: Vec<OnNode> = described.iter().filter_map(on_node).collect();
+        let weights = described.iter().map(|at| at.frame * at.gravity * at.mass.mass);
+        (!list.is_empty()).then_some(Self {
+            weight: weights.sum(),
+            list,
+        })
     }
 
     /// Those with forces beyond the diagonal masses.
@@ -154,6 +220,10 @@ impl Bodies {
 }
 
 impl Effect for Bodies {
+    fn weight(&self) -> Vector3<f64> {
+        self.weight
+    }
+
     fn at_nodes(&self, residual: &mut [f64], state: &State, under: &Under<'_>, wanted: &impl Fn(usize) -> bool) {
         self.add_forces(residual, state, under.conditions.rayleigh.alpha, wanted);
     }
