@@ -123,7 +123,7 @@ impl Energies {
         self.contact_damping + self.rayleigh_damping + self.numerical_damping + self.damped_by_effects()
     }
 
-    /// What damping by effects takes of it: those of the rows of effects that no motion gives back.
+    /// The part of that which effects take: the viscosity of the mud.
     pub fn damped_by_effects(&self) -> f64 {
         self.mud
     }

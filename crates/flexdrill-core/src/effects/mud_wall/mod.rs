@@ -137,6 +137,10 @@ impl Effect for MudWall {
         0.0
     }
 
+    fn drags(&self) -> bool {
+        true
+    }
+
     fn on_guide(&self, chain: &Chain, station: usize, _state: &State, _under: &Under<'_>) -> [f64; 2] {
         let (l, i) = chain.span_of(station);
         let taken = self.walls[l][0].lane(i - 1).take(&self.motions[l][0].lane(i - 1));
