@@ -8,6 +8,7 @@ use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, Schedule};
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{BitState, CdrError, ContactForces, from_cdr, to_cdr};
+use flexdrill_outputs::figures::{BIT_STATE, Window};
 use flexdrill_outputs::published;
 
 /// Outputs with a rate, and their topics.
@@ -214,22 +215,18 @@ impl Statistics for ContactForces {
 
 impl Statistics for BitState {
     fn combine(&mut self, steps: f64, earlier: &Self, earlier_steps: f64) {
-        for (value, before) in [
-            (&mut self.torque, earlier.torque),
-            (&mut self.rotary_speed, earlier.rotary_speed),
-            (&mut self.weight_on_bit, earlier.weight_on_bit),
-        ] {
-            *value = combined_mean(*value, steps, before, earlier_steps);
+        // The time that a figure covers decides how two of its values combine.
+        for figure in BIT_STATE {
+            let [value, before] = [&*self, earlier].map(figure.read);
+            let combined = match figure.window {
+                Window::Mean => combined_mean(value, steps, before, earlier_steps),
+                Window::Rms => combined_rms(value, steps, before, earlier_steps),
+                Window::Largest => value.max(before),
+                Window::Integral => value + before,
+                Window::Instant | Window::LongMean | Window::LongRms => value,
+            };
+            (figure.write)(self, combined);
         }
-        for (value, before) in [
-            (&mut self.tangential_acceleration, earlier.tangential_acceleration),
-            (&mut self.axial_acceleration, earlier.axial_acceleration),
-            (&mut self.lateral_acceleration, earlier.lateral_acceleration),
-        ] {
-            *value = combined_rms(*value, steps, before, earlier_steps);
-        }
-        self.lateral_acceleration_peak = self.lateral_acceleration_peak.max(earlier.lateral_acceleration_peak);
-        self.lateral_impulse += earlier.lateral_impulse;
     }
 }
 

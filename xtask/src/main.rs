@@ -16,7 +16,8 @@ enum Task {
         #[arg(long, default_value = ".")]
         root: PathBuf,
     },
-    /// Prints a reference page of the manual (topics, configuration or validation), or the rows of the rig page (figures).
+    /// Prints a reference page of the manual (topics, configuration or validation), the rows of the rig page (figures), or
+    /// the columns of the Python package (columns).
     Reference {
         /// Which page.
         page: String,

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 import subprocess
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import flexdrill
+from flexdrill import _figures
 
 BINARY = os.environ.get("FLEXDRILL_BINARY", "")
 
@@ -66,6 +68,15 @@ def test_a_replay_of_a_field_log(config: str, tmp_path: Path) -> None:
         theirs = bag[topic].fields[field]
         assert isinstance(theirs, np.ndarray) and theirs.shape == ours.shape, (topic, field)
         np.testing.assert_array_equal(theirs, ours, err_msg=f"{topic} {field}")
+    # Every figure of the table: a column is a field, perhaps with `mean_` before it and a unit behind it. The transfer is
+    # published at 10 Hz: every fifth sample.
+    tables = [("twin/bit_state", run.bit, "BitFigures", 1), ("twin/transfer", run.transfer, "TransferFigures", 5)]
+    for topic, group, name, every in tables:
+        published = bag[topic].fields
+        for column in [field.name for field in fields(getattr(_figures, name))]:
+            named = [field for field in published if column.removeprefix("mean_").startswith(field)]
+            expected = published[max(named, key=len)]
+            np.testing.assert_array_equal(expected, getattr(group, column)[::every], err_msg=f"{topic} {column}")
     assert np.ptp(run.bit.torque_nm) > 10.0
     # Whirl is published at 10 Hz: every fifth sample.
     np.testing.assert_array_equal(bag["twin/whirl"].fields["whirl_rate"], run.whirl.whirl_rate_rad_per_s[::5])

@@ -184,6 +184,7 @@ def test_xarray_has_units_and_places(twin: flexdrill.Twin) -> None:
     assert data["bit.torque_nm"].attrs["units"] == "N m"
     assert data["joints.bend_angle_rad"].dims == ("time", "joint")
     assert data["shape.pipe_m"].dims == ("time", "station", "lateral")
+    assert data["transfer.drive_power_w"].attrs["units"] == "W" and data["transfer.drive_power_w"].dims == ("time",)
     assert data["time"].attrs["units"] == "s"
     assert data["joints.measured_depth_m"].dims == ("joint",)
 

@@ -6,8 +6,9 @@
 //! # Layout
 //! - `reading`: one pass over a bag in bounded memory, into a [`Summary`]. `roles`: the meaning of each topic.
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
-//!   `transfer` (torque, weight and power from the surface to the bit), `balances` (of the whole tool), `incidents`
-//!   (alarms), `tools` (what plausible tools did), `hole` (where the tool drilled next), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
+//!   `figures` (the figures of a message, as their table lists them), `transfer` (torque, weight and power from the surface
+//!   to the bit), `balances` (of the whole tool), `incidents` (alarms), `tools` (what plausible tools did), `hole` (where the
+//!   tool drilled next), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
 //!   their orbits), `health` (pace, model, recording).
 //! - [`calibration`]: the page of a calibration.
 //! - `compare`: two summaries next to each other, a [`Comparison`].
@@ -20,6 +21,7 @@ mod compare;
 mod drive;
 mod envelope;
 mod error;
+mod figures;
 mod health;
 mod history;
 mod hole;

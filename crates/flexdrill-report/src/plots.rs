@@ -88,7 +88,7 @@ pub(crate) fn tools(summary: &Summary) -> Option<Figure> {
     let tools = &summary.tools;
     let mut panels = Vec::new();
     for (field, title) in OF_TOOLS {
-        let own = summary.transfer.quantities.iter().find(|own| own.figure.field == field);
+        let own = summary.transfer.figures.field(field);
         let (Some(band), Some(own)) = (tools.of_transfer(field), own) else {
             continue;
         };

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::ReportError;
 use crate::balances::Balances;
 use crate::drive::Drive;
+use crate::figures::FigureHistories;
 use crate::health::Health;
 use crate::hole::HoleHistory;
 use crate::incidents::Incidents;
@@ -23,6 +24,7 @@ use flexdrill_messages::{
     AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, HoleAhead, JointDeflections, Message,
     Reactions, RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState,
 };
+use flexdrill_outputs::figures::BIT_STATE;
 use flexdrill_text::counted;
 
 /// Largest number of damaged parts listed.
@@ -46,6 +48,8 @@ pub struct Summary {
     pub(crate) config: Option<Config>,
     pub(crate) config_problem: Option<String>,
     pub(crate) drive: Drive,
+    /// The figures of `twin/bit_state`.
+    pub(crate) bit: FigureHistories<BitState>,
     pub(crate) transfer: TransferHistory,
     pub(crate) steady: SteadyDrilling,
     pub(crate) tools: PlausibleTools,
@@ -140,6 +144,7 @@ impl Reader {
                 config: None,
                 config_problem: None,
                 drive: Drive::default(),
+                bit: FigureHistories::of(BIT_STATE),
                 transfer: TransferHistory::default(),
                 steady: SteadyDrilling::default(),
                 tools: PlausibleTools::default(),
@@ -223,6 +228,7 @@ impl Reader {
                 let bit: BitState = message.decode()?;
                 let time = self.stamp(&bit.header);
                 self.summary.drive.bit(time, &bit);
+                self.summary.bit.push(time, &bit);
                 self.summary.balances.bit(time, &bit);
             }
             JointDeflections::ROS_TYPE => {

@@ -1,12 +1,15 @@
 //! The reference pages of the manual (Markdown), made from the table of topics, from the schema of the configuration, and
-//! from the cases of verification and validation; and the rig page's rows, made from the table of figures.
+//! from the cases of verification and validation; and the rig page's rows and the columns of the Python package, made from
+//! the table of figures.
 
+mod columns;
 mod configuration;
 mod figures;
 mod laws;
 mod topics;
 mod validation;
 
+pub use columns::{FILE as COLUMNS_FILE, page as columns};
 pub use configuration::page as configuration;
 pub use figures::{FILE as FIGURES_FILE, page as figures};
 pub use topics::page as topics;

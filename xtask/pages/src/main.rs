@@ -22,6 +22,8 @@ enum Page {
     Validation,
     /// Rows of the rig page (TypeScript).
     Figures,
+    /// Columns of the figures in the Python package (Python).
+    Columns,
 }
 
 fn main() -> std::io::Result<()> {
@@ -30,6 +32,7 @@ fn main() -> std::io::Result<()> {
         Page::Configuration => flexdrill_pages::configuration(),
         Page::Validation => flexdrill_pages::validation().map_err(std::io::Error::other)?,
         Page::Figures => flexdrill_pages::figures(),
+        Page::Columns => flexdrill_pages::columns(),
     };
     std::io::stdout().write_all(page.as_bytes())
 }

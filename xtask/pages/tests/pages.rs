@@ -23,15 +23,24 @@ fn the_page_of_the_configuration_is_that_of_this_version() {
     check("configuration", &flexdrill_pages::configuration());
 }
 
-#[test]
-fn the_rows_of_the_rig_page_are_those_of_the_table() {
-    let file = flexdrill_pages::FIGURES_FILE;
+/// Compares a source that is written from the table of figures.
+fn check_source(file: &str, name: &str, source: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
     let checked_in = std::fs::read_to_string(path).unwrap_or_default();
     assert!(
-        checked_in == flexdrill_pages::figures(),
-        "{file} is old: run cargo xtask reference figures > {file}"
+        checked_in == source,
+        "{file} is old: run cargo xtask reference {name} > {file}"
     );
+}
+
+#[test]
+fn the_rows_of_the_rig_page_are_those_of_the_table() {
+    check_source(flexdrill_pages::FIGURES_FILE, "figures", &flexdrill_pages::figures());
+}
+
+#[test]
+fn the_columns_of_the_python_package_are_those_of_the_table() {
+    check_source(flexdrill_pages::COLUMNS_FILE, "columns", &flexdrill_pages::columns());
 }
 
 /// Names of all tests that begin with `prefix`, in every source of the workspace.

@@ -78,10 +78,10 @@ pub struct OverTools {
 }
 
 /// Whether a figure is compared: what a bridge sends or a table of torque, weight and the whole tool shows. Powers follow
-/// from those.
+/// from those; of the bit only what a bridge sends is compared.
 fn is_compared<M>(figure: &Figure<M>) -> bool {
-    let power = |group| matches!(group, Group::PutIn | Group::Taken);
-    figure.bridge.is_some() || figure.shown.is_some_and(|shown| !power(shown.group))
+    let left_out = |group| matches!(group, Group::Bit | Group::PutIn | Group::Taken);
+    figure.bridge.is_some() || figure.shown.is_some_and(|shown| !left_out(shown.group))
 }
 
 fn compared<M>(table: &'static [Figure<M>]) -> impl Iterator<Item = &'static Figure<M>> {

@@ -1,6 +1,7 @@
 //! What a row of the table says.
 
 use flexdrill_core::inputs::Dimension;
+use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, rad_per_s_to_rpm, rad_to_deg};
 use flexdrill_messages::Message;
 
@@ -17,8 +18,23 @@ pub struct Figure<M: 'static> {
     pub shown: Option<Shown>,
     /// Its name on the protocols of the bridges; `None` where they do not send it.
     pub bridge: Option<&'static str>,
+    /// Its value in a snapshot (SI).
+    pub source: fn(&Snapshot) -> f64,
     /// Its value in a message (SI).
     pub read: fn(&M) -> f64,
+    /// Sets its value in a message (SI).
+    pub write: fn(&mut M, f64),
+}
+
+impl<M> Figure<M> {
+    /// Name of its column in recordings of the Python package: the field with the unit at its end. A mean over the
+    /// publishing interval has `mean_` before it, because a recording has the value of the sample's instant too.
+    pub fn column(&self) -> String {
+        let mean = if self.window == Window::Mean { "mean_" } else { "" };
+        let unit = self.kind.si().to_lowercase().replace(' ', "").replace('/', "_per_");
+        let separator = if unit.is_empty() { "" } else { "_" };
+        format!("{mean}{}{separator}{unit}", self.field)
+    }
 }
 
 impl<M: Message> Figure<M> {
@@ -42,6 +58,8 @@ pub struct Shown {
 /// Rows that stand together, in the order of the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Group {
+    /// The bit: what acts on it, and how it moves.
+    Bit,
     /// Torque along the tool.
     Torque,
     /// Torque that friction takes.

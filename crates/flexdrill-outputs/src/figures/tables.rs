@@ -31,7 +31,12 @@ macro_rules! figures {
             window: Window::$window,
             shown: first(&[$(Shown { group: Group::$group, label: $label, short: last([$label $(, $short)?]) })?]),
             bridge: first(&[$($bridge)?]),
+            source: |snapshot| {
+                let $s = &snapshot.$part;
+                f64::from($source)
+            },
             read: |message| f64::from(message.$field),
+            write: |message, value| message.$field = value as _,
         }),*];
 
         /// Fills the figures of a message.
@@ -58,15 +63,24 @@ const fn first<T: Copy>(given: &[T]) -> Option<T> {
 figures! {
     /// The figures of `twin/bit_state`.
     BIT_STATE of BitState, filled by fill_bit_state from s = bit;
-    torque: Torque, Mean = s.mean_torque, bridge "bit_torque";
-    rotary_speed: RotarySpeed, Mean = s.mean_rotary_speed, bridge "bit_rotary_speed";
-    weight_on_bit: Weight, Mean = s.mean_weight_on_bit, bridge "bit_weight";
-    stick_slip_index: Number, Instant = s.stick_slip_index, bridge "stick_slip_index";
-    tangential_acceleration: Acceleration, Rms = s.tangential_acceleration;
-    axial_acceleration: Acceleration, Rms = s.axial_acceleration, bridge "bit_axial_vibration";
-    lateral_acceleration: Acceleration, Rms = s.lateral_acceleration, bridge "bit_lateral_vibration";
-    lateral_acceleration_peak: Acceleration, Largest = s.lateral_acceleration_peak, bridge "bit_lateral_shock";
-    lateral_impulse: Speed, Integral = s.lateral_impulse;
+    torque: Torque, Mean = s.mean_torque,
+        in Bit "torque of the rock on the bit" as "torque", bridge "bit_torque";
+    rotary_speed: RotarySpeed, Mean = s.mean_rotary_speed,
+        in Bit "rotary speed of the bit" as "rotary speed", bridge "bit_rotary_speed";
+    weight_on_bit: Weight, Mean = s.mean_weight_on_bit,
+        in Bit "weight on bit, at the bit" as "weight", bridge "bit_weight";
+    stick_slip_index: Number, Instant = s.stick_slip_index,
+        in Bit "stick-slip index", bridge "stick_slip_index";
+    tangential_acceleration: Acceleration, Rms = s.tangential_acceleration,
+        in Bit "tangential acceleration of the bit" as "tangential acceleration";
+    axial_acceleration: Acceleration, Rms = s.axial_acceleration,
+        in Bit "axial acceleration of the bit" as "axial acceleration", bridge "bit_axial_vibration";
+    lateral_acceleration: Acceleration, Rms = s.lateral_acceleration,
+        in Bit "lateral acceleration above the bit" as "lateral acceleration", bridge "bit_lateral_vibration";
+    lateral_acceleration_peak: Acceleration, Largest = s.lateral_acceleration_peak,
+        in Bit "lateral acceleration above the bit, largest" as "lateral acceleration, largest", bridge "bit_lateral_shock";
+    lateral_impulse: Speed, Integral = s.lateral_impulse,
+        in Bit "impulse of the lateral acceleration above the bit" as "lateral impulse";
 }
 
 figures! {

@@ -1,6 +1,6 @@
 //! The table of figures and the definitions of the messages agree.
 
-use flexdrill_messages::Message;
+use flexdrill_messages::{Message, Transfer};
 use flexdrill_outputs::figures::{BIT_STATE, CONTACT_FORCES, Figure, JOINT_DEFLECTIONS, TRANSFER, Window};
 
 /// The scalar numbers of a message's definition, by type and name. A constant has a value.
@@ -73,17 +73,47 @@ fn names_and_labels_are_unique() {
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), sent);
-    for (at, figure) in TRANSFER.iter().enumerate() {
-        assert!(
-            figure.bridge.is_none() || figure.kind.dimension().is_some(),
-            "{figure:?}"
-        );
-        for other in &TRANSFER[at + 1..] {
+    check_labels(BIT_STATE);
+    check_labels(TRANSFER);
+    // A figure of the bit without a label would be in no report.
+    assert!(BIT_STATE.iter().all(|figure| figure.shown.is_some()));
+}
+
+fn check_labels<M>(table: &[Figure<M>]) {
+    for (at, figure) in table.iter().enumerate() {
+        let field = figure.field;
+        assert!(figure.bridge.is_none() || figure.kind.dimension().is_some(), "{field}");
+        for other in &table[at + 1..] {
             let (Some(one), Some(two)) = (figure.shown, other.shown) else {
                 continue;
             };
             let differ = one.label != two.label && one.short != two.short;
             assert!(one.group != two.group || differ, "{one:?} {two:?}");
+        }
+    }
+}
+
+/// A column of the Python package has the unit at its end, and what it measures at that instant is another column.
+#[test]
+fn columns_carry_their_units() {
+    let of_bit = |field| BIT_STATE.iter().find(|figure| figure.field == field).unwrap().column();
+    assert_eq!(of_bit("torque"), "mean_torque_nm");
+    assert_eq!(of_bit("rotary_speed"), "mean_rotary_speed_rad_per_s");
+    assert_eq!(of_bit("stick_slip_index"), "stick_slip_index");
+    assert_eq!(of_bit("axial_acceleration"), "axial_acceleration_m_per_s2");
+    let of_transfer = |field| TRANSFER.iter().find(|figure| figure.field == field).unwrap().column();
+    assert_eq!(of_transfer("surface_weight_rms"), "surface_weight_rms_n");
+    assert_eq!(of_transfer("drive_power"), "drive_power_w");
+}
+
+/// What is written is read again, in this field alone.
+#[test]
+fn a_figure_writes_its_own_field() {
+    for (at, figure) in TRANSFER.iter().enumerate() {
+        let mut message = Transfer::default();
+        (figure.write)(&mut message, 7.0);
+        for (other, read) in TRANSFER.iter().map(|figure| figure.read).enumerate() {
+            assert_eq!(read(&message) == 7.0, other == at, "{}", figure.field);
         }
     }
 }

@@ -1,5 +1,5 @@
-//! The messages of the outputs: their table of figures, how snapshots fill them, and the signs of their figures in each
-//! state of a rig.
+//! The messages of the outputs: their table of figures, how snapshots fill them, the signs of their figures in each
+//! state of a rig, and the sources that name a figure.
 
 #![allow(
     clippy::unwrap_used,
@@ -9,4 +9,5 @@
 
 mod figures;
 mod fill;
+mod places;
 mod states;

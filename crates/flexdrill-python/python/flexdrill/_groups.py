@@ -14,14 +14,14 @@ from typing import Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from ._figures import BitFigures, F, TransferFigures
+
 FloatArray = npt.NDArray[np.float64]
 CodeArray = npt.NDArray[np.uint8]
 CountArray = npt.NDArray[np.uint64]
 
-F = TypeVar("F")
-"""A number of one instant, or an array of numbers over time."""
 N = TypeVar("N")
-"""The same for counts and codes."""
+"""A count or a code of one instant, or an array of them over time."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ class Contacts:
 
 
 @dataclass(frozen=True)
-class Bit(Generic[F, N]):
+class Bit(BitFigures[F], Generic[F, N]):
     """The bit. Means and accelerations (root mean squares) cover the time since the sample before, with every step; torque,
     speed and weight without `mean` are those of the sample's instant, and a mean of them aliases with the rotation."""
 
@@ -121,21 +121,8 @@ class Bit(Generic[F, N]):
     """Negative in reverse."""
     weight_on_bit_n: F
     """0 off bottom."""
-    mean_torque_nm: F
-    mean_rotary_speed_rad_per_s: F
-    mean_weight_on_bit_n: F
-    stick_slip_index: F
-    """(max - min) / (2 mean) of the speed over its window; 0 while the drive is near standstill."""
     stick_slip_severity: N
     """Index into `SEVERITIES`."""
-    tangential_acceleration_m_per_s2: F
-    """Spin acceleration times bit radius."""
-    axial_acceleration_m_per_s2: F
-    lateral_acceleration_m_per_s2: F
-    """One station above the bit."""
-    lateral_acceleration_peak_m_per_s2: F
-    lateral_impulse_m_per_s: F
-    """Integral of the magnitude of the lateral acceleration."""
 
 
 @dataclass(frozen=True)
@@ -171,31 +158,9 @@ class Reactions:
 
 
 @dataclass(frozen=True)
-class Transfer(Generic[F]):
-    """Torque and weight from the surface to the bit, means over a sliding window; NaN where the tool has no such
-    figure. Three values stand for surface, kick-off and bit. Torques and losses of torque are negative in reverse."""
-
-    window_s: F
-    """Time that the window holds."""
-    torque_nm: FloatArray
-    torque_rms_nm: FloatArray
-    weight_n: FloatArray
-    weight_rms_n: FloatArray
-    friction_torque_nm: FloatArray
-    """Torque that friction takes between pipe and guide, guide and wall, in the joints, along the string above. The first
-    three are powers over a speed: NaN while the tool does not turn."""
-    axial_drag_n: FloatArray
-    """Axial friction on the pipe by the guide, on the guide by the wall, on the string above; up the hole positive."""
-    torque_efficiency: F
-    """Torque at the bit over that at the surface, or at the kick-off without a string; NaN while the tool does not turn."""
-    hook_load_n: F
-    """String, guide and pipe less what stands on the bottom and on the wall."""
-    depth_of_cut_m: F
-    """Per turn."""
-    rate_of_penetration_m_per_s: F
-    """Rate at which the hole deepens, at least 0: 0 off bottom."""
-    drive_at_limit: F
-    """Share of the time in which the torque of the top drive was at its limit."""
+class Transfer(TransferFigures[F]):
+    """Torque, weight and power from the surface to the bit, means over a sliding window; NaN where the tool has no such
+    figure. Torques and losses of torque are negative in reverse."""
 
 
 @dataclass(frozen=True)

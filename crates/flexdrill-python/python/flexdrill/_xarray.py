@@ -24,6 +24,7 @@ UNITS = {
     "_n": "N",
     "_s": "s",
     "_j": "J",
+    "_w": "W",
 }
 """Endings of names and their units, the longer before the shorter."""
 
@@ -52,7 +53,7 @@ def axes_of(name: str, shape: tuple[int, ...], fixed: bool) -> list[str]:
         return axes
     if group == "ageing":
         return [*axes, "station" if "friction_work" in column else "joint"]
-    if group == "transfer" or (group == "reactions" and column.endswith("_n") and len(rest) == 1):
+    if group == "reactions" and column.endswith("_n") and len(rest) == 1:
         return [*axes, f"{group}_{len(rest)}_{rest[0]}"]
     axes.append(ALONG.get(group, f"{group}_axis"))
     return axes if len(rest) == 1 else [*axes, {2: "lateral", 3: "world"}.get(rest[1], f"{group}_component")]

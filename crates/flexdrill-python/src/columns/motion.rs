@@ -1,37 +1,13 @@
-//! What the motion means: transfer, whirl, hazards, ageing; and the quality of the computation.
+//! What the motion means: whirl, hazards, ageing; and the quality of the computation.
 
 use super::Read::{Code, Codes, Count, Energy, Few, Indices, List, Number};
 use super::{Column, Group, body_code};
 use flexdrill_core::dynamics::Energies;
 use flexdrill_core::twin::Snapshot;
 
-pub(super) const TRANSFER: Group = Group {
-    name: "transfer",
-    columns: &[
-        Column::new("window_s", Number(|s| s.transfer.duration)),
-        Column::new("torque_nm", Few(|s, out| out.extend(s.transfer.torque.mean))),
-        Column::new("torque_rms_nm", Few(|s, out| out.extend(s.transfer.torque.rms))),
-        Column::new("weight_n", Few(|s, out| out.extend(s.transfer.weight.mean))),
-        Column::new("weight_rms_n", Few(|s, out| out.extend(s.transfer.weight.rms))),
-        Column::new(
-            "friction_torque_nm",
-            Few(|s, out| out.extend(s.transfer.friction_torque)),
-        ),
-        Column::new("axial_drag_n", Few(|s, out| out.extend(s.transfer.mean.axial_drag))),
-        Column::new("torque_efficiency", Number(|s| s.transfer.torque_efficiency)),
-        Column::new("hook_load_n", Number(|s| s.transfer.mean.hook_load)),
-        Column::new("depth_of_cut_m", Number(|s| s.transfer.mean.depth_of_cut)),
-        Column::new(
-            "rate_of_penetration_m_per_s",
-            Number(|s| s.transfer.mean.rate_of_penetration),
-        ),
-        Column::new("drive_at_limit", Number(|s| s.transfer.mean.drive_at_limit)),
-    ],
-};
-
-pub(super) const WHIRL: Group = Group {
-    name: "whirl",
-    columns: &[
+pub(super) const WHIRL: Group = Group::new(
+    "whirl",
+    &[
         Column::fixed(
             "station",
             Indices(|s, out| out.extend(s.whirl.station.iter().map(|station| *station as u64))),
@@ -72,11 +48,11 @@ pub(super) const WHIRL: Group = Group {
         Column::new("impact_rate_per_s", List(|s| &s.whirl.impact_rate)),
         Column::new("friction_power_w_per_m", List(|s| &s.whirl.friction_power)),
     ],
-};
+);
 
-pub(super) const HAZARDS: Group = Group {
-    name: "hazards",
-    columns: &[
+pub(super) const HAZARDS: Group = Group::new(
+    "hazards",
+    &[
         Column::new(
             "severity",
             Codes(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.severity as u8))),
@@ -107,22 +83,22 @@ pub(super) const HAZARDS: Group = Group {
             Few(|s, out| out.extend(s.hazards.list.iter().map(|hazard| hazard.since))),
         ),
     ],
-};
+);
 
-pub(super) const AGEING: Group = Group {
-    name: "ageing",
-    columns: &[
+pub(super) const AGEING: Group = Group::new(
+    "ageing",
+    &[
         Column::new("duration_s", Number(|s| s.ageing.duration)),
         Column::new("stop_damage", List(|s| &s.ageing.stop_damage)),
         Column::new("bending_damage", List(|s| &s.ageing.bending_damage)),
         Column::new("pipe_guide_friction_work_j", List(|s| &s.ageing.friction_work[0])),
         Column::new("guide_wall_friction_work_j", List(|s| &s.ageing.friction_work[1])),
     ],
-};
+);
 
-pub(super) const SOLVER: Group = Group {
-    name: "solver",
-    columns: &[
+pub(super) const SOLVER: Group = Group::new(
+    "solver",
+    &[
         Column::new("newton_iterations", Count(|s| s.solver.newton_iterations)),
         Column::new("last_iterations", Count(|s| s.solver.last_iterations.into())),
         Column::new("rejected", Count(|s| s.solver.rejected)),
@@ -130,36 +106,25 @@ pub(super) const SOLVER: Group = Group {
         Column::new("deepest_halving", Count(|s| s.solver.deepest_halving.into())),
         Column::new("failed_steps", Count(|s| s.solver.failed_steps)),
     ],
-};
+);
 
 /// One column for each row of the ledger.
-const LEDGER: [Column; Energies::COUNT] = {
-    let first = Energies::TERMS[0];
-    let mut columns = [Column::new(first.joules, Energy(first.of)); Energies::COUNT];
-    let mut row = 1;
-    while row < Energies::COUNT {
-        let term = Energies::TERMS[row];
-        columns[row] = Column::new(term.joules, Energy(term.of));
-        row += 1;
-    }
-    columns
-};
+pub(super) fn ledger() -> impl Iterator<Item = Column> {
+    Energies::TERMS
+        .iter()
+        .map(|term| Column::new(term.joules, Energy(term.of)))
+}
 
-pub(super) const ENERGY: Group = Group {
-    name: "energy",
-    columns: &LEDGER,
-};
-
-pub(super) const QUALITY: Group = Group {
-    name: "quality",
-    columns: &[
+pub(super) const QUALITY: Group = Group::new(
+    "quality",
+    &[
         Column::new("level", Code(|s| s.quality.level as u8)),
         Column::new("judged", Code(judged)),
         Column::new("energy_error_share", Number(|s| s.quality.energy_error_share)),
         Column::new("numerical_share", Number(|s| s.quality.numerical_share)),
         Column::new("refinement", Count(|s| s.quality.choice.in_force.into())),
     ],
-};
+);
 
 fn judged(snapshot: &Snapshot) -> u8 {
     snapshot.quality.judged.into()

@@ -3,9 +3,9 @@
 use super::Read::{Code, Codes, Few, List, Number, Pairs, Triples};
 use super::{Column, Group, holder_code};
 
-pub(super) const APPLIED: Group = Group {
-    name: "applied",
-    columns: &[
+pub(super) const APPLIED: Group = Group::new(
+    "applied",
+    &[
         Column::new("rotary_speed_rad_per_s", Number(|s| s.applied.rotary_speed)),
         Column::new("drive_angle_rad", Number(|s| s.applied.drive_angle)),
         Column::new("drive_torque_nm", Number(|s| s.applied.drive_torque)),
@@ -18,11 +18,11 @@ pub(super) const APPLIED: Group = Group {
         Column::new("rate_of_penetration_m_per_s", Number(|s| s.applied.rate_of_penetration)),
         Column::new("standpipe_pressure_pa", Number(|s| s.applied.standpipe_pressure)),
     ],
-};
+);
 
-pub(super) const JOINTS: Group = Group {
-    name: "joints",
-    columns: &[
+pub(super) const JOINTS: Group = Group::new(
+    "joints",
+    &[
         Column::fixed("measured_depth_m", List(|s| &s.joints.measured_depth)),
         Column::fixed("inclination_rad", List(|s| &s.joints.inclination)),
         Column::new("bend_angle_rad", List(|s| &s.joints.bend_angle)),
@@ -36,11 +36,11 @@ pub(super) const JOINTS: Group = Group {
         Column::new("shear_force_n", List(|s| &s.joints.shear_force)),
         Column::new("torque_nm", List(|s| &s.joints.torque)),
     ],
-};
+);
 
-pub(super) const CONTACTS: Group = Group {
-    name: "contacts",
-    columns: &[
+pub(super) const CONTACTS: Group = Group::new(
+    "contacts",
+    &[
         Column::fixed("measured_depth_m", List(|s| &s.contacts.measured_depth)),
         Column::fixed("inclination_rad", List(|s| &s.contacts.inclination)),
         Column::new("state", Codes(|s, out| out.extend(&s.contacts.state))),
@@ -59,36 +59,22 @@ pub(super) const CONTACTS: Group = Group {
         Column::new("guide_wall_normal_rms_n", List(|s| &s.contacts.guide_wall.normal_rms)),
         Column::new("guide_wall_shock_ns", List(|s| &s.contacts.guide_wall.shock)),
     ],
-};
+);
 
-pub(super) const BIT: Group = Group {
-    name: "bit",
-    columns: &[
+/// The bit at the instant of the sample; its published figures follow from their table.
+pub(super) const BIT: Group = Group::new(
+    "bit",
+    &[
         Column::new("torque_nm", Number(|s| s.bit.torque)),
         Column::new("rotary_speed_rad_per_s", Number(|s| s.bit.rotary_speed)),
         Column::new("weight_on_bit_n", Number(|s| s.bit.weight_on_bit)),
-        Column::new("mean_torque_nm", Number(|s| s.bit.mean_torque)),
-        Column::new("mean_rotary_speed_rad_per_s", Number(|s| s.bit.mean_rotary_speed)),
-        Column::new("mean_weight_on_bit_n", Number(|s| s.bit.mean_weight_on_bit)),
-        Column::new("stick_slip_index", Number(|s| s.bit.stick_slip_index)),
         Column::new("stick_slip_severity", Code(|s| s.bit.stick_slip as u8)),
-        Column::new(
-            "tangential_acceleration_m_per_s2",
-            Number(|s| s.bit.tangential_acceleration),
-        ),
-        Column::new("axial_acceleration_m_per_s2", Number(|s| s.bit.axial_acceleration)),
-        Column::new("lateral_acceleration_m_per_s2", Number(|s| s.bit.lateral_acceleration)),
-        Column::new(
-            "lateral_acceleration_peak_m_per_s2",
-            Number(|s| s.bit.lateral_acceleration_peak),
-        ),
-        Column::new("lateral_impulse_m_per_s", Number(|s| s.bit.lateral_impulse)),
     ],
-};
+);
 
-pub(super) const REACTIONS: Group = Group {
-    name: "reactions",
-    columns: &[
+pub(super) const REACTIONS: Group = Group::new(
+    "reactions",
+    &[
         Column::fixed("measured_depth_m", List(|s| &s.reactions.measured_depth)),
         Column::fixed("inclination_rad", List(|s| &s.reactions.inclination)),
         Column::fixed(
@@ -106,14 +92,14 @@ pub(super) const REACTIONS: Group = Group {
         Column::new("damping_n", Few(|s, out| out.extend(s.reactions.damping))),
         Column::new("unbalance_n", Few(|s, out| out.extend(s.reactions.unbalance))),
     ],
-};
+);
 
-pub(super) const SHAPE: Group = Group {
-    name: "shape",
-    columns: &[
+pub(super) const SHAPE: Group = Group::new(
+    "shape",
+    &[
         Column::fixed("bore_m", Triples(|s| &s.shape.bore)),
         Column::fixed("low_side", Triples(|s| &s.shape.low_side)),
         Column::new("pipe_m", Pairs(|s| &s.shape.pipe)),
         Column::new("guide_m", Pairs(|s| &s.shape.guide)),
     ],
-};
+);

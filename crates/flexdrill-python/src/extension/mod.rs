@@ -17,14 +17,13 @@ use flexdrill_motion::{HazardKind, Severity, WhirlKind};
 /// The columns of every group, in order: group, column, and whether it is constant. The group of the instant is empty.
 #[pyfunction]
 fn columns() -> Vec<(&'static str, &'static str, bool)> {
-    let instant = INSTANT.columns.iter().map(|column| ("", column.name, column.fixed));
-    let grouped = GROUPS.iter().flat_map(|group| {
-        group
-            .columns
-            .iter()
-            .map(|column| (group.name, column.name, column.fixed))
-    });
-    instant.chain(grouped).collect()
+    let instant = INSTANT.columns.iter().map(|column| ("", column));
+    let grouped = GROUPS
+        .iter()
+        .flat_map(|group| group.columns.iter().map(|column| (group.name, column)));
+    let all = instant.chain(grouped);
+    all.map(|(group, column)| (group, column.name.as_ref(), column.fixed))
+        .collect()
 }
 
 /// The names of the codes: hazards, severities, kinds of whirl.

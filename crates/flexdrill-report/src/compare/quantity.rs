@@ -1,6 +1,7 @@
 //! Quantities over time in both runs.
 
 use super::{Figures, Pair, relative};
+use crate::figures::FigureHistories;
 use crate::history::History;
 use crate::reading::Summary;
 use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, pa_to_mpa, rad_per_s_to_rpm};
@@ -14,6 +15,10 @@ const FORCE: f64 = 1.0;
 const TORQUE: f64 = 0.1;
 /// The same of powers (W).
 const POWER: f64 = 0.1;
+/// The same of accelerations (m/s2).
+const ACCELERATION: f64 = 0.1;
+/// The same of numbers alone: the stick-slip index.
+const NUMBER: f64 = 0.01;
 /// The same of rates (m/s), depths (m) and shares.
 const SMALL: f64 = 1e-6;
 /// Names of the quantities that matter most.
@@ -139,10 +144,8 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
     // From the inputs to the bit: a reader looks for the first quantity that differs, which causes the others.
     add("rotary speed, received", speed, |s| &s.drive.received.rotary_speed);
     add("rotary speed, accepted", speed, |s| &s.drive.accepted.rotary_speed);
-    add("rotary speed of the bit", speed, |s| &s.drive.bit.rotary_speed);
     add("weight on bit, received", force, |s| &s.drive.received.weight_on_bit);
     add("weight on bit, accepted", force, |s| &s.drive.accepted.weight_on_bit);
-    add(AT_THE_BIT, force, |s| &s.drive.bit.weight_on_bit);
     add("rate of penetration, accepted", advance, |s| {
         &s.drive.rate_of_penetration.accepted
     });
@@ -150,34 +153,55 @@ fn known<'a>(a: &'a Summary, b: &'a Summary) -> Vec<Known<'a>> {
         &s.drive.standpipe_pressure.accepted
     });
     add("torque at the uppermost joint", torque, |s| &s.drive.top_torque);
-    add(TORQUE_OF_THE_ROCK, torque, |s| &s.drive.bit_torque);
-    add("stick-slip index", unit("", 1.0, 0.01), |s| &s.drive.stick_slip);
-    add(
-        "lateral acceleration above the bit, largest",
-        unit("m/s²", 1.0, 0.1),
-        |s| &s.drive.lateral_acceleration,
-    );
-    // The quantities are the same in both runs, as one function builds them, so that equal quantities are paired.
-    for (a, b) in a.transfer.quantities.iter().zip(&b.transfer.quantities) {
+    // Every figure that tables show follows, so that one that is added is compared too.
+    all.extend(figures_of([&a.bit, &b.bit]));
+    all.extend(figures_of([&a.transfer.figures, &b.transfer.figures]));
+    all
+}
+
+/// The figures of a message in both runs. They are the same, as one table lists them, so that equal ones are paired.
+fn figures_of<'a, M>([a, b]: [&'a FigureHistories<M>; 2]) -> impl Iterator<Item = Known<'a>> {
+    a.all.iter().zip(&b.all).map(|(a, b)| {
         // Powers have short names, and friction takes both torque and power.
         let before = match a.shown.group {
             Group::Friction => "torque: ",
             Group::PutIn => "power put in: ",
             Group::Taken => "power taken: ",
-            Group::Torque | Group::Weight | Group::Drag | Group::Whole => "",
+            Group::Bit | Group::Torque | Group::Weight | Group::Drag | Group::Whole => "",
         };
         let small = match a.figure.kind {
             Kind::Force | Kind::Weight => FORCE,
             Kind::Torque => TORQUE,
             Kind::Power => POWER,
+            Kind::RotarySpeed => SPEED,
+            Kind::Acceleration => ACCELERATION,
+            Kind::Number => NUMBER,
             _ => SMALL,
         };
         let (shown, factor) = a.figure.kind.unit();
-        all.push(Known {
+        Known {
             name: format!("{before}{}", a.shown.label),
             unit: unit(shown, factor, small),
             histories: [&a.history, &b.history],
-        });
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_outputs::figures::{BIT_STATE, Shown, TRANSFER};
+
+    /// The names by which quantities are weighed are labels of their tables.
+    #[test]
+    fn what_matters_most_is_a_figure() {
+        let labels = |shown: Vec<Option<Shown>>| shown.into_iter().flatten().map(|shown| shown.label).collect();
+        let bit: Vec<&str> = labels(BIT_STATE.iter().map(|figure| figure.shown).collect());
+        let transfer: Vec<&str> = labels(TRANSFER.iter().map(|figure| figure.shown).collect());
+        assert!(
+            bit.contains(&AT_THE_BIT) && bit.contains(&TORQUE_OF_THE_ROCK),
+            "{bit:?}"
+        );
+        assert!(transfer.contains(&ADVANCE), "{transfer:?}");
     }
-    all
 }

@@ -126,9 +126,6 @@ pub(super) fn torque(summary: &Summary) -> Result<Markup, ReportError> {
                 tbody {
                     (row("torque at the uppermost joint", "N m", &drive.top_torque, 1.0, None))
                     (row("torque at the bit", "N m", &drive.bit_torque, 1.0, None))
-                    (row("speed of the bit", "r/min", &drive.bit.rotary_speed, rad_per_s_to_rpm(1.0), None))
-                    (row("stick-slip index", "", &drive.stick_slip, 1.0, None))
-                    (row("largest lateral acceleration above the bit", "m/s²", &drive.lateral_acceleration, 1.0, None))
                 }
             }
             (figure)

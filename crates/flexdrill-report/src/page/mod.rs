@@ -2,6 +2,7 @@
 
 mod alarms;
 mod balances;
+mod bit;
 pub(crate) mod comparison;
 mod drive;
 mod health;
@@ -50,6 +51,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
         (locations::worst(summary)?)
         (locations::envelopes(summary)?)
         (drive::torque(summary)?)
+        (bit::section(summary))
         (transfer::section(summary)?)
         (tools::section(summary)?)
         (hole::section(summary)?)

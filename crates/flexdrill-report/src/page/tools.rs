@@ -20,10 +20,7 @@ fn row(summary: &Summary, band: &BandHistory) -> Markup {
         span.and_then(|[from, to]| history.mean_between(from, to))
             .unwrap_or(f64::NAN)
     };
-    let of_twin = band.transfer.and_then(|field| {
-        let mut quantities = summary.transfer.quantities.iter();
-        quantities.find(|quantity| quantity.figure.field == field)
-    });
+    let of_twin = band.transfer.and_then(|field| summary.transfer.figures.field(field));
     let all_zero =
         |history: &crate::history::History| history.range().is_none_or(|range| range.min == 0.0 && range.max == 0.0);
     html! {

@@ -5,16 +5,17 @@ use maud::{Markup, html};
 use super::drawn;
 use super::text::{number, percent};
 use crate::ReportError;
+use crate::figures::FigureHistory;
 use crate::plots;
 use crate::reading::Summary;
-use crate::transfer::FigureHistory;
+use flexdrill_messages::Transfer;
 use flexdrill_outputs::figures::Group;
 
 /// A row; a quantity that is unknown, or zero throughout, has none.
-fn row(quantity: &FigureHistory) -> Markup {
+fn row(quantity: &FigureHistory<Transfer>) -> Markup {
     let (unit, factor) = quantity.figure.kind.unit();
     html! {
-        @if let Some(range) = quantity.history.range().filter(|range| range.min != 0.0 || range.max != 0.0) {
+        @if let Some(range) = quantity.range().filter(|range| range.min != 0.0 || range.max != 0.0) {
             tr {
                 td { (quantity.shown.label) }
                 @for value in [range.min, range.mean, range.max] { td.n { (number(factor * value)) } }
@@ -25,9 +26,9 @@ fn row(quantity: &FigureHistory) -> Markup {
 }
 
 /// A mean power (W) and its share of all that is put in.
-fn power(quantity: &FigureHistory, put_in: f64) -> Markup {
+fn power(quantity: &FigureHistory<Transfer>, put_in: f64) -> Markup {
     html! {
-        @if let Some(mean) = quantity.history.range().map(|range| range.mean).filter(|mean| *mean != 0.0) {
+        @if let Some(mean) = quantity.range().map(|range| range.mean).filter(|mean| *mean != 0.0) {
             tr { td { (quantity.shown.label) } td.n { (number(mean)) } td.n { (percent(mean / put_in)) } }
         }
     }
@@ -41,7 +42,7 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
          out.",
     )?;
     // A quantity that the tool does not have counts as zero in the sum.
-    let mean = |quantity: &FigureHistory| quantity.history.range().map_or(0.0, |range| range.mean);
+    let mean = |quantity: &FigureHistory<Transfer>| quantity.range().map_or(0.0, |range| range.mean);
     // Both tables relate to the power put in, so that their shares can be compared.
     let put_in = transfer.group(Group::PutIn).map(mean).sum();
     Ok(html! {
