@@ -36,7 +36,7 @@ macro_rules! figures {
                 f64::from($source)
             },
             read: |message| f64::from(message.$field),
-            write: |message, value| message.$field = value as _,
+            write: |message, value| message.$field.set(value),
         }),*];
 
         /// Fills the figures of a message.
@@ -45,6 +45,24 @@ macro_rules! figures {
             $(out.$field = $source;)*
         }
     };
+}
+
+/// A number in a message.
+trait Number {
+    fn set(&mut self, value: f64);
+}
+
+impl Number for f64 {
+    fn set(&mut self, value: f64) {
+        *self = value;
+    }
+}
+
+/// A count: a value beyond its range becomes the nearest one within.
+impl Number for u32 {
+    fn set(&mut self, value: f64) {
+        *self = value as u32;
+    }
 }
 
 /// The short label of a row, or its label where it has no other.
