@@ -109,7 +109,7 @@ pub struct Finished {
 
 struct Kept {
     group: &'static str,
-    column: &'static Column,
+    column: Column,
     values: Values,
 }
 
@@ -207,7 +207,7 @@ impl Recorder {
 fn add(columns: &mut Vec<Kept>, group: &'static Group) {
     columns.extend(group.columns.iter().map(|column| Kept {
         group: if group.name == INSTANT.name { "" } else { group.name },
-        column,
+        column: *column,
         values: Values::of(column.read),
     }));
 }
@@ -224,7 +224,7 @@ impl Kept {
             Read::Triples(_) => shape.extend([of_sample / 3, 3]),
         }
         let name = if self.group.is_empty() {
-            self.column.name.to_string()
+            self.column.name.to_owned()
         } else {
             format!("{}.{}", self.group, self.column.name)
         };

@@ -25,15 +25,36 @@ const WORDS: [&str; 13] = [
 ];
 /// Sources that need chosen figures, and what for. A figure that is added is in none of them.
 const USES: [(&str, &str); 10] = [
-    ("crates/flexdrill-report/src/balances.rs", "a balance is a sum of certain figures"),
-    ("crates/flexdrill-report/src/weight.rs", "which friction takes the weight that does not arrive"),
+    (
+        "crates/flexdrill-report/src/balances.rs",
+        "a balance is a sum of certain figures",
+    ),
+    (
+        "crates/flexdrill-report/src/weight.rs",
+        "which friction takes the weight that does not arrive",
+    ),
     ("crates/flexdrill-report/src/drive.rs", "curves of the bit"),
     ("crates/flexdrill-report/src/plots.rs", "curves of the bit"),
-    ("crates/flexdrill-report/src/compare/figures.rs", "curves of the bit in two runs"),
-    ("crates/flexdrill-dashboard/src/history/mod.rs", "shocks in the strips of the rig page"),
-    ("crates/flexdrill-dashboard/web/src/store/bands.ts", "bounds of a band that is a share"),
-    ("crates/flexdrill-dashboard/web/src/views/transfer.ts", "when a figure that is zero is not shown"),
-    ("crates/flexdrill-messages/src/grown.rs", "the size of messages of older senders"),
+    (
+        "crates/flexdrill-report/src/compare/figures.rs",
+        "curves of the bit in two runs",
+    ),
+    (
+        "crates/flexdrill-dashboard/src/history/mod.rs",
+        "shocks in the strips of the rig page",
+    ),
+    (
+        "crates/flexdrill-dashboard/web/src/store/bands.ts",
+        "bounds of a band that is a share",
+    ),
+    (
+        "crates/flexdrill-dashboard/web/src/views/transfer.ts",
+        "when a figure that is zero is not shown",
+    ),
+    (
+        "crates/flexdrill-messages/src/grown.rs",
+        "the size of messages of older senders",
+    ),
     ("src/health/motion.rs", "diagnostics"),
 ];
 /// Most sources, but its table, that name a figure.
@@ -45,7 +66,15 @@ fn root() -> PathBuf {
 
 /// Product sources below `folder`, by path from the root: Rust, TypeScript and Python, without tests and examples.
 fn sources(folder: &str, found: &mut Vec<String>) {
-    let left_out = ["tests", "test", "examples", "notebooks", "dist", "node_modules", "rustdds"];
+    let left_out = [
+        "tests",
+        "test",
+        "examples",
+        "notebooks",
+        "dist",
+        "node_modules",
+        "rustdds",
+    ];
     for entry in std::fs::read_dir(root().join(folder)).unwrap() {
         let entry = entry.unwrap();
         let name = entry.file_name().into_string().unwrap();
@@ -103,6 +132,9 @@ fn a_figure_is_named_by_its_row_alone() {
         }
     }
     for (path, why) in USES {
-        assert!(used.contains(path), "{path} names no figure ({why}): it needs no line in USES");
+        assert!(
+            used.contains(path),
+            "{path} names no figure ({why}): it needs no line in USES"
+        );
     }
 }

@@ -5,10 +5,8 @@ use flexdrill_outputs::figures::Figure;
 
 /// A column for each figure of a message, in the order of the table.
 pub(super) fn of<M>(table: &'static [Figure<M>]) -> impl Iterator<Item = Column> {
-    let column = |figure: &Figure<M>| Column {
-        name: figure.column().into(),
-        fixed: false,
-        read: Read::Number(figure.source),
-    };
-    table.iter().map(column)
+    // A name lives as long as the program, as those of the other columns do; it is made once.
+    table
+        .iter()
+        .map(|figure| Column::new(figure.column().leak(), Read::Number(figure.source)))
 }

@@ -41,10 +41,10 @@ pub enum Read {
 }
 
 /// One column.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub struct Column {
     /// Name within its group.
-    pub name: Cow<'static, str>,
+    pub name: &'static str,
     /// Whether it is constant during a run: it then has no axis of time.
     pub fixed: bool,
     /// How a sample is read.
@@ -54,7 +54,7 @@ pub struct Column {
 impl Column {
     const fn new(name: &'static str, read: Read) -> Self {
         Self {
-            name: Cow::Borrowed(name),
+            name,
             fixed: false,
             read,
         }
@@ -62,7 +62,7 @@ impl Column {
 
     const fn fixed(name: &'static str, read: Read) -> Self {
         Self {
-            name: Cow::Borrowed(name),
+            name,
             fixed: true,
             read,
         }
@@ -148,7 +148,7 @@ mod tests {
     /// Names of a group's columns.
     fn names(name: &str) -> Vec<&'static str> {
         let columns = group(name).unwrap().columns.iter();
-        columns.map(|column| column.name.as_ref()).collect()
+        columns.map(|column| column.name).collect()
     }
 
     #[test]

@@ -22,8 +22,7 @@ fn columns() -> Vec<(&'static str, &'static str, bool)> {
         .iter()
         .flat_map(|group| group.columns.iter().map(|column| (group.name, column)));
     let all = instant.chain(grouped);
-    all.map(|(group, column)| (group, column.name.as_ref(), column.fixed))
-        .collect()
+    all.map(|(group, column)| (group, column.name, column.fixed)).collect()
 }
 
 /// The names of the codes: hazards, severities, kinds of whirl.
