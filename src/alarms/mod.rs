@@ -39,7 +39,6 @@ pub(crate) use fill::priority as priority_code;
 pub use finding::Finding;
 pub use node::{NodeState, RecordingState};
 pub(crate) use node::{another_of_this_name, not_in_real_time};
-pub use plan::BACK as BACK_ON_PLAN;
 pub use request::Request;
 pub use rig::{Followed, Judged, in_words};
 pub use set::AlarmSet;

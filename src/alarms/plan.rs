@@ -6,14 +6,13 @@ use super::advice::Unknown;
 use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::number;
+use crate::drilling::to_plan::BACK;
 use crate::messages::HoleAhead;
 use flexdrill_alarms::{Priority, Time};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
 
 /// Time without a known hole for which a standing alarm remains (ns): after a change of the weight the next answer takes 10 s.
 pub(super) const OUTLASTS: Time = 15_000_000_000;
-/// [`HoleAhead::plan_off`] up to which a hole is back on its plan: within the range, with a tenth of it to spare.
-pub const BACK: f64 = 0.9;
 /// That above which a hole leaves its plan, and above which a standing alarm remains.
 const LEAVES: [f64; 2] = [1.0, BACK];
 /// Metres ahead at which the words compare.

@@ -37,7 +37,10 @@ fn scored(folder: &Path, config: &Path) -> Option<Vec<Value>> {
         ("--seconds", "90".to_owned()),
         ("--members", "12".to_owned()),
     ];
-    let arguments: Vec<&str> = options.iter().flat_map(|(name, value)| [*name, value.as_str()]).collect();
+    let arguments: Vec<&str> = options
+        .iter()
+        .flat_map(|(name, value)| [*name, value.as_str()])
+        .collect();
     python::run("hidden_rigs.py", &arguments, "")?;
     let rigs = (0..2).map(|number| std::fs::read_to_string(folder.join(format!("rig_{number:03}.json"))).unwrap());
     Some(rigs.map(|text| serde_json::from_str(&text).unwrap()).collect())

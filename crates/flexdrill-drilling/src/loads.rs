@@ -3,14 +3,14 @@
 use flexdrill_core::tool::{RockLaw, SectionProperties, ToolDescription, Weakening};
 
 /// Weight per length of guide and pipe (N/m), in mud.
-pub(crate) fn weights(tool: &ToolDescription) -> [f64; 2] {
+pub fn weights(tool: &ToolDescription) -> [f64; 2] {
     let mass = |tube| SectionProperties::of(tube, tool.material, 1.0).mass;
     let pipe = tool.pipe_sections.iter().map(|&tube| mass(tube)).sum::<f64>() / tool.pipe_sections.len() as f64;
     [tool.gravity * mass(tool.guide_section), tool.gravity * pipe]
 }
 
 /// Torque of the rock (N m) at a steady weight (N) and speed (rad/s).
-pub(crate) fn bit_torque(tool: &ToolDescription, weight: f64, speed: f64) -> f64 {
+pub fn bit_torque(tool: &ToolDescription, weight: f64, speed: f64) -> f64 {
     let by_weight = tool.bit.friction_factor * tool.bit.diameter / 3.0 * weight;
     let factor = |falls: &Weakening| 1.0 + (falls.ratio - 1.0) * libm::exp(-speed.abs() / falls.rate);
     match &tool.rock {

@@ -105,7 +105,7 @@ impl Range {
 mod tests {
     use super::*;
 
-    const AHEAD: &str = include_str!("../../tests/data/ahead.yaml");
+    const AHEAD: &str = include_str!("../../../tests/data/ahead.yaml");
 
     fn config(changes: &[(&str, &str)], more: &str) -> Config {
         let mut text = AHEAD.to_owned();

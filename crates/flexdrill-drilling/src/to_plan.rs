@@ -6,7 +6,6 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::alarms::BACK_ON_PLAN as BACK;
 use flexdrill_config::{Config, WellPlan};
 use flexdrill_core::units::{deg_to_rad, kn_to_n, n_to_kn};
 
@@ -15,6 +14,9 @@ use super::range::{Excluded, Range};
 use super::weights::{Tried, allowed, best};
 use super::{Band, Drilling, NEXT_METRE, Plan, SPACING, STEEP, Spread, Station, Track, curvature, drill, turned};
 
+/// Distance of a plan from the middle of the range, in half widths of it, up to which the hole is back on its plan: a tenth of
+/// the range is to spare.
+pub const BACK: f64 = 0.9;
 /// Weights that are tried over the whole range: the search is part of an answer that takes a second.
 const COARSE: usize = 8;
 /// Least half width of a range of inclinations: 0.5 deg. No survey knows a hole better.
