@@ -9,9 +9,11 @@
 //! - [`recorder`]: columns that grow by a sample.
 //! - [`twin`]: one run with its configuration.
 //! - [`rollout`]: many runs on threads.
+//! - [`ahead`]: where the tool drills next.
 //! - [`saved`]: a run as bytes.
 //! - `extension`: the Python module.
 
+pub mod ahead;
 pub mod columns;
 #[cfg(feature = "extension")]
 mod extension;

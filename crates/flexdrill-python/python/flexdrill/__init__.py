@@ -12,6 +12,7 @@
 Inside everything is SI; names carry the unit: `_nm` is N m, `_rad_per_s` is rad/s. Inputs have the driller's units.
 """
 
+from ._ahead import HoleAhead
 from ._bag import Bag, Band, Bands, Messages, read_bag
 from ._errors import (
     ConfigError,
@@ -80,6 +81,7 @@ __all__ = [
     "FloatArray",
     "Friction",
     "Hazards",
+    "HoleAhead",
     "Input",
     "InputError",
     "Inputs",

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Optional, Union, cast
 
 from . import _native
+from ._ahead import HoleAhead
 from ._errors import StepError
 from ._inputs import NAMES, Input, ask, constant_changes, is_function, period_steps, share_of, steps_of
 from ._results import GROUPS, USUAL_GROUPS, Recording, Snapshot, wanted_groups
@@ -231,6 +232,35 @@ class Twin:
         new = replace(self.friction, **changes)
         self._native.set_live(
             [new.pipe_guide_around, new.pipe_guide_along], [new.guide_wall_around, new.guide_wall_along], new.bit
+        )
+
+    # --- The hole ahead --------------------------------------------------------------------------------------------
+
+    def ahead(
+        self, metres: float = 5.0, *, members: int = 24, weight_kn: Optional[float] = None, seed: int = 0
+    ) -> HoleAhead:
+        """Where this tool drills in the next metres, as `flexdrill ahead` computes it, with the range of plausible tools.
+
+        The hole is that of the configuration, in a vertical plane at azimuth 0; the motion of the twin does not change it.
+        `weight_kn` is the weight at the bit, without one the target that acts now, or 10 kN where that is 0. A range needs
+        19 `members` with a result. The same arguments give the same bits. Python's lock is released meanwhile.
+
+        Raises `ValueOutOfBounds` for a length or a number of members out of bounds. A tool for which nothing can be
+        predicted is an answer with `known` False, and `because` says why.
+        """
+        weight = self.inputs["weight_kn"] or 10.0 if weight_kn is None else weight_kn
+        because, no_range, radius, rates, counts, columns = self._native.ahead(metres, members, weight, seed)
+        return HoleAhead(
+            known=because is None,
+            because=because or no_range or "",
+            weight_n=1e3 * weight,
+            radius_m=radius,
+            build_rate_rad_per_m=rates[0],
+            build_rate_low_rad_per_m=rates[1],
+            build_rate_high_rad_per_m=rates[2],
+            members=counts[0],
+            failed=counts[1],
+            **columns,
         )
 
     # --- Other twins -----------------------------------------------------------------------------------------------

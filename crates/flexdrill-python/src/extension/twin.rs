@@ -3,23 +3,34 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyDict};
 use serde_json::Value;
 
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{InputKind, Inputs};
 use flexdrill_core::tool::LiveParameters;
+use flexdrill_core::units::kn_to_n;
 
-use super::errors;
 use super::recorder::Recorder;
-use crate::saved;
+use super::{arrays, errors};
 use crate::twin::{self, InputError, Plan};
+use crate::{ahead, saved};
 
 /// Model steps between two looks at signals and progress: a tenth of a second of model time at most.
 const STRIDE: u64 = 200;
 
 /// Per input, values in the unit of the rig's samples, each from a number of steps after the beginning on, rising.
 pub(super) type Changes = [Vec<(u64, f64)>; InputKind::COUNT];
+
+/// The hole ahead: why nothing is known, why there is no range, radius, build rate, members, arrays.
+type HoleAhead<'py> = (
+    Option<String>,
+    Option<String>,
+    f64,
+    [f64; 3],
+    [usize; 2],
+    Bound<'py, PyDict>,
+);
 
 /// One run with its configuration.
 #[pyclass(module = "flexdrill._native")]
@@ -107,6 +118,36 @@ impl Twin {
         self.inner.look(&mut columns);
         recorder.put(columns);
         Ok(())
+    }
+
+    /// Where the tool drills in the next metres under a weight (kN), without Python's lock: why nothing is known, why there
+    /// is no range, radius, build rate with its range, members with a result and without, and the arrays.
+    fn ahead<'py>(
+        &self,
+        py: Python<'py>,
+        metres: f64,
+        members: usize,
+        weight_kn: f64,
+        seed: u64,
+    ) -> PyResult<HoleAhead<'py>> {
+        let question = ahead::Question {
+            metres,
+            members,
+            weight: kn_to_n(weight_kn),
+            seed,
+        };
+        let answer = py
+            .detach(|| ahead::answer(self.inner.config(), &question))
+            .map_err(|error| errors::value(py, error.to_string()))?;
+        let columns = arrays::dictionary(py, answer.columns)?;
+        Ok((
+            answer.because,
+            answer.no_range,
+            answer.radius,
+            answer.build_rate,
+            answer.members,
+            columns,
+        ))
     }
 
     /// Resets the motion to the state after the start.
