@@ -199,11 +199,15 @@ impl FirstFrames {
         let text = format!("mapping {hash} ({name}) is confirmed for {} by {by}", printable(source));
         match self.confirmations.add(source, by, now) {
             Ok(file) => {
-                tracing::info!("wits: {text}, kept in {}", file.display());
+                if let Some(more) = log_ending("wits confirmed") {
+                    tracing::info!("wits: {text}, kept in {}{more}", file.display());
+                }
                 Ok(text)
             }
             Err(error) => {
-                tracing::warn!("wits: {text}, and not kept: {error}");
+                if let Some(more) = log_ending("wits confirmed, not kept") {
+                    tracing::warn!("wits: {text}, and not kept: {error}{more}");
+                }
                 if self.unkept.len() < MOST_UNKEPT {
                     self.unkept.insert(source.to_owned(), when);
                 }
@@ -217,6 +221,7 @@ impl FirstFrames {
     pub fn diagnostics(&self, node: &str, service: &str) -> Vec<DiagnosticStatus> {
         let shown = self.connections.iter().filter_map(|(connection, found)| {
             let look = found.shown.as_ref()?;
+            // A mapping that no person has confirmed is no fault, but a display must not show it as checked.
             let (level, message) = match &found.confirmed {
                 Some(when) => (DiagnosticStatus::OK, format!("confirmed {when}")),
                 None => (
@@ -234,6 +239,7 @@ impl FirstFrames {
                 ("confirm_service", service.to_owned()),
             ];
             let head = head.into_iter().map(|(key, value)| (key.to_owned(), value));
+            // A source that sends thousands of items must not fill the message.
             let rows: Vec<LookRow> = look.rows().collect();
             let items = rows.iter().take(MOST_ROWS).map(|row| {
                 let words = match &row.used {

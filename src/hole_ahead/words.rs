@@ -105,6 +105,7 @@ fn surveyed(learnt: &Learnt) -> Vec<String> {
     let above = learnt.surveys.len() - used;
     let mut lines = Vec::new();
     let at = learnt.filter.at_bit();
+    // The direction first: each survey of this hole corrects it. The curvature has a line only where one was measured.
     if used > 0 {
         let depths: Vec<f64> = learnt.used().map(|survey| survey.depth).collect();
         let depths = match depths[..] {
@@ -136,6 +137,7 @@ fn surveyed(learnt: &Learnt) -> Vec<String> {
             )
         });
     }
+    // Surveys that count for nothing are named, so that the reader does not take them for used.
     if above > 0 {
         lines.push(format!(
             "{} above {:.2} m, in the hole of another tool: not used.",
@@ -143,6 +145,7 @@ fn surveyed(learnt: &Learnt) -> Vec<String> {
             learnt.since
         ));
     }
+    // Far off, the guide lies in another hole than the statics have: the forecast is that of a wrong hole.
     let away = rad_to_deg(at.build.angle - learnt.configured);
     if away.abs() > FAR_OFF {
         lines.push(format!(

@@ -218,6 +218,7 @@ fn assemble(
     choice: &mut Choice,
     outcomes: &[Vec<Option<Outcome>>],
 ) -> Map {
+    // What a run says stands before what its neighbours do.
     let inferred: Vec<_> = (0..plan.starts.len()).map(|start| choice.inferred(start)).collect();
     let cells = plan.rows.iter().enumerate().map(|(cell, row)| {
         let starts: Vec<OfStart> = (0..plan.starts.len())
@@ -236,6 +237,7 @@ fn assemble(
         }
     });
     let cells: Vec<Cell> = cells.collect();
+    // Rows of the plan have x within y: the first row of cells has the values along x.
     let columns = plan.map.map_or(0, |grid| grid.columns);
     let along_x = cells.iter().take(columns).map(|cell| cell.x).collect();
     let along_y = cells.iter().step_by(columns.max(1)).map(|cell| cell.y).collect();

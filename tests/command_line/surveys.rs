@@ -148,7 +148,9 @@ fn surveys_that_cannot_be_are_refused_with_what_to_do() {
         assert!(!output.status.success());
         text(&output.stderr)
     };
-    let cases: [(&[(f64, f64)], &[&str], &str); 6] = [
+    // Depths and inclinations, more options, and what is said.
+    type Case<'a> = (&'a [(f64, f64)], &'a [&'a str], &'a str);
+    let cases: [Case<'_>; 6] = [
         (
             &[(5.1, 20.0)],
             &[],

@@ -160,7 +160,9 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 18] = [
+const WRITTEN_FILES: [&str; 19] = [
+    // by `flexdrill ahead`
+    "surveys.csv",
     "metadata.yaml",
     "report.md",
     "findings.csv",

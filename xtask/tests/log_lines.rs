@@ -49,6 +49,16 @@ const ALLOWED: &[(&str, &str, &str)] = &[
     ("src/cli/", "{note}", "notes on the environment, once, at the start"),
     ("src/cli/bridge/", "password", "configuration, once, at the start"),
     (
+        "src/cli/bridge/keys.rs",
+        "the terminal cannot be read",
+        "once, at the start",
+    ),
+    (
+        "src/bridge/wits.rs",
+        "no source waits for a confirmation",
+        "once per key that a person presses",
+    ),
+    (
         "src/cli/bridge/mqtt.rs",
         "Sparkplug session is not kept",
         "once, at the start",

@@ -198,6 +198,7 @@ impl Answering {
         };
         self.note(Busy::Advice);
         let config = self.control.config();
+        // A state that cannot be had ends this question, not the advice on the next alarm.
         let start = match self.start(&config, tool) {
             Ok((start, ..)) => start,
             Err(message) => {
@@ -209,6 +210,7 @@ impl Answering {
         };
         let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
         let alarm = asked.leading.alarm.name();
+        // The log has the first answer and the last: how long a driller waits is the time of the first.
         let mut first = None;
         let searched = search(&start, &asked.leading, ADVICE_SEED, threads, &stop, |progress| {
             if stop.load(Ordering::Relaxed) {

@@ -104,6 +104,7 @@ impl Stepper {
             SolverKind::Chain => Chain::of(&model, &tolerances, h, &effects::acting(&model), instructions),
             SolverKind::Stations => Chain::over_stations(&model, &tolerances, &effects::acting(&model), instructions),
         };
+        // What the effects carry from step to step is of this chain's nodes and spans.
         let effects = Effects::of(&model, &chain);
         let track = Track::new(&model, chain.state(&model), chain.spans(), effects.drags());
         let mut stepper = Self {
@@ -129,6 +130,7 @@ impl Stepper {
             prepared_for: 0.0,
             model,
         };
+        // The first step finds its matrices ready, as every later one does.
         stepper.prepare(h);
         Ok(stepper)
     }
