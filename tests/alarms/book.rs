@@ -959,6 +959,7 @@ fn diagnostics_never_contradict_the_alarms() {
         };
         book.advance(stamp);
         book.observe_tool(&snapshot, stamp);
+        book.observe_hole(&crate::plan::off(if bad { 1.2 } else { 0.5 }), stamp);
         book.observe_node(&state, stamp);
         match tenth {
             250 => drop(book.request(&acknowledge("stick_slip"), stamp).unwrap()),

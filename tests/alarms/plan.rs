@@ -32,7 +32,8 @@ fn behind() -> HoleAhead {
     }
 }
 
-fn off(plan_off: f64) -> HoleAhead {
+/// The same with another distance from the plan.
+pub fn off(plan_off: f64) -> HoleAhead {
     HoleAhead { plan_off, ..behind() }
 }
 

@@ -224,10 +224,8 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
                 .filter(|(_, largest)| course.tried[**largest].survives(standing))
                 .map(|(ladder, _)| ladder)
                 .collect();
-            helping.sort_by(|a, b| {
-                let size = |ladder: &[usize]| ladder.last().map_or(0.0, |largest| trials[*largest].size);
-                size(a).total_cmp(&size(b))
-            });
+            // Where both help, more speed or weight drills faster than less of the other.
+            helping.sort_by_key(|ladder| ladder.last().is_some_and(|largest| !trials[*largest].raises));
             for ladder in helping {
                 if let Some(tested) = self.smallest(course, ladder)? {
                     return Ok(Some(tested));

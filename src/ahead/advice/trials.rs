@@ -21,8 +21,6 @@ const _: () = assert!(1.0 + FASTER[3] == TRIED_SPEED[1] && 1.0 + HEAVIER[2] == T
 pub(super) struct Trial {
     pub change: Change,
     pub raises: bool,
-    /// Part of the present value.
-    pub size: f64,
 }
 
 impl Trial {
@@ -71,7 +69,6 @@ pub(super) fn trials(config: &Config, rule: &Advice, rpm: f64, kn: f64) -> Vec<T
             let trial = Trial {
                 change: Change { quantity, to },
                 raises: sense > 0.0,
-                size: *size,
             };
             // Rounding can give the present value or a change that is already in the list; a second run of either would
             // cost a look-ahead and decide nothing. The bounds are those of the inputs: the node would refuse a value

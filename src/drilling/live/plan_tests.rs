@@ -50,14 +50,15 @@ fn a_hole_as_the_statics_drill_it_follows_its_plan() {
     assert!(message.plan_weight.is_nan() && message.plan_nearest_weight.is_nan());
     assert!(!message.plan_no_weight && !message.plan_no_guide && message.plan_because.is_empty());
     assert_eq!(message.plan_target, 0.5, "the target of a plan without one");
-    assert!((message.plan_build_rate * 3.145 - 1.0).abs() < 1e-9);
+    // The depths of the stations are rounded to a micrometre, which over a metre is as much of an angle.
+    assert!((message.plan_build_rate * 3.145 - 1.0).abs() < 1e-6);
     for index in 0..21 {
         let ahead = 0.25 * index as f64;
         // By hand: the plan's inclination rises by 1/3.145 per metre; the hole lies in its plane.
         let off = message.inclinations[index] - INCLINATION - ahead / 3.145;
-        assert!((message.plan_inclination[index] - off).abs() < 1e-9, "{index}");
+        assert!((message.plan_inclination[index] - off).abs() < 1e-6, "{index}");
         assert!(
-            (message.plan_azimuth[index] - message.azimuths[index]).abs() < 1e-9,
+            (message.plan_azimuth[index] - message.azimuths[index]).abs() < 1e-6,
             "{index}"
         );
         // A circle by hand: below the plan the bit is farther from its centre. The high side of the hole is up to 3 deg off
@@ -210,7 +211,8 @@ fn a_plan_that_says_nothing_of_the_next_metre_is_not_compared() {
 /// Limits that a client sets while the twin runs bound what is advised from then on.
 #[test]
 fn a_weight_outside_the_limits_of_the_present_is_not_advised() {
-    let begun = config(&planned(TOOL, 3.9, 5.5));
+    // Under 12 kN this guide drills up to 3.7 m at most, whatever the bit; under the largest weight more.
+    let begun = config(&planned(TOOL, 3.65, 5.5));
     let mut twin = Twin::new(&begun);
     twin.run(70, STEADY, true);
     assert!(are(
