@@ -308,7 +308,6 @@ const REQUESTS: &[Read] = &[
     request::<std_srvs::TriggerRequest>,
     request::<std_srvs::SetBoolRequest>,
     request::<ours::AcknowledgeAlarmRequest>,
-    request::<ours::ConfirmMappingRequest>,
     request::<ours::ShelveAlarmRequest>,
     request::<ours::UnshelveAlarmRequest>,
     request::<rcl_interfaces::DescribeParametersRequest>,
@@ -334,6 +333,7 @@ const REQUESTS: &[Read] = &[
     request::<simulation_interfaces::StepSimulationRequest>,
     request::<simulation_interfaces::SimulateStepsSendGoalRequest>,
     request::<simulation_interfaces::SimulateStepsGetResultRequest>,
+    request::<ours::ConfirmMappingRequest>,
 ];
 
 /// A request that begins a look-ahead: what its bytes ask for is within the bounds, or is refused in words.
