@@ -63,7 +63,10 @@ pub fn words(config: &Config, question: &Question, answer: &Answer, goal: Option
     lines.extend(answer.learnt.as_ref().map_or_else(Vec::new, surveyed));
     lines.push(first_metre(answer));
     lines.extend(ahead(answer));
-    lines.push(in_a_long_arc(answer.long.as_ref(), ""));
+    // The closed form knows no survey: next to a corrected forecast its radius would seem to contradict.
+    let corrected = answer.learnt.as_ref().is_some_and(Learnt::corrects_curvature);
+    let uncorrected = if corrected { ", without the correction" } else { "" };
+    lines.push(in_a_long_arc(answer.long.as_ref(), uncorrected));
     lines.push(any_bit(answer.bounds.as_ref(), question.largest_weight));
     if let Some(goal) = goal {
         lines.extend(to_plan(config, question, answer, goal));
