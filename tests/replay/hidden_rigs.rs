@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{python, root};
 
-/// What is not known of the short rig's tool. Twelve tools, of which the torque at the surface leaves eight alike.
+/// What is not known of the short rig's tool. Twenty tools, of which the torque at the surface leaves eight alike.
 const NOT_KNOWN: &str = "
 uncertainty:
   keys:
@@ -33,16 +33,16 @@ fn scored(folder: &Path, config: &Path) -> Option<Vec<Value>> {
         ("--out", text(folder)),
         ("--config", text(config)),
         ("--binary", env!("CARGO_BIN_EXE_flexdrill").to_owned()),
-        ("--rigs", "2".to_owned()),
+        ("--rigs", "1".to_owned()),
         ("--seconds", "90".to_owned()),
-        ("--members", "12".to_owned()),
+        ("--members", "20".to_owned()),
     ];
     let arguments: Vec<&str> = options
         .iter()
         .flat_map(|(name, value)| [*name, value.as_str()])
         .collect();
     python::run("hidden_rigs.py", &arguments, "")?;
-    let rigs = (0..2).map(|number| std::fs::read_to_string(folder.join(format!("rig_{number:03}.json"))).unwrap());
+    let rigs = (0..1).map(|number| std::fs::read_to_string(folder.join(format!("rig_{number:03}.json"))).unwrap());
     Some(rigs.map(|text| serde_json::from_str(&text).unwrap()).collect())
 }
 
@@ -67,7 +67,7 @@ fn plausible_tools_hold_what_a_rig_of_another_structure_does() {
             all += 1;
         }
     }
-    // 30 of 90 s settle, and a rig waits for its first bands.
-    assert!(all > 60, "{all} seconds were judged");
+    // 30 of 90 s settle; bands may be missing where fewer than eight tools alike fit the torque.
+    assert!(all > 40, "{all} seconds were judged");
     assert!(2 * inside > all, "{inside} of {all} seconds");
 }
