@@ -12,7 +12,8 @@ import flexdrill
 
 
 def messages(topic: str, **fields: Any) -> flexdrill.Messages:
-    stamps = 1_700_000_000_000_000_000 + 1_000_000_000 * np.arange(len(next(iter(fields.values()), [])))
+    count = len(next(iter(fields.values()))) if fields else 0
+    stamps = 1_700_000_000_000_000_000 + 1_000_000_000 * np.arange(count)
     return flexdrill.Messages(topic, "flexdrill/msg/Bands", (stamps - stamps[:1].sum()) * 1e-9, stamps, fields)
 
 
