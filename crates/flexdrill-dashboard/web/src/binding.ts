@@ -135,10 +135,12 @@ export class Binding {
       }
     }
     if (!this.journalTaken) {
+      // The journal of a bag that is being read lacks what stands further on in it.
+      const isWhole = store.session?.bag?.ready ?? true;
       const events = await api.journal();
       if (events) {
         store.takeJournal(events);
-        this.journalTaken = store.layout !== null;
+        this.journalTaken = store.layout !== null && isWhole;
       }
     }
     const { playback } = store;
