@@ -52,7 +52,7 @@ impl Readings {
         (self.measured - high).max(0.0) + (self.measured - low).min(0.0)
     }
 
-    /// The distance beyond which the shared error is surely larger than `level` times half of its own 90 % band.
+    /// The distance beyond which the shared error exceeds `level` times half of its 90 % band with certainty.
     pub fn limit(&self, level: f64) -> f64 {
         limit(self.error, self.scatter, level)
     }
@@ -243,7 +243,7 @@ mod tests {
         assert_eq!(compared(TORQUE, only).disagreement().unwrap().tools, Tools::Fitting);
     }
 
-    /// A rig with a law of its own: its torque is 11 N m per kN of weight and 60 N m of friction, its string weighs 300 kN.
+    /// A rig of another law than the twin's: 11 N m of torque per kN of weight and 60 N m of friction, below a string of 300 kN.
     struct Rig {
         /// What the weight indicator shows over the truth.
         indicator: f64,
