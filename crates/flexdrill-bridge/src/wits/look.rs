@@ -9,10 +9,13 @@ use super::frame::RawFrame;
 use super::header::LAST_HEADER_ITEM;
 use super::item::{ItemCode, is_null, number};
 use super::mapping::{ItemMapping, Mapping};
+use super::may_be::{self, Numbers};
 use super::shown;
 
 /// Most items that are kept: a source that sends more is no rig, and must not fill the memory.
 const MOST_ITEMS: usize = 1000;
+/// Most items whose numbers are kept and compared with each other: rigs send ten to fifty.
+const MOST_COMPARED: usize = 100;
 /// Bytes of a value that are shown.
 const SHOWN: usize = 20;
 
@@ -34,6 +37,8 @@ pub struct Look {
     table: BTreeMap<ItemCode, ItemMapping>,
     mapping: Mapping,
     items: BTreeMap<ItemCode, Seen>,
+    /// The numbers of the items that came first.
+    compared: BTreeMap<ItemCode, Numbers>,
     frames: u64,
 }
 
@@ -53,6 +58,7 @@ impl Look {
             table: mapping.table(),
             mapping: mapping.clone(),
             items: BTreeMap::new(),
+            compared: BTreeMap::new(),
             frames: 0,
         }
     }
@@ -74,6 +80,9 @@ impl Look {
             match &mut seen.numbers {
                 Some(numbers) => numbers.add(value),
                 None => seen.numbers = Some(Course::new(value)),
+            }
+            if self.compared.len() < MOST_COMPARED || self.compared.contains_key(&code) {
+                self.compared.entry(code).or_default().add(self.frames, value);
             }
         }
     }
@@ -107,24 +116,31 @@ impl Look {
         }
     }
 
-    /// The table: a line per item with its quantity, its first value as sent and as used, and how it changed if there were
-    /// several frames; then the items that the mapping does not name.
+    /// What an item may be by its numbers, where there are enough of them.
+    fn may_be(&self, code: ItemCode) -> Option<String> {
+        let mapped = self.table.get(&code).map(|item| item.quantity);
+        may_be::in_words(code, mapped, &self.compared)
+    }
+
+    /// The table: a line per item with its quantity, its first value as sent and as used, and, if there were several frames,
+    /// how it changed and what it may be; then the items that the mapping does not name.
     pub fn table(&self) -> String {
         let mut text = String::new();
         let mut unread = Vec::new();
         for (code, seen) in &self.items {
             let LookRow { sent, used, .. } = self.row(*code, seen);
             let Some((quantity, used)) = used else {
-                unread.push(format!("{code} ({sent})"));
+                let may_be = self
+                    .may_be(*code)
+                    .map_or_else(String::new, |words| format!("; {words}"));
+                unread.push(format!("{code} ({sent}{may_be})"));
                 continue;
             };
             let change = seen.numbers.filter(|_| self.frames > 1).map(Course::words);
+            let may_be = self.may_be(*code);
+            let change = [change, may_be].into_iter().flatten().collect::<Vec<_>>().join("; ");
             // Writing to a string does not fail.
-            let _ = writeln!(
-                text,
-                "  {code}  {quantity:<26} {sent:>18} = {used:<18} {}",
-                change.unwrap_or_default()
-            );
+            let _ = writeln!(text, "  {code}  {quantity:<26} {sent:>18} = {used:<18} {change}");
         }
         let mut text: String = text.lines().flat_map(|line| [line.trim_end(), "\n"]).collect();
         if text.is_empty() {
@@ -147,6 +163,9 @@ impl Look {
         text.push_str(&self.mapping.keys_in_yaml());
         text.push_str("items:\n");
         for (code, seen) in &self.items {
+            let may_be = self
+                .may_be(*code)
+                .map_or_else(String::new, |words| format!("; {words}"));
             // Writing to a string does not fail.
             let _ = match self.table.get(code) {
                 Some(item) => {
@@ -155,7 +174,7 @@ impl Look {
                         .map_or_else(|| "no value".to_owned(), |numbers| as_used(item, numbers.first));
                     writeln!(
                         text,
-                        "  \"{code}\": {}  # {} {} = {used}",
+                        "  \"{code}\": {}  # {} {} = {used}{may_be}",
                         item.in_yaml(),
                         seen.first_text,
                         item.unit
@@ -163,7 +182,7 @@ impl Look {
                 }
                 None => writeln!(
                     text,
-                    "  # \"{code}\": {{quantity: NAME, unit: UNIT}}  # {}",
+                    "  # \"{code}\": {{quantity: NAME, unit: UNIT}}  # {}{may_be}",
                     seen.first_text
                 ),
             };
@@ -254,5 +273,35 @@ mod tests {
             assert!(text.contains(words), "{words} in {text}");
         }
         assert_eq!(table(&["0104 1\n"]), "  no item that the mapping names\n");
+    }
+
+    /// Hook load and weight on bit under each other's numbers, and pump strokes that no mapping reads.
+    #[test]
+    fn a_line_of_thirty_seconds_shows_what_each_item_may_be() {
+        let mut look = Look::new(&Mapping::default());
+        for second in 0..30_u32 {
+            let weight = 0.8 + 0.05 * f64::from(second * second % 11);
+            let lines = [
+                format!("0108 {}", 2500.0 + 0.001 * f64::from(second)),
+                format!("0114 {weight:.2}"),
+                format!("0116 {:.2}", 15.0 - weight),
+                format!("0130 {}", 60 + second * second % 7),
+            ];
+            look.frame(&RawFrame {
+                lines: lines.map(String::into_bytes).to_vec(),
+                ..RawFrame::default()
+            });
+        }
+        let (table, site) = (look.table(), look.site_file("rig"));
+        for words in [
+            "only rises; may be a depth",
+            "varies; CHECK: may be a weight on bit (mirrors 0116)",
+            "varies; CHECK: may be a hook load (mirrors 0114)",
+            "not read: 0130 (60; may be a rotary speed, pump strokes, ",
+        ] {
+            assert!(table.contains(words), "{words} in {table}");
+        }
+        assert!(site.contains("# 60; may be a rotary speed, pump strokes, "), "{site}");
+        Mapping::from_text("site.yaml", &site).unwrap_or_else(|error| panic!("{error}\n{site}"));
     }
 }

@@ -14,6 +14,7 @@ mod item;
 mod line;
 mod look;
 mod mapping;
+mod may_be;
 mod report;
 mod sequence;
 mod sources;
