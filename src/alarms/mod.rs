@@ -210,6 +210,11 @@ impl AlarmBook {
         }
     }
 
+    /// Enters that a person has confirmed how a bridge reads the rig's line: from then on `rig/measured` is compared.
+    pub fn enter_confirmed(&mut self, by: &str, reason: &str, time: Time) {
+        self.enter(AlarmId::RigDisagrees, by, reason, time);
+    }
+
     /// Enters what an alarm is judged against from now on into the journal.
     fn enter(&mut self, id: AlarmId, by: &str, reason: &str, time: Time) {
         let mut events = Vec::new();

@@ -9,6 +9,7 @@ use tokio::sync::oneshot;
 
 use super::NodeError;
 use super::advisor::{Acting, Advisor, InForce};
+use super::confirmed::Confirmation;
 use super::publish::PublisherParts;
 use crate::alarms::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
@@ -174,6 +175,9 @@ pub(super) fn judge_node(
     let time = parts.clocks.rig_time();
     book.advance(time);
     book.observe_node(&state, time);
+    for Confirmation { by, reason } in parts.confirmed.take() {
+        book.enter_confirmed(&by, &reason, time);
+    }
 }
 
 /// The state of an earlier run and the writer for this one; neither where another node uses the file.

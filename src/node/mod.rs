@@ -9,6 +9,7 @@ mod advisor;
 pub mod alarms;
 mod clock_topic;
 pub mod clocks;
+mod confirmed;
 pub mod control;
 pub mod demonstration_rig;
 mod duration;

@@ -10,6 +10,7 @@ use tokio::task::JoinSet;
 
 use super::alarms::{self, AlarmDesk, AlarmRequest};
 use super::clocks::Clocks;
+use super::confirmed::{self, Confirmed};
 use super::control::{self, Control, ParameterUpdate};
 use super::following::{self, Moves};
 use super::forecast::ForecastDesk;
@@ -66,6 +67,7 @@ pub(super) struct PreparedNode {
     plain_samples: Vec<(InputKind, Arc<Inbox<Sample>>)>,
     stamped_samples: Arc<Inbox<Sample>>,
     measured_samples: Arc<Inbox<Sample>>,
+    confirmed: Confirmed,
     received: (ReceivedSender, ReceivedQueue),
     /// What viewers may steer; none without viewers.
     viewers: Option<Arc<Viewers>>,
@@ -183,6 +185,9 @@ impl PreparedNode {
         // The stamped inputs come on one topic with all quantities, for sources that have the time of the measurement.
         let (stamped_name, stamped) = subscribe(&topics::RIG_INPUTS)?;
         let (_, measured) = subscribe(&topics::RIG_MEASURED)?;
+        // Bridges report there which mappings persons have confirmed.
+        let (confirmed, diagnostics) = confirmed::receive(subscribe(&topics::DIAGNOSTICS)?.1);
+        tasks.push(diagnostics);
         // With simulated time the clock itself is a subscription: until its first message there is no time.
         if let Some(newest) = clocks.simulated() {
             let (_, ticks) = subscribe(&topics::CLOCK)?;
@@ -216,6 +221,7 @@ impl PreparedNode {
             plain_samples: plain.into_iter().map(|(kind, _, samples)| (kind, samples)).collect(),
             stamped_samples: stamped,
             measured_samples: measured,
+            confirmed,
             received: received::queue(),
             viewers,
             checkpoint,
@@ -259,6 +265,7 @@ impl PreparedNode {
             dds: port.monitor(),
             // Samples are copied only where something keeps them.
             record: (recording.is_some() || live.is_some()).then(|| record.clone()),
+            confirmed: self.confirmed.clone(),
             warned: Mutex::default(),
         };
         for (kind, samples) in self.plain_samples {
@@ -301,6 +308,7 @@ impl PreparedNode {
             gauges: Arc::clone(&self.gauges),
             alarms,
             inputs: self.inputs,
+            confirmed: self.confirmed,
             clocks: self.clocks.clone(),
             dds: port.monitor(),
             node_name: setup.identity.full_name(),

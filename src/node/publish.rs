@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::alarms::{self, AlarmDesk};
 use super::clocks::Clocks;
+use super::confirmed::Confirmed;
 use super::control::ParameterUpdate;
 use super::following::Moves;
 use super::forecast::ForecastDesk;
@@ -67,6 +68,8 @@ pub struct PublisherParts {
     pub alarms: AlarmDesk,
     /// The rig's inputs.
     pub inputs: RigInputs,
+    /// Which mappings of bridges persons have confirmed.
+    pub confirmed: Confirmed,
     /// The clocks of the node.
     pub clocks: Clocks,
     /// The state of DDS.

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use super::confirmed::Confirmed;
 use super::inputs::RigInputs;
 use super::received::{Received, ReceivedSender, plain_topic};
 use crate::rig_inputs::{Carried, Driver, DriverId, SampleRefused};
@@ -36,6 +37,8 @@ pub struct SampleReceiver {
     pub dds: Monitor,
     /// The queue to the recording and the viewers, if there are any.
     pub record: Option<ReceivedSender>,
+    /// Confirmations of the bridges that send.
+    pub confirmed: Confirmed,
     /// Publishers that were warned of their zeros.
     pub warned: Mutex<HashSet<DriverId>>,
 }
@@ -189,6 +192,7 @@ pub async fn receive_stamped(receiver: SampleReceiver, samples: Arc<Inbox<Sample
         Carried::Inputs(&InputKind::ALL),
         &samples,
         |receiver, message: flexdrill_messages::RigInputs, id| {
+            receiver.confirmed.rig_message(id);
             receiver.warn_of_zeros(message.has_doubtful_zero(), &topics::RIG_INPUTS, id);
             let refused = receiver.inputs.accept_stamped(&message, id);
             receiver.record(Received::Stamped(message));
@@ -206,6 +210,7 @@ pub async fn receive_measured(receiver: SampleReceiver, samples: Arc<Inbox<Sampl
         Carried::Measured,
         &samples,
         |receiver, message: RigMeasured, id| {
+            receiver.confirmed.rig_message(id);
             receiver.warn_of_zeros(message.has_doubtful_zero(), &topics::RIG_MEASURED, id);
             let refused = receiver.inputs.accept_measured(&message);
             receiver.record(Received::Measured(message));

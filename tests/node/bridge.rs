@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use flexdrill::bag;
 use flexdrill::messages::diagnostic_msgs::DiagnosticArray;
-use flexdrill::messages::{AppliedInputs, RigInputs, RigMeasured};
+use flexdrill::messages::{AlarmEvent, AppliedInputs, RigInputs, RigMeasured};
 
 use crate::common::{Network, Program, root, small_config};
 
@@ -224,6 +224,18 @@ fn qualities(inputs: &[RigInputs], speed: f64) -> Vec<u8> {
     of_speed.map(|message| message.quality).collect()
 }
 
+/// Entries of a recording's journal by which `by` has confirmed the mapping of this machine's rig.
+fn confirmations(recording: &Path, by: &str) -> usize {
+    let journal: Vec<AlarmEvent> = messages(recording, "twin/alarm_events");
+    let found = journal.iter().filter(|event| {
+        let words = event.reason.contains("site.yaml) of 127.0.0.1 was confirmed at 20");
+        words
+            && (event.id.as_str(), event.change) == ("rig_disagrees", AlarmEvent::ADJUSTED)
+            && event.operator_name == by
+    });
+    found.count()
+}
+
 /// A mapping that no person has compared drives the twin, and is shown as doubtful; the confirmation is of one mapping.
 #[test]
 fn a_mapping_is_suspect_until_a_person_confirms_it_and_again_when_it_is_changed() {
@@ -283,6 +295,8 @@ fn a_mapping_is_suspect_until_a_person_confirms_it_and_again_when_it_is_changed(
     // The journal has who confirmed what.
     let journal = std::fs::read_to_string(state.join("wits_mappings.journal")).unwrap();
     assert_eq!(journal.matches("by --confirm: mapping").count(), 2, "{journal}");
+    // So has the recording's, once each: a bridge that comes back repeats a confirmation that is known.
+    assert_eq!(confirmations(&live, "--confirm"), 2);
 }
 
 /// A person at the terminal of the bridge presses c and Enter while the rig sends.
@@ -342,4 +356,5 @@ fn a_key_in_the_terminal_of_the_bridge_confirms_its_mapping() {
         second[confirmed..].iter().all(|found| *found == RigInputs::GOOD),
         "{second:?}"
     );
+    assert_eq!(confirmations(&live, "a person at the bridge's terminal"), 1);
 }
