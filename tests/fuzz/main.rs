@@ -20,8 +20,10 @@ mod random;
 
 mod bags;
 mod engine;
+mod lines;
 mod messages;
 mod mutator;
+mod shapes;
 mod states;
 mod sweeps;
 mod texts;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
-use flexdrill_bridge::wits::{Counts, FrameUse, Line, LineEvent, Mapping, RigFrames};
+use flexdrill_bridge::wits::{Counts, FrameUse, Line, LineEvent, Mapping, RawFrame, Reading, RigFrames};
 use flexdrill_bridge::{Quantity, wits};
 use flexdrill_core::inputs::MeasuredKind;
 
@@ -80,6 +80,47 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
     }
 }
 
+/// A value of a message, the items of the default mapping that may be its source, its unit per theirs, and the range that
+/// a rig can have, in the message's unit.
+type Believed = (f64, &'static [&'static str], f64, [f64; 2]);
+
+/// The values of a reading that are given. Units and ranges are written out here, as the page on bridges has them.
+fn believed(reading: &Reading) -> Vec<Believed> {
+    let mut all: Vec<Believed> = Vec::new();
+    if let Some(inputs) = &reading.inputs {
+        all.extend([
+            (inputs.rotary_speed_rpm, &["0120"][..], 1.0, [-2865.0, 2865.0]),
+            (inputs.weight_on_bit_kn, &["0116", "0117"], 10.0, [-1000.0, 1000.0]),
+            (inputs.rate_of_penetration_m_per_h, &["0113"], 1.0, [-36e3, 36e3]),
+            (inputs.standpipe_pressure_mpa, &["0121"], 1e-3, [-1.0, 200.0]),
+        ] as [Believed; 4]);
+    }
+    if let Some(measured) = &reading.measured {
+        all.extend([
+            (measured.hook_load, &["0114", "0115"][..], 1e4, [-1e6, 3e7]),
+            (measured.surface_torque, &["0118", "0119"], 1e3, [-1e6, 1e6]),
+            (measured.bit_depth, &["0108", "0910"], 1.0, [-1e3, 3e4]),
+            (measured.hole_depth, &["0110"], 1.0, [-1e3, 3e4]),
+            (measured.downhole_weight_on_bit, &["0915"], 1e4, [-1e7, 1e7]),
+            (measured.downhole_torque, &["0917"], 1e3, [-1e6, 1e6]),
+        ] as [Believed; 6]);
+    }
+    all.retain(|(value, ..)| !value.is_nan());
+    all
+}
+
+/// Whether a value is that of a line of its frame, within its range.
+fn is_of_its_line(frame: &RawFrame, (value, items, factor, [least, most]): &Believed) -> bool {
+    let of_line = |line: &Vec<u8>| {
+        let text = std::str::from_utf8(line).ok()?;
+        let item = items.iter().find_map(|item| text.trim_start().strip_prefix(item))?;
+        item.trim().parse::<f64>().ok()
+    };
+    // Conversion to SI and back rounds twice; a relative error of 1e-12 is several thousand times that.
+    let is_near = |sent: f64| (sent * factor - value).abs() <= 1e-12 * value.abs();
+    (*least..=*most).contains(value) && frame.lines.iter().filter_map(of_line).any(is_near)
+}
+
 /// The counts and the events of a line that comes in pieces.
 fn read(bytes: &[u8], random: &mut Random) -> (Counts, Vec<LineEvent>) {
     let mapping = Mapping::default();
@@ -101,7 +142,7 @@ fn every_frame_of_ten_thousand_damaged_captures_is_used_or_reported() {
     let whole = capture();
     let (counts, _) = read(&whole, &mut Random(1));
     assert_eq!((counts.frames, counts.used, counts.discarded_bytes), (6, 6, 0));
-    let (mut used, mut reported) = (0, 0);
+    let (mut used, mut reported, mut values) = (0, 0, 0_u64);
     for seed in 0..CAPTURES {
         let mut random = Random(seed);
         let mut bytes = whole.clone();
@@ -126,6 +167,11 @@ fn every_frame_of_ten_thousand_damaged_captures_is_used_or_reported() {
                 FrameUse::Used { values } => assert!(values > 0 && given > 0, "seed {seed}"),
                 FrameUse::NotUsed(_) => assert_eq!(given, 0, "seed {seed}"),
             }
+            // None is believed that its line does not have, and none outside of what a rig can have.
+            for value in believed(reading) {
+                assert!(is_of_its_line(frame, &value), "seed {seed}: {value:?} of {frame:?}");
+                values += 1;
+            }
             // Every line is an item with a meaning, or counted.
             assert!(
                 reading.faults.len() <= frame.lines.len() + usize::from(frame.long_lines > 0),
@@ -141,6 +187,8 @@ fn every_frame_of_ten_thousand_damaged_captures_is_used_or_reported() {
         used += counts.used;
         reported += counts.frames_not_used() + counts.discarded.iter().sum::<u64>();
     }
+    // Each whole frame has ten values.
+    assert!(values > 10 * CAPTURES, "{values}");
     // The mutations reach both ends: of six frames most survive, and every second capture loses one.
     assert!(
         used > 2 * CAPTURES && reported > CAPTURES / 2,

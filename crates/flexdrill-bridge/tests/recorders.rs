@@ -1,5 +1,5 @@
 //! Recorders and their habits: lines as public programs, manuals and captures show them, two minutes at one frame per
-//! second. Each is used, or refused in words. The table in docs/bridge.md names these tests.
+//! second. Each is used, or refused in words. The table in docs/rig_inputs.md names these tests.
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
