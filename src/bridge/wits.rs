@@ -86,6 +86,11 @@ impl WitsBridge {
         })
     }
 
+    /// The node, after the bridge has run.
+    pub fn into_node(self) -> BridgeNode {
+        self.node
+    }
+
     /// Runs until it is dropped. Each message on `confirm` is a person's confirmation of what was shown.
     pub async fn run(&mut self, place: Place, times: Times, mut confirm: mpsc::Receiver<()>) {
         let (sender, mut events) = mpsc::channel(QUEUE);

@@ -16,6 +16,8 @@ mod clock;
 #[cfg(feature = "full")]
 mod command_line;
 mod demo;
+#[cfg(feature = "full")]
+mod first_sample;
 mod following;
 #[cfg(feature = "full")]
 mod mqtt;

@@ -1,5 +1,8 @@
 //! `flexdrill bench`: runs at constant inputs as fast as they go, with the figures that `docs/measurements.md` quotes.
 
+#[cfg(feature = "bridge")]
+mod first_sample;
+
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -80,6 +83,9 @@ enum Cases {
     /// Forks as look-aheads, maps and sweeps run them, on one core and on several, alone and next to a live run; the
     /// duration is wall time per row.
     Batch,
+    /// Made recorders that are plugged into a bridge, with the time to the first sample at a twin's input.
+    #[cfg(feature = "bridge")]
+    FirstSample,
 }
 
 /// Runs the subcommand.
@@ -128,6 +134,15 @@ fn run_cases(args: &BenchArgs, cases: Cases) -> anyhow::Result<()> {
             let duration = args.duration.unwrap_or(20.0);
             let tables = batch::tables(&config, constant, duration, |line| tell!("{line}"))?;
             ("batch", batch::section(&name, duration, &tables))
+        }
+        #[cfg(feature = "bridge")]
+        Cases::FirstSample => {
+            if args.duration.is_some() {
+                return Err(
+                    WrongUse::new("--duration: the recorders of --cases first-sample have their own times").into(),
+                );
+            }
+            ("first-sample", first_sample::section(&config, |line| tell!("{line}"))?)
         }
     };
     say!("\n### {title}\n\n{section}");
