@@ -322,6 +322,33 @@ fn tests_that_are_named_exist() {
     assert!(missing.is_empty(), "named and not there:\n{}", missing.join("\n"));
 }
 
+/// Rows that the page of a rig's inputs has at least.
+const SHAPES: usize = 40;
+
+#[test]
+fn every_shape_of_a_rigs_inputs_has_a_source_and_a_test() {
+    let functions = defined(&sources(), &["fn"]);
+    let page = read(&root().join("docs/rig_inputs.md"));
+    let mut shapes = 0;
+    for line in page.lines().filter(|line| line.starts_with("| ")) {
+        // Code between backticks may have the mark of a column: no row of this page has it.
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+        assert_eq!(
+            cells.len(),
+            5,
+            "shape, who, source, what the program does, test: {line}"
+        );
+        assert!(cells.iter().all(|cell| !cell.is_empty()), "{line}");
+        if cells[0] == "shape" {
+            continue;
+        }
+        let mut named = code(cells[4]).into_iter().filter(|name| functions.contains(*name));
+        assert!(cells[4] == "the same" || named.next().is_some(), "no test: {line}");
+        shapes += 1;
+    }
+    assert!(shapes >= SHAPES, "{shapes} shapes");
+}
+
 #[test]
 fn the_guide_names_every_test_binary_of_the_program() {
     let guide = read(&root().join("CONTRIBUTING.md"));
