@@ -9,7 +9,11 @@ const ASKED_AFTER: f64 = 10.0;
 
 /// The last number of a cell, the longest time.
 fn longest(cell: &str) -> f64 {
-    cell.rsplit(", ").next().unwrap().parse().unwrap_or_else(|_| panic!("{cell:?} is no time"))
+    cell.rsplit(", ")
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap_or_else(|_| panic!("{cell:?} is no time"))
 }
 
 #[test]
@@ -18,7 +22,11 @@ fn every_line_has_its_first_sample_when_it_must() {
     let mut bench = network.command(env!("CARGO_BIN_EXE_flexdrill"));
     let output = bench.args(["bench", "--cases", "first-sample"]).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{said}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     let rows: Vec<Vec<&str>> = said
         .lines()
         .filter(|line| line.starts_with("| "))
@@ -48,7 +56,10 @@ fn every_line_has_its_first_sample_when_it_must() {
 #[test]
 fn the_recorders_have_their_own_times() {
     let mut bench = std::process::Command::new(env!("CARGO_BIN_EXE_flexdrill"));
-    let output = bench.args(["bench", "--cases", "first-sample", "--duration", "3"]).output().unwrap();
+    let output = bench
+        .args(["bench", "--cases", "first-sample", "--duration", "3"])
+        .output()
+        .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("--duration") && said.contains("first-sample"), "{said}");
