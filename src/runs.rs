@@ -120,7 +120,8 @@ fn result<W: Work>(
     kept: Option<&Kept>,
     report: &mut impl FnMut(f64),
 ) -> (Result<W::Found, String>, Result<(), KeepError>) {
-    let Some((kept, as_)) = kept.zip(work.kept_as()) else {
+    // What a result is a function of may be long to write down.
+    let Some((kept, as_)) = kept.and_then(|kept| Some((kept, work.kept_as()?))) else {
         return (work.run(report), Ok(()));
     };
     let known = match kept.read(&as_) {

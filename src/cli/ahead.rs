@@ -12,12 +12,12 @@ use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
 use crate::hole_ahead::words::{Goal, words};
 use crate::hole_ahead::{
-    Drilling, Learnt, Plan, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, learnt, picture,
-    plan, surveys, table, tool,
+    Drilling, Learnt, Plan, Present, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, learnt,
+    picture, plan, surveys, table, tool,
 };
 use flexdrill_config::Config;
-use flexdrill_core::units::{kn_to_n, n_to_kn};
-use flexdrill_hole::Survey;
+use flexdrill_core::units::kn_to_n;
+use flexdrill_hole::{HoleError, Survey};
 use flexdrill_text::counted;
 
 /// Computes where the tool drills in the next metres, with the range of plausible tools, and writes ahead.csv and ahead.svg.
@@ -34,9 +34,13 @@ pub struct AheadArgs {
     /// Metres ahead, in whole quarters of a metre.
     #[arg(long, default_value_t = USUAL_LENGTH, value_parser = numbers::metres_ahead)]
     metres: f64,
-    /// Weight at the bit (kN).
-    #[arg(long, default_value_t = n_to_kn(USUAL_WEIGHT), value_parser = numbers::kilonewton)]
-    weight: f64,
+    /// A recording of the twin, or a state that ~/save_checkpoint has written: the weight that arrives at the bit and the
+    /// parameters in force are those at its end.
+    #[arg(long, value_name = "BAG|STATE")]
+    from: Option<PathBuf>,
+    /// Weight at the bit (kN): that of --from by default, else 10.
+    #[arg(long, value_parser = numbers::kilonewton)]
+    weight: Option<f64>,
     /// Plausible tools, drawn from what is not known.
     #[arg(long, default_value_t = 100, value_parser = members())]
     members: usize,
@@ -83,6 +87,12 @@ fn members() -> clap::builder::RangedU64ValueParser<usize> {
 /// without a result is part of the results.
 pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     let (config, name) = built_in::load(&args.config)?;
+    let present = match &args.from {
+        Some(path) => Some(Present::read(path, &config).with_context(|| format!("--from {}", path.display()))?),
+        None => None,
+    };
+    // The parameters in force count in all that follows.
+    let config = present.as_ref().map_or(config, |present| present.config.clone());
     let in_config = |refusal: Refusal| anyhow::anyhow!("{name}: {refusal}");
     tool::check(&config).map_err(in_config)?;
     // What the command line asks for comes before the plan of the configuration.
@@ -108,12 +118,16 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         .target
         .or(config.well.plan.as_ref().map(|plan| plan.target))
         .unwrap_or(USUAL_TARGET);
-    let question = question(args, &config, azimuth)?;
+    let question = question(args, &config, present.as_ref(), azimuth)?;
     let drilling = Drilling::of(&config, question.weight, azimuth).map_err(in_config)?;
     let ahead = question.stations as f64 * SPACING;
     let planned = table
         .map(|table| Plan::laid(&table.rows, &drilling, bit, ahead))
         .or_else(|| args.radius.map(|radius| Plan::arc(radius, &drilling, bit, ahead)));
+    let taken = match &present {
+        Some(present) => taken(args, present, &name, &drilling).with_context(|| name.clone())?,
+        None => Vec::new(),
+    };
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     let mut progress = Progress::share();
     let learnt = match surveys {
@@ -137,6 +151,9 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         let used = learnt.surveys.iter().map(|survey| (survey, learnt.corrects(survey)));
         whole_file::write(&args.out, "surveys.csv", &surveys::csv(used))?;
     }
+    for line in taken {
+        say!("{line}");
+    }
     for line in words(&config, &question, &found, goal.as_ref()) {
         say!("{line}");
     }
@@ -152,6 +169,14 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         args.out.join("ahead.csv").display()
     );
     Ok(())
+}
+
+/// What was taken from a run, in sentences.
+fn taken(args: &AheadArgs, present: &Present, name: &str, drilling: &Drilling) -> Result<Vec<String>, HoleError> {
+    let from = args.from.as_deref().unwrap_or(Path::new(""));
+    let mut lines = present.words(&from.display().to_string(), name, args.weight.map(kn_to_n));
+    lines.extend(present.side_force(drilling)?);
+    Ok(lines)
 }
 
 /// Name and surveys of a table.
@@ -196,18 +221,32 @@ fn read_table(path: &Path) -> anyhow::Result<(String, String)> {
     Ok((name, text))
 }
 
-/// What is asked, SI.
-fn question(args: &AheadArgs, config: &Config, azimuth: f64) -> Result<Question, WrongUse> {
+/// Weight at the bit (N): as asked for, or as it arrives in a run.
+fn weight(args: &AheadArgs, config: &Config, present: Option<&Present>) -> Result<f64, WrongUse> {
     let allowed = &config.inputs.weight_on_bit;
-    if !(args.weight > 0.0 && (allowed.min_kn..=allowed.max_kn).contains(&args.weight)) {
-        return Err(WrongUse::new(format!(
-            "--weight {} kN: must be above 0 kN and within inputs.weight_on_bit, {} to {} kN: a bit drills under weight only; \
-             give the weight at the bit",
-            args.weight, allowed.min_kn, allowed.max_kn
-        )));
+    match (args.weight, present) {
+        (None, None) => Ok(USUAL_WEIGHT),
+        // What arrives differs from what is set: the limits of the input are none for it.
+        (None, Some(present)) if present.weight > 0.0 => Ok(present.weight),
+        (None, Some(_)) => Err(WrongUse::new(
+            "--from: the bit is off bottom at the end of the run: must be on bottom, a bit drills under weight only; give \
+             the weight at the bit with --weight"
+                .to_owned(),
+        )),
+        (Some(weight), _) if weight > 0.0 && (allowed.min_kn..=allowed.max_kn).contains(&weight) => Ok(kn_to_n(weight)),
+        (Some(weight), _) => Err(WrongUse::new(format!(
+            "--weight {weight} kN: must be above 0 kN and within inputs.weight_on_bit, {} to {} kN: a bit drills under weight \
+             only; give the weight at the bit",
+            allowed.min_kn, allowed.max_kn
+        ))),
     }
+}
+
+/// What is asked, SI.
+fn question(args: &AheadArgs, config: &Config, present: Option<&Present>, azimuth: f64) -> Result<Question, WrongUse> {
+    let allowed = &config.inputs.weight_on_bit;
     Ok(Question {
-        weight: kn_to_n(args.weight),
+        weight: weight(args, config, present)?,
         largest_weight: kn_to_n(allowed.max_kn),
         stations: (args.metres / SPACING - 1e-9).ceil() as usize,
         azimuth,

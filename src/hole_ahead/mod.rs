@@ -4,11 +4,13 @@
 //! # Layout
 //! - [`advice`]: what the plan needs, and under which weight the bit comes nearest to it.
 //! - [`surveys`]: a table of surveys; [`learnt`]: what they correct.
+//! - [`present`]: the tool at the end of a recorded run, or as a state has it.
 //! - [`table`], [`words`], [`picture`]: the results.
 
 pub mod advice;
 pub mod learnt;
 pub mod picture;
+pub mod present;
 pub mod surveys;
 pub mod table;
 pub mod words;
@@ -24,6 +26,7 @@ use crate::drilling::{middle_inclination, spread, unknowns};
 use crate::runs::{KeepError, KeptAs, Work, run_all};
 pub use advice::Advice;
 pub use learnt::Learnt;
+pub use present::Present;
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,6 +7,7 @@
 )]
 
 mod ahead;
+mod ahead_from;
 mod guess;
 mod paper;
 mod plan;

@@ -155,24 +155,12 @@ impl Ahead {
     /// Why this is not to be believed under a weight (N) and a side force to the low side with its standard error (N), where
     /// it is not.
     ///
-    /// A guide feels the straight hole above an arc that is shorter than twice its free length. The statics hold the guide
-    /// as its shape and its weight say; where the twin's side force is another one, something else acts on the guide, and
-    /// the hole is grown for a tool that there is not. 0.5 % of the weight is what two programs for the same guide differ by.
+    /// A guide feels the straight hole above an arc that is shorter than twice its free length.
     pub fn doubt(&self, weight: f64, [side_force, error]: [f64; 2]) -> Option<String> {
         if let Some(why) = self.short_of() {
             return Some(why);
         }
-        let errors = if error.is_finite() { 3.0 * error } else { 0.0 };
-        let tolerance = errors + (0.05 * self.side_force_low.abs()).max(0.005 * weight);
-        let off = (side_force - self.side_force_low).abs();
-        if off.is_nan() || off > tolerance {
-            return Some(format!(
-                "the bit pushes {side_force:.0} N to the low side, and the guide at rest {:.0} N (tolerance {tolerance:.0} N): \
-                 something acts on the guide that this forecast leaves out, such as pressure, shut slots or hinges",
-                self.side_force_low
-            ));
-        }
-        None
+        side_force_doubt(self.side_force_low, weight, [side_force, error])
     }
 
     /// Radius of the next metre (m) with 5 and 95 % of the plausible tools, infinite where it is straight; NaN with fewer tools
@@ -211,6 +199,25 @@ impl Ahead {
         }
         None
     }
+}
+
+/// Why a forecast is not to be believed whose guide at rest has a side force to the low side of `at_rest` (N), under a weight (N)
+/// and the side force of the twin with its standard error (N), where it is not.
+///
+/// The statics hold the guide as its shape and its weight say; where the twin's side force is another one, something else acts
+/// on the guide, and the hole is grown for a tool that there is not. 0.5 % of the weight is what two programs for the same guide
+/// differ by.
+pub fn side_force_doubt(at_rest: f64, weight: f64, [side_force, error]: [f64; 2]) -> Option<String> {
+    let errors = if error.is_finite() { 3.0 * error } else { 0.0 };
+    let tolerance = errors + (0.05 * at_rest.abs()).max(0.005 * weight);
+    let off = (side_force - at_rest).abs();
+    if off.is_nan() || off > tolerance {
+        return Some(format!(
+            "the bit pushes {side_force:.0} N to the low side, and the guide at rest {at_rest:.0} N (tolerance {tolerance:.0} N): \
+             something acts on the guide that this forecast leaves out, such as pressure, shut slots or hinges"
+        ));
+    }
+    None
 }
 
 /// Why nothing is known under these means, where that is so; `flats` is the force of the wear flats (N).

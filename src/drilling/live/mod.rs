@@ -28,7 +28,7 @@ use self::means::Window;
 use self::worker::{Asked, Found, Worker};
 use crate::drilling::tool;
 
-pub use answer::{Ahead, compute, refusal};
+pub use answer::{Ahead, compute, refusal, side_force_doubt};
 pub use means::Means;
 
 /// Model time after which an answer is used (s): several times what it takes.
