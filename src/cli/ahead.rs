@@ -11,6 +11,7 @@ use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
 use crate::hole_ahead::words::{Goal, words};
+use crate::runs::Kept;
 use crate::hole_ahead::{
     Drilling, Learnt, Plan, Present, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, learnt,
     picture, plan, surveys, table, tool,
@@ -65,6 +66,10 @@ pub struct AheadArgs {
     /// Distance from the plan that counts as on plan (m); that of the configuration's plan by default, else 0.5.
     #[arg(long, value_parser = numbers::distance)]
     target: Option<f64>,
+    /// Keeps every plausible tool that has drilled in the folder `tools` of --out, and takes those that are there: the same
+    /// command continues an interrupted one.
+    #[arg(long)]
+    resume: bool,
     /// Tools computed at the same time, one thread each. The results do not depend on it.
     #[arg(long, default_value_t = 1, value_parser = numbers::jobs())]
     jobs: usize,
@@ -137,7 +142,9 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         }
         None => None,
     };
-    let found = answer(&config, &question, learnt, |share| progress.at(share)).with_context(|| name.clone())?;
+    let kept = args.resume.then(|| Kept::open(&args.out.join("tools"))).transpose()?;
+    let report = |share| progress.at(share);
+    let found = answer(&config, &question, learnt, kept.as_ref(), report).with_context(|| name.clone())?;
     progress.done();
     let goal = planned.as_ref().map(|plan| Goal {
         plan,

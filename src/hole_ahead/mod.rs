@@ -15,7 +15,7 @@ pub mod surveys;
 pub mod table;
 pub mod words;
 
-use flexdrill_config::Config;
+use flexdrill_config::{Config, sha256};
 use flexdrill_hole::{Bounds, HoleError, bounds, steady};
 
 pub use crate::drilling::{
@@ -23,7 +23,7 @@ pub use crate::drilling::{
     build, drill, plan, tool, turned,
 };
 use crate::drilling::{middle_inclination, spread, unknowns};
-use crate::runs::{KeepError, KeptAs, Work, run_all};
+use crate::runs::{KeepError, Kept, KeptAs, Work, run_all};
 pub use advice::Advice;
 pub use learnt::Learnt;
 pub use present::Present;
@@ -70,6 +70,8 @@ pub struct Answer {
 
 /// A tool to be run.
 struct Run<'a> {
+    /// Its number among the plausible tools.
+    number: usize,
     drilling: &'a Result<Drilling, String>,
     stations: usize,
 }
@@ -84,9 +86,15 @@ impl Work for Run<'_> {
         1.0
     }
 
-    /// A run takes less time than a file.
     fn kept_as(&self) -> Option<KeptAs> {
-        None
+        let drilling = self.drilling.as_ref().ok()?;
+        Some(KeptAs {
+            name: format!("{:05}", self.number),
+            // All numbers of guide, bit and hole, each as a text that reads back to the bit: whatever changes one of them
+            // makes another tool.
+            config: sha256(format!("{drilling:?}").as_bytes()),
+            load: format!("{} stations", self.stations),
+        })
     }
 
     fn run(&self, _: &mut impl FnMut(f64)) -> Result<Track, String> {
@@ -125,19 +133,22 @@ pub enum AnswerError {
     /// The priors cannot be drawn.
     #[error(transparent)]
     Priors(#[from] flexdrill_uncertainty::UncertaintyError),
-    /// A run cannot be kept, which none is.
+    /// A tool that has drilled cannot be kept.
     #[error(transparent)]
     Keep(#[from] KeepError),
 }
 
-/// Answers for a configuration, with what surveys say.
+/// Answers for a configuration, with what surveys say. Plausible tools that are `kept` do not drill again, and each that has
+/// drilled is kept.
 ///
 /// # Errors
-/// When nothing can be predicted for the configuration as it is. A member that fails is part of the answer.
+/// When nothing can be predicted for the configuration as it is, or a tool cannot be kept. A member that fails is part of the
+/// answer.
 pub fn answer(
     config: &Config,
     question: &Question,
     learnt: Option<Learnt>,
+    kept: Option<&Kept>,
     progress: impl FnMut(f64),
 ) -> Result<Answer, AnswerError> {
     let drilling = Drilling::of(config, question.weight, question.azimuth)?;
@@ -154,8 +165,13 @@ pub fn answer(
     let members = if measured { 0 } else { members };
     let tools = unknowns::members(config, weight, azimuth, members, seed)?;
     let stations = question.stations;
-    let runs: Vec<Run<'_>> = tools.iter().map(|drilling| Run { drilling, stations }).collect();
-    let mut members = run_all(&runs, question.jobs, None, progress)?;
+    let run = |(number, drilling)| Run {
+        number,
+        drilling,
+        stations,
+    };
+    let runs: Vec<Run<'_>> = tools.iter().enumerate().map(run).collect();
+    let mut members = run_all(&runs, question.jobs, kept, progress)?;
     let mut nominal = nominal;
     if let Some(learnt) = &learnt {
         members = learnt.plausible(&nominal, &members, seed)?;
@@ -180,6 +196,31 @@ pub fn answer(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A file of a tool that differs in one bit, or drills further, is none of this one.
+    #[test]
+    fn a_tool_is_kept_by_all_that_it_is() {
+        let yaml = include_str!("../../tests/data/ahead.yaml");
+        let config = Config::from_text("ahead.yaml", yaml).unwrap();
+        let tool = Drilling::of(&config, 10e3, 0.0).unwrap();
+        let kept = |drilling: Drilling, stations| {
+            let drilling = Ok(drilling);
+            let number = 7;
+            let run = Run {
+                number,
+                drilling: &drilling,
+                stations,
+            };
+            run.kept_as().unwrap()
+        };
+        let this = kept(tool.clone(), 20);
+        assert_eq!(this, kept(tool.clone(), 20));
+        assert_ne!(this, kept(tool.clone(), 21));
+        let mut other = tool;
+        other.guide.gap = other.guide.gap.next_up();
+        let other = kept(other, 20);
+        assert!(this.name == other.name && this.config != other.config);
+    }
 
     #[test]
     fn numbers_of_a_track_read_back() {

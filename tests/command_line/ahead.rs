@@ -132,6 +132,58 @@ fn the_range_of_radii_is_that_of_the_closed_form() {
     );
 }
 
+/// The command is killed after its first tools, and continues: the files are those of a whole run. A file of another
+/// tool counts as absent, one of the same tool is taken without drilling.
+#[test]
+fn an_interrupted_command_continues_with_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = configuration(folder.path(), &[]);
+    let [whole, parts] = ["a", "b"].map(|name| folder.path().join(name));
+    let fixed = ["--members=40", "--metres=1", "--radius=3.2"];
+    let resume = [&fixed[..], &["--resume"]].concat();
+    let tools = parts.join("tools");
+    let done = || std::fs::read_dir(&tools).map_or(0, |files| files.flatten().filter(is_json).count());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(["ahead", config.to_str().unwrap(), "--out", parts.to_str().unwrap()])
+        .args(&resume)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    // A minute: a tool takes some milliseconds, and a busy machine some hundred times that.
+    let until = std::time::Instant::now() + std::time::Duration::from_secs(60);
+    while done() < 3 && std::time::Instant::now() < until {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    command.kill().unwrap();
+    command.wait().unwrap();
+    let before = done();
+    assert!(before >= 3, "{before} tools are kept");
+    ahead(&config, &whole, &fixed);
+    ahead(&config, &parts, &resume);
+    assert_eq!(done(), 40);
+    for name in ["ahead.csv", "ahead.svg"] {
+        let [a, b] = [&whole, &parts].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(a == b, "{name}");
+    }
+    // A kept tool that is said to have failed is unknown: it did not drill again.
+    let first = tools.join("00000.json");
+    let kept = std::fs::read_to_string(&first).unwrap();
+    let mut part: serde_json::Value = serde_json::from_str(&kept).unwrap();
+    part["found"] = serde_json::json!({"Err": "marked"});
+    std::fs::write(&first, part.to_string()).unwrap();
+    let (said, _) = ahead(&config, &parts, &resume);
+    assert!(said.contains("Unknown for 1 plausible tool: marked"), "{said}");
+    // Of another tool the same file is none.
+    let softer = configuration(folder.path(), &[("bending_factor: 0.05", "bending_factor: 0.04")]);
+    let (said, _) = ahead(&softer, &parts, &resume);
+    assert!(!said.contains("marked"), "{said}");
+}
+
+fn is_json(file: &std::fs::DirEntry) -> bool {
+    file.path().extension().is_some_and(|extension| extension == "json")
+}
+
 #[test]
 fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
