@@ -11,11 +11,11 @@ use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
 use crate::hole_ahead::words::{Goal, words};
-use crate::runs::Kept;
 use crate::hole_ahead::{
     Drilling, Learnt, Plan, Present, Question, Refusal, SPACING, USUAL_LENGTH, USUAL_WEIGHT, advice, answer, learnt,
     picture, plan, surveys, table, tool,
 };
+use crate::runs::Kept;
 use flexdrill_config::Config;
 use flexdrill_core::units::kn_to_n;
 use flexdrill_hole::{HoleError, Survey};

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 
 use flexdrill_core::inputs::Dimension;
 use flexdrill_messages::{
-    Alarm, AlarmList, BitState, ContactForces, JointDeflections, Message, Transfer, TwinStatus, WhirlWarning,
-    message_from_cdr_body,
+    Alarm, AlarmList, BitState, ContactForces, HoleAhead, JointDeflections, Message, Transfer, TwinStatus,
+    WhirlWarning, message_from_cdr_body,
     topics::{self, TopicInfo},
 };
 use flexdrill_outputs::figures::{self, Figure as Scalar};
@@ -177,6 +177,15 @@ messages! {
     JOINT_DEFLECTIONS: JointDeflections { ..figures::JOINT_DEFLECTIONS }
     CONTACT_FORCES: ContactForces { ..figures::CONTACT_FORCES }
     TRANSFER: Transfer { ..figures::TRANSFER }
+    HOLE_AHEAD: HoleAhead {
+        "hole_radius_low" in Length: |hole| hole.radius_low,
+            "Radius of the hole over the next metre: 5 % of the plausible tools drill a smaller one.";
+        "hole_radius_high" in Length: |hole| hole.radius_high,
+            "Radius of the hole over the next metre: 5 % of the plausible tools drill a larger one.";
+        "hole_inclination_ahead" in Angle: |hole| hole.inclinations.last().copied().unwrap_or(f64::NAN),
+            "Inclination of the hole 5 m ahead: 0 is straight down.";
+        ..figures::HOLE_AHEAD
+    }
     STATUS: TwinStatus kept as status {
         "real_time_factor" in Number: |status| status.real_time_factor, "Model time over wall time.";
         "model_quality" in Number: |status| f64::from(status.model_quality),
@@ -243,6 +252,36 @@ mod tests {
             priority: Alarm::MEDIUM,
             ..Alarm::default()
         };
+        let hole = HoleAhead {
+            known: true,
+            radius: 3.2,
+            build_rate: 0.3125,
+            plan_weight: f64::NAN,
+            inclinations: vec![0.3, 1.1, 1.9],
+            ..HoleAhead::default()
+        };
+        twin.take(topics::HOLE_AHEAD.name, &to_cdr_body(&hole).unwrap())
+            .unwrap();
+        assert_eq!(value(&twin, "hole_known"), Some(1.0));
+        assert_eq!(value(&twin, "hole_radius"), Some(3.2));
+        assert_eq!(value(&twin, "hole_inclination_ahead"), Some(1.9));
+        assert_eq!(value(&twin, "hole_plan_weight"), None);
+        let build = Figure::of_name("hole_build_rate").unwrap();
+        assert_eq!(
+            (twin.value(build), build.dimension.si().name()),
+            (Some(0.3125), "rad/m")
+        );
+        // A hole that is no longer known leaves no value behind.
+        let unknown = HoleAhead {
+            radius: f64::NAN,
+            ..HoleAhead::default()
+        };
+        twin.take(topics::HOLE_AHEAD.name, &to_cdr_body(&unknown).unwrap())
+            .unwrap();
+        assert_eq!(value(&twin, "hole_known"), Some(0.0));
+        for name in ["hole_radius", "hole_inclination_ahead"] {
+            assert_eq!(value(&twin, name), None, "{name}");
+        }
         let list = AlarmList {
             alarms: vec![Alarm::default(), active],
             ..AlarmList::default()

@@ -37,13 +37,17 @@ pub const fn code(unit: Unit) -> Option<&'static str> {
         Unit::StandardGravity => "K40",
         Unit::Radian => "C81",
         Unit::Degree => "DD",
+        Unit::RadianPerMetre => "C84",
+        Unit::DegreePerMetre => "H27",
         Unit::Second => "SEC",
         Unit::One => "C62",
         Unit::Decanewton
         | Unit::Kilodecanewton
         | Unit::TonneForce
         | Unit::KilodecanewtonMetre
-        | Unit::KilofootPound => return None,
+        | Unit::KilofootPound
+        | Unit::DegreePerThirtyMetres
+        | Unit::DegreePerHundredFeet => return None,
     })
 }
 

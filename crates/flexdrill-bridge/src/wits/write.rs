@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::wits::{Decoder, FrameReader, FrameUse, Piece, Sequence};
     use flexdrill_core::inputs::MeasuredKind;
-    use flexdrill_messages::{BitState, to_cdr_body, topics};
+    use flexdrill_messages::{BitState, HoleAhead, to_cdr_body, topics};
 
     const AT: i64 = 1_700_000_000_000_000_000;
 
@@ -230,6 +230,31 @@ mod tests {
             text,
             "&&\r\n4001B-2\r\n400340\r\n40041\r\n4005231114\r\n4006221320\r\n40080.350\r\n4101B-2\r\n410341\r\n41041\r\n\
              4105231114\r\n4106221320\r\n41091.50\r\n!!\r\n"
+        );
+    }
+
+    /// 17.9 deg/m of an arc of 3.2 m are 537 deg/30m, whatever the rig's unit is.
+    #[test]
+    fn the_hole_ahead_is_sent_in_the_sites_units() {
+        let text = "write:\n  items:\n    \"4008\": {figure: hole_radius, unit: ft}\n    \"4009\": {figure: hole_build_rate, \
+                    unit: deg/30m}\n    \"4010\": {figure: hole_plan_weight, unit: kN}\n";
+        let mapping = Mapping::from_text("site.yaml", text).unwrap();
+        let mut frames = TwinFrames::new(mapping.write.as_ref().unwrap(), 0);
+        let mut twin = TwinFigures::default();
+        let hole = HoleAhead {
+            known: true,
+            radius: 3.2,
+            build_rate: 1.0 / 3.2,
+            plan_weight: f64::NAN,
+            ..HoleAhead::default()
+        };
+        twin.take(topics::HOLE_AHEAD.name, &to_cdr_body(&hole).unwrap())
+            .unwrap();
+        let text = String::from_utf8(frames.frame(&twin, AT).unwrap()).unwrap();
+        // No weight is needed, so that the frame has none.
+        assert!(
+            text.contains("400810.50\r\n4009537.15\r\n!!") && !text.contains("4010"),
+            "{text}"
         );
     }
 }

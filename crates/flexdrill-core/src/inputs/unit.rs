@@ -28,6 +28,8 @@ pub enum Dimension {
     Acceleration,
     /// SI unit: rad.
     Angle,
+    /// SI unit: rad/m.
+    TurnRate,
     /// SI unit: s.
     Time,
     /// A number alone.
@@ -46,6 +48,7 @@ impl Dimension {
             Self::RotarySpeed => Unit::RadianPerSecond,
             Self::Acceleration => Unit::MetrePerSecondSquared,
             Self::Angle => Unit::Radian,
+            Self::TurnRate => Unit::RadianPerMetre,
             Self::Time => Unit::Second,
             Self::Number => Unit::One,
         }
@@ -60,6 +63,7 @@ impl Dimension {
             Self::Speed => Unit::MetrePerHour,
             Self::RotarySpeed => Unit::TurnPerMinute,
             Self::Angle => Unit::Degree,
+            Self::TurnRate => Unit::DegreePerMetre,
             Self::Length | Self::Acceleration | Self::Time | Self::Number => self.si(),
         }
     }
@@ -173,6 +177,14 @@ units! {
     Radian "rad" in Angle: same;
     /// Degree.
     Degree "deg" in Angle: deg_to_rad;
+    /// Radians per metre.
+    RadianPerMetre "rad/m" in TurnRate: same;
+    /// Degrees per metre.
+    DegreePerMetre "deg/m" in TurnRate: deg_to_rad;
+    /// Degrees per 30 metres.
+    DegreePerThirtyMetres "deg/30m" in TurnRate: |value: f64| deg_to_rad(value) / 30.0;
+    /// Degrees per 100 feet.
+    DegreePerHundredFeet "deg/100ft" in TurnRate: |value: f64| deg_to_rad(value) / ft_to_m(100.0);
     /// Second.
     Second "s" in Time: same;
     /// A number alone.
@@ -219,6 +231,10 @@ mod tests {
         }
         assert_eq!(Unit::Foot.to_si(10.0), 3.048);
         assert_eq!(Unit::StandardGravity.to_si(1.0), 9.806_65);
+        // An arc of 3.2 m turns by 17.9 deg/m: 90 deg over its 5.03 m.
+        assert!((Unit::DegreePerMetre.from_si(1.0 / 3.2) - 90.0 / (1.6 * std::f64::consts::PI)).abs() < 1e-12);
+        assert!((Unit::DegreePerThirtyMetres.to_si(30.0) - Unit::DegreePerMetre.to_si(1.0)).abs() < 1e-15);
+        assert!((Unit::DegreePerHundredFeet.to_si(30.48) - Unit::DegreePerMetre.to_si(1.0)).abs() < 1e-15);
         // 1 psi = 6.894757 kPa, 1 ft.lbf = 1.355818 N m (NIST SP 811, B.8), to their seven digits.
         assert!((Unit::Psi.to_si(1.0) - 6_894.757).abs() < 5e-4);
         assert!((Unit::FootPound.to_si(1.0) - 1.355_818).abs() < 5e-7);

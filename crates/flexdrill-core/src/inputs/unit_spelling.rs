@@ -76,6 +76,10 @@ const SPELLINGS: &[(Unit, &[&str])] = &[
     (Unit::StandardGravity, &["g"]),
     (Unit::Radian, &["rad", "rads"]),
     (Unit::Degree, &["deg", "degs", "degree", "degrees", "dega", "°"]),
+    (Unit::RadianPerMetre, &["rad/m"]),
+    (Unit::DegreePerMetre, &["deg/m", "°/m"]),
+    (Unit::DegreePerThirtyMetres, &["deg/30m", "°/30m"]),
+    (Unit::DegreePerHundredFeet, &["deg/100ft", "°/100ft"]),
     (Unit::Second, &["s", "sec", "secs", "second", "seconds"]),
 ];
 

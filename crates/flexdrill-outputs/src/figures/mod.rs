@@ -7,5 +7,5 @@ mod tables;
 
 pub use over_tools::{Known, OverTools};
 pub use row::{Figure, Group, Kind, Shown, Window};
-pub use tables::{BIT_STATE, CONTACT_FORCES, JOINT_DEFLECTIONS, TRANSFER};
+pub use tables::{BIT_STATE, CONTACT_FORCES, HOLE_AHEAD, JOINT_DEFLECTIONS, TRANSFER};
 pub(crate) use tables::{fill_bit_state, fill_contact_forces, fill_joint_deflections, fill_transfer};

@@ -18,8 +18,8 @@ pub struct Figure<M: 'static> {
     pub shown: Option<Shown>,
     /// Its name on the protocols of the bridges; `None` where they do not send it.
     pub bridge: Option<&'static str>,
-    /// Its value in a snapshot (SI).
-    pub source: fn(&Snapshot) -> f64,
+    /// Its value in a snapshot (SI); `None` in a message that is made from more than a snapshot.
+    pub source: Option<fn(&Snapshot) -> f64>,
     /// Its value in a message (SI).
     pub read: fn(&M) -> f64,
     /// Sets its value in a message (SI).
@@ -157,6 +157,10 @@ kinds! {
     Acceleration in Some(Acceleration), sent in "m/s2", shown in "m/s²" times 1.0;
     /// Angle (rad).
     Angle in Some(Angle), sent in "rad", shown in "deg" times rad_to_deg(1.0);
+    /// Length (m).
+    Length in Some(Length), sent in "m", shown in "m" times 1.0;
+    /// Turn of the hole per metre (rad/m).
+    TurnRate in Some(TurnRate), sent in "rad/m", shown in "deg/m" times rad_to_deg(1.0);
     /// Time (s).
     Time in Some(Time), sent in "s", shown in "s" times 1.0;
     /// Power (W).

@@ -6,12 +6,18 @@
 //!
 //! where the source reads a part `s` of the snapshot. Rows of a group stand in the order in which tables show them, from
 //! the surface to the bit; bridges send theirs in the order of the rows. NaN is a figure that the tool does not have.
+//! A message that is made from more than a snapshot has rows without a source, for the bridges alone:
+//!
+//! ```text
+//! field: Kind, Window, bridge "name";
+//! ```
+//!
 //! Friction and drag are arrays: between pipe and guide, between guide and wall, in the joints, and last along the string.
 
 use super::row::{Figure, Group, Kind, Shown, Window};
 use crate::fill::largest;
 use flexdrill_core::twin::{Joints, Snapshot};
-use flexdrill_messages::{BitState, ContactForces, JointDeflections, Transfer};
+use flexdrill_messages::{BitState, ContactForces, HoleAhead, JointDeflections, Transfer};
 use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
 macro_rules! figures {
@@ -26,23 +32,42 @@ macro_rules! figures {
     ) => {
         $(#[$doc])*
         pub const $table: &[Figure<$message>] = &[$(Figure {
-            field: stringify!($field),
-            kind: Kind::$kind,
-            window: Window::$window,
             shown: first(&[$(Shown { group: Group::$group, label: $label, short: last([$label $(, $short)?]) })?]),
             bridge: first(&[$($bridge)?]),
-            source: |snapshot| {
+            source: Some(|snapshot| {
                 let $s = &snapshot.$part;
                 f64::from($source)
-            },
-            read: |message| f64::from(message.$field),
-            write: |message, value| message.$field.set(value),
+            }),
+            ..figures!(@row $message $field $kind $window)
         }),*];
 
         /// Fills the figures of a message.
         pub(crate) fn $fill(snapshot: &Snapshot, out: &mut $message) {
             let $s = &snapshot.$part;
             $(out.$field = $source;)*
+        }
+    };
+    (
+        $(#[$doc:meta])*
+        $table:ident of $message:ident, made elsewhere;
+        $($field:ident: $kind:ident, $window:ident, bridge $bridge:literal;)*
+    ) => {
+        $(#[$doc])*
+        pub const $table: &[Figure<$message>] = &[$(Figure {
+            bridge: Some($bridge),
+            ..figures!(@row $message $field $kind $window)
+        }),*];
+    };
+    (@row $message:ident $field:ident $kind:ident $window:ident) => {
+        Figure {
+            field: stringify!($field),
+            kind: Kind::$kind,
+            window: Window::$window,
+            shown: None,
+            bridge: None,
+            source: None,
+            read: |message: &$message| f64::from(message.$field),
+            write: |message: &mut $message, value| message.$field.set(value),
         }
     };
 }
@@ -62,6 +87,13 @@ impl Number for f64 {
 impl Number for u32 {
     fn set(&mut self, value: f64) {
         *self = value as u32;
+    }
+}
+
+/// 0 and 1.
+impl Number for bool {
+    fn set(&mut self, value: f64) {
+        *self = value != 0.0;
     }
 }
 
@@ -184,6 +216,17 @@ figures! {
     axial_update_power: Power, LongMean = s.power.axial_update;
     stored_power: Power, LongMean = s.power.stored;
     error_power: Power, LongMean = s.power.error;
+}
+
+figures! {
+    /// The figures of `twin/hole_ahead` that bridges send. NaN where the hole ahead is not known.
+    HOLE_AHEAD of HoleAhead, made elsewhere;
+    known: Number, Instant, bridge "hole_known";
+    radius: Length, Instant, bridge "hole_radius";
+    build_rate: TurnRate, Instant, bridge "hole_build_rate";
+    walk_rate: TurnRate, Instant, bridge "hole_walk_rate";
+    plan_off: Number, Instant, bridge "hole_plan_off";
+    plan_weight: Weight, Instant, bridge "hole_plan_weight";
 }
 
 /// Number of joints at the limit of their angle.

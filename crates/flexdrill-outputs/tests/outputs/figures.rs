@@ -1,14 +1,14 @@
 //! The table of figures and the definitions of the messages agree.
 
-use flexdrill_messages::{Message, Transfer};
-use flexdrill_outputs::figures::{BIT_STATE, CONTACT_FORCES, Figure, JOINT_DEFLECTIONS, TRANSFER, Window};
+use flexdrill_messages::Message;
+use flexdrill_outputs::figures::{BIT_STATE, CONTACT_FORCES, Figure, HOLE_AHEAD, JOINT_DEFLECTIONS, TRANSFER, Window};
 
 /// The scalar numbers of a message's definition, by type and name. A constant has a value.
 fn scalars<M: Message>() -> Vec<(&'static str, &'static str)> {
     let lines = M::INFO.source().lines().filter(|line| !line.contains(['#', '=']));
     let fields = lines.filter_map(|line| line.split_once(' '));
     fields
-        .filter(|(kind, _)| ["float64", "uint32"].contains(kind))
+        .filter(|(kind, _)| ["float64", "uint32", "bool"].contains(kind))
         .collect()
 }
 
@@ -47,6 +47,7 @@ fn every_scalar_of_the_messages_is_a_row() {
     check_all(BIT_STATE);
     check(JOINT_DEFLECTIONS);
     check(CONTACT_FORCES);
+    check(HOLE_AHEAD);
     check_all(TRANSFER);
 }
 
@@ -69,12 +70,14 @@ fn names_and_labels_are_unique() {
     names.extend(JOINT_DEFLECTIONS.iter().filter_map(|figure| figure.bridge));
     names.extend(CONTACT_FORCES.iter().filter_map(|figure| figure.bridge));
     names.extend(TRANSFER.iter().filter_map(|figure| figure.bridge));
+    names.extend(HOLE_AHEAD.iter().filter_map(|figure| figure.bridge));
     let sent = names.len();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), sent);
     check_labels(BIT_STATE);
     check_labels(TRANSFER);
+    check_labels(HOLE_AHEAD);
     // A figure of the bit without a label would be in no report.
     assert!(BIT_STATE.iter().all(|figure| figure.shown.is_some()));
 }
@@ -109,11 +112,17 @@ fn columns_carry_their_units() {
 /// What is written is read again, in this field alone.
 #[test]
 fn a_figure_writes_its_own_field() {
-    for (at, figure) in TRANSFER.iter().enumerate() {
-        let mut message = Transfer::default();
-        (figure.write)(&mut message, 7.0);
-        for (other, read) in TRANSFER.iter().map(|figure| figure.read).enumerate() {
-            assert_eq!(read(&message) == 7.0, other == at, "{}", figure.field);
+    check_writes(TRANSFER);
+    check_writes(HOLE_AHEAD);
+}
+
+fn check_writes<M: Message + Default>(table: &[Figure<M>]) {
+    for (at, figure) in table.iter().enumerate() {
+        let mut message = M::default();
+        // 1 is a value of a flag too.
+        (figure.write)(&mut message, 1.0);
+        for (other, read) in table.iter().map(|figure| figure.read).enumerate() {
+            assert_eq!(read(&message) == 1.0, other == at, "{}", figure.field);
         }
     }
 }
