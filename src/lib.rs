@@ -12,6 +12,7 @@
 //! - [`map`]: points of maps and sweeps: what would be over two quantities, or over a table of values.
 //! - [`hole_ahead`]: where the tool of a configuration drills next, with a plan.
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
+//! - [`trip`]: hook load and torque of a trip over the depth of the bit.
 //! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
 //! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
 //! - [`ensemble`]: plausible tools that run with the twin, and what they do together. [`drilling`]: where a tool drills next,
@@ -51,6 +52,8 @@ pub mod safe_window;
 #[cfg(feature = "sweep")]
 pub mod sensitivity;
 pub mod session;
+#[cfg(feature = "sweep")]
+pub mod trip;
 
 pub use flexdrill_bag as bag;
 pub use flexdrill_dashboard as dashboard;

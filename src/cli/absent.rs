@@ -41,4 +41,5 @@ absent! {
     report, ReportArgs, "report", "report";
     sensitivity, SensitivityArgs, "sensitivity", "sweep";
     sweep, SweepArgs, "sweep", "sweep";
+    trip, TripArgs, "trip", "sweep";
 }

@@ -43,7 +43,7 @@ pub struct AheadArgs {
     #[arg(long, value_parser = numbers::kilonewton)]
     weight: Option<f64>,
     /// Plausible tools, drawn from what is not known.
-    #[arg(long, default_value_t = 100, value_parser = members())]
+    #[arg(long, default_value_t = 100, value_parser = numbers::members())]
     members: usize,
     /// Seed of the draws: the same seed gives the same results.
     #[arg(long, default_value_t = 1)]
@@ -79,11 +79,6 @@ pub struct AheadArgs {
 const USUAL_TARGET: f64 = 0.5;
 /// Largest table of surveys (bytes).
 const LARGEST: u64 = 4 << 20;
-
-/// A number of members.
-fn members() -> clap::builder::RangedU64ValueParser<usize> {
-    clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000)
-}
 
 /// Runs the subcommand.
 ///

@@ -62,6 +62,8 @@ mod signals;
 mod source;
 #[cfg(feature = "sweep")]
 mod sweep;
+#[cfg(feature = "sweep")]
+mod trip;
 mod verify;
 mod watch;
 #[cfg(any(feature = "calibrate", feature = "sweep"))]
@@ -93,6 +95,8 @@ use self::absent::report;
 use self::absent::sensitivity;
 #[cfg(not(feature = "sweep"))]
 use self::absent::sweep;
+#[cfg(not(feature = "sweep"))]
+use self::absent::trip;
 use crate::cli::output::{tell, tell_text};
 use crate::dds::side;
 use crate::ros::args;
@@ -123,6 +127,7 @@ enum Command {
     Bench(bench::BenchArgs),
     Reach(reach::ReachArgs),
     Ahead(ahead::AheadArgs),
+    Trip(trip::TripArgs),
     Calibrate(Box<calibrate::CalibrateArgs>),
     Map(Box<map::MapArgs>),
     Sweep(sweep::SweepArgs),
@@ -318,6 +323,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Bench(args) => bench::run(&args),
         Command::Reach(args) => reach::run(&args),
         Command::Ahead(args) => ahead::run(&args),
+        Command::Trip(args) => trip::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Sweep(args) => sweep::run(&args),

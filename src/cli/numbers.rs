@@ -79,6 +79,11 @@ pub(super) fn distance(text: &str) -> Result<f64, NumberError> {
     number(text, 0.01, 100.0, "m")
 }
 
+/// A speed along the hole on a trip (m/s).
+pub(super) fn trip_speed(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.001, 10.0, "m/s")
+}
+
 /// A measured depth from the kick-off (m).
 pub(super) fn measured_depth(text: &str) -> Result<f64, NumberError> {
     number(text, 0.0, 100_000.0, "m")
@@ -87,6 +92,11 @@ pub(super) fn measured_depth(text: &str) -> Result<f64, NumberError> {
 /// A number of threads.
 pub(super) fn jobs() -> clap::builder::RangedU64ValueParser<usize> {
     clap::builder::RangedU64ValueParser::<usize>::new().range(1..=256)
+}
+
+/// A number of plausible tools.
+pub(super) fn members() -> clap::builder::RangedU64ValueParser<usize> {
+    clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000)
 }
 
 /// Turns of the tool.
@@ -106,7 +116,7 @@ mod tests {
     #[test]
     fn implausible_numbers_are_refused_with_the_bounds() {
         type Parser = fn(&str) -> Result<f64, NumberError>;
-        let parsers: [Parser; 14] = [
+        let parsers: [Parser; 15] = [
             seconds,
             time_step,
             rpm,
@@ -120,6 +130,7 @@ mod tests {
             metres_ahead,
             arc_radius,
             distance,
+            trip_speed,
             measured_depth,
         ];
         for parse in parsers {

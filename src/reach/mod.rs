@@ -88,7 +88,7 @@ pub fn study(
             links: point.links,
             friction: point.friction,
             rotates: point.rotates,
-            soft: SoftString::of(&point.config.tool(), &plan.load, point.rotates),
+            soft: SoftString::of(&point.config, &plan.load, point.rotates),
             found,
         })
         .collect())

@@ -9,6 +9,7 @@ use flexdrill_core::tool::{Body, PressureSource, SectionProperties, ToolDescript
 use flexdrill_core::twin::{Simulation, Snapshot};
 use flexdrill_core::units::n_to_kn;
 use flexdrill_motion::{BIT, KICK_OFF};
+use flexdrill_trip::soft_string::buckling_load;
 
 use crate::drilling::loads::weights;
 
@@ -353,27 +354,9 @@ impl Forces {
     }
 }
 
-/// Compression (N) at which a pipe of bending stiffness EI (N m2) with a clearance r (m) leaves the low side: F = 2
-/// sqrt(EI q / r) with the force q per length that presses it there (Dawson and Paslay, J. Pet. Tech. 36 (10), 1984). In an
-/// arc that builds, q = `across` + F kappa, so that F = 2 EI kappa / r (1 + sqrt(1 + r `across` / (EI kappa^2))).
-fn buckling_load(bending: f64, clearance: f64, across: f64, curvature: f64) -> f64 {
-    let bent = 2.0 * bending * curvature / clearance;
-    bent + (bent * bent + 4.0 * bending * across / clearance).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_buckling_load_solves_its_equation() {
-        for (across, curvature) in [(361.5, 0.0), (361.5, 1.0 / 3.2), (0.0, 1.0 / 3.2)] {
-            let (bending, clearance) = (3.4e4, 0.008);
-            let load = buckling_load(bending, clearance, across, curvature);
-            let expected = 2.0 * (bending * (across + load * curvature) / clearance).sqrt();
-            assert!((load / expected - 1.0).abs() < 1e-12, "{load} {expected}");
-        }
-    }
 
     #[test]
     fn means_cover_whole_turns_and_must_agree() {

@@ -16,6 +16,7 @@ mod reach;
 mod sensitivity;
 mod surveys;
 mod sweep;
+mod trip;
 mod usage;
 mod verify;
 mod wits_look;

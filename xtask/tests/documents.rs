@@ -160,7 +160,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 19] = [
+const WRITTEN_FILES: [&str; 20] = [
     // by `flexdrill ahead`
     "surveys.csv",
     "metadata.yaml",
@@ -181,6 +181,8 @@ const WRITTEN_FILES: [&str; 19] = [
     "sensitivity.csv",
     "sensitivity.json",
     "ahead.csv",
+    // by `flexdrill trip`
+    "trip.csv",
     // by `flexdrill bridge wits --look`
     "site.yaml",
 ];

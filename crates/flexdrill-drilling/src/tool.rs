@@ -127,6 +127,11 @@ pub fn guide(config: &Config, weight: f64) -> Guide {
     }
 }
 
+/// Longest chord of the hole that a guide lies in (m).
+pub fn chord(guide: &Guide) -> f64 {
+    LONGEST_CHORD.min(guide.length / FEWEST_CHORDS)
+}
+
 /// The bit of a configuration under a weight (N).
 ///
 /// # Errors
@@ -156,7 +161,7 @@ impl Drilling {
     pub fn of(config: &Config, weight: f64, azimuth: f64) -> Result<Self, Refusal> {
         check(config)?;
         let (guide, law) = (guide(config, weight), bit(config, weight)?);
-        let chords = (SPACING / LONGEST_CHORD.min(guide.length / FEWEST_CHORDS)).ceil();
+        let chords = (SPACING / chord(&guide)).ceil();
         let chord = SPACING / chords;
         let mut hole = Hole::begin(deg_to_rad(config.well.start_inclination_deg), azimuth)?;
         for section in &config.well.sections {

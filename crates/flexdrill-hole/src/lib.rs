@@ -15,7 +15,7 @@
 //!
 //! # Layout
 //! `bit_law` is the law, `guide` the tool, `closed_form` and `ripple` have formulas, `hole` the drilled path; `beam`,
-//! `blocks` and `statics` compute the equilibrium, and `propagation` lets the hole grow. `surveys` corrects a forecast by what
+//! `blocks` and `statics` compute the equilibrium, at rest or `sliding` on a trip, and `propagation` lets the hole grow. `surveys` corrects a forecast by what
 //! was measured.
 
 mod beam;
@@ -27,6 +27,7 @@ mod guide;
 mod hole;
 mod propagation;
 mod ripple;
+mod sliding;
 mod statics;
 mod surveys;
 
@@ -37,6 +38,7 @@ pub use guide::{Gravity, Guide};
 pub use hole::{Frame, Hole};
 pub use propagation::{Advance, Propagation};
 pub use ripple::{RIPPLE_THRESHOLD, Ripple, ripple_of_two_contacts};
+pub use sliding::{Sense, Sliding, sliding};
 pub use statics::{Equilibrium, at_rest};
 pub use surveys::{
     KEPT, PlaneModel, PlaneState, Planes, RunStart, Survey, SurveyFilter, USUAL_INCLINATION_DEVIATION,

@@ -68,6 +68,8 @@ pub(crate) struct Statics {
     pieces: Vec<Piece>,
     beam: Beam,
     thrust: Vec<f64>,
+    /// Thrust just above each point, whatever bends there (N).
+    pub axial: Vec<f64>,
     stiffness: Blocks,
     tangent: Blocks,
     load: Vec<Vector4<f64>>,
@@ -144,7 +146,7 @@ impl Statics {
     /// two changes, takes it out.
     fn settle(&mut self, guide: &Guide, weight: f64, at_bit: &AtBit) -> bool {
         // The last is the force that straightens the guide: without weight and thrust it is all that acts.
-        let loads = weight
+        let loads = weight.abs()
             + guide.weight_per_metre * guide.length
             + guide.bending_stiffness * guide.free_curvature.abs() / guide.length;
         let mut factor = 1.0;
@@ -371,6 +373,8 @@ impl Statics {
         let mut thrust = weight;
         self.change.clear();
         self.change.resize(last, 0.0);
+        self.axial.clear();
+        self.axial.resize(last + 1, weight);
         for index in (0..last).rev() {
             let piece = self.pieces[index];
             let gradient = piece.turn * thrust - piece.weight;
@@ -388,6 +392,7 @@ impl Statics {
                 shear -= force;
                 thrust += guide.wall_friction * force.norm();
             }
+            self.axial[index] = thrust;
         }
     }
 
@@ -420,7 +425,7 @@ impl Statics {
         length
     }
 
-    fn equilibrium(&self, guide: &Guide) -> Equilibrium {
+    pub(crate) fn equilibrium(&self, guide: &Guide) -> Equilibrium {
         let wall = |index| self.wall(guide, index).map_or_else(Vector2::zeros, |(force, _)| force);
         Equilibrium {
             side_force: self.side_force(),
