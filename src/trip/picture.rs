@@ -13,6 +13,7 @@ const WEIGHT: usize = 6;
 /// Hook load without rotation and with it, and torque with rotation.
 pub fn figure(rows: &[Row]) -> Drawn {
     let x = "depth of the bit below the kick-off (m)";
+    // Out and in with their bands, around the weight that both would have without friction.
     let hook = |title: &str, figures: [(Figure, &str, usize); 2]| {
         let panel = Panel::new(title, x, "hook load without block (kN)").legend(Legend::Stacked);
         let panel = figures.into_iter().fold(panel, |panel, of| curve(panel, rows, of));
@@ -27,6 +28,7 @@ pub fn figure(rows: &[Row]) -> Drawn {
                 .color(WEIGHT),
         )
     };
+    // A tool that does not turn has no torque.
     let torque = [
         (Figure::OutTorque, "pulling out", OUT),
         (Figure::InTorque, "running in", IN),
@@ -52,6 +54,7 @@ pub fn figure(rows: &[Row]) -> Drawn {
         ),
         torque,
     ];
+    // A trip without results has no curves.
     panels.retain(|panel| !panel.lines.is_empty());
     Drawn {
         name: "trip",

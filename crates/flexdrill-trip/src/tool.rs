@@ -17,7 +17,7 @@ pub struct Tool {
     guide: Guide,
     /// Weight per length of the pipe (N/m), its friction in the guide, and the radius at which it rubs (m).
     pipe: [f64; 3],
-    /// The hole from the kick-off down; above it, it goes on straight.
+    /// The hole from the kick-off down; above it, it continues straight.
     sections: Vec<Section>,
     /// Inclination at the kick-off (rad).
     start: f64,

@@ -23,6 +23,7 @@ tool:
   bit: {{diameter: 0.118}}
 contact: {{inner: {{friction_tangential: 0.2, friction_axial: 0.2}}, outer: {{friction_tangential: 0.3, friction_axial: 0.3}}}}
 environment: {{gravity: 9.81, buoyancy_factor: 0.86}}
+boundary: {{supports: [{{at: top, body: guide, fix: [psi]}}]}}
 string: {{model: line, friction: {{coefficient: 0.25}}, sections: [{sections}]}}
 "
     );
