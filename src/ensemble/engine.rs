@@ -8,11 +8,11 @@ use super::evidence::{Compared, Errors, WINDOW, channel, unexplained};
 use super::judgement::prior_of_friction;
 use super::member::Member;
 use super::place::{Place, State, Threads, in_parallel};
+use super::replacing::Choice;
 use crate::residuals::{Judgement, predicted};
 use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_config::{Config, Members};
 use flexdrill_core::twin::RunInputs;
-use flexdrill_ensemble::{LEAST_MEMBERS, effective_number, renewal, weights};
 use flexdrill_messages::Bands;
 use flexdrill_realtime::monotonic;
 use flexdrill_text::log_ending;
@@ -25,9 +25,6 @@ const PER_SECOND: u64 = 2;
 /// Model time after which members may give way to others, and for which those are prepared: the motion and the means of a
 /// tool that begins in the middle of a run have settled after it (s).
 const PREPARED: f64 = 60.0;
-/// Scatter of a new member about the one that it is near, the `h` of Liu and West.
-const SCATTER: f64 = 0.2;
-
 /// What the ensemble hears of the twin, in the order of its ticks.
 #[derive(Debug, Clone)]
 pub enum Told {
@@ -84,22 +81,6 @@ pub(super) struct Counts {
     pub(super) why: String,
 }
 
-/// A member that is prepared to take a place.
-pub(super) struct Prepared {
-    takes: usize,
-    /// The member that it is near.
-    near: usize,
-    pub(super) place: Place,
-}
-
-/// A choice of members that stay, and of those that are prepared.
-pub(super) struct Choice {
-    /// Logarithms of the members' weights when it was made, where it was made by weights; otherwise it only replaces those
-    /// that failed.
-    by_weights: Option<Vec<f64>>,
-    pub(super) prepared: Vec<Prepared>,
-}
-
 /// The ensemble of a run.
 pub struct Ensemble {
     /// The configuration in force, but for the friction that `calibration.follow` moves.
@@ -108,11 +89,11 @@ pub struct Ensemble {
     heard: Arc<Config>,
     /// What a calibration has found, where members are drawn from it.
     posterior: Option<Arc<Posterior>>,
-    priors: Priors,
+    pub(super) priors: Priors,
     pub(super) errors: Errors,
     /// The friction that the priors hold for possible.
     pub(super) prior_friction: [f64; 2],
-    seed: u64,
+    pub(super) seed: u64,
     /// What acts at `at`, once that is known.
     acts: Option<RunInputs>,
     pub(super) generation: Generation,
@@ -395,104 +376,5 @@ impl Ensemble {
             }
         }
         self.members(|member| member.windows.end(&unexplained));
-    }
-
-    /// Logarithms of the members' weights; NaN for those that failed.
-    fn logs(&self) -> Vec<f64> {
-        let log = |place: &Place| match &place.state {
-            State::Runs(member) => member.windows.evidence.log_weight(),
-            _ => f64::NAN,
-        };
-        self.places.iter().map(log).collect()
-    }
-
-    /// Weights of the members; 0 for those that failed.
-    pub(super) fn weights(&self) -> Vec<f64> {
-        let logs = self.logs();
-        match logs.iter().all(|log| log.is_nan()) {
-            true => vec![0.0; logs.len()],
-            false => weights(&logs),
-        }
-    }
-
-    /// Puts those that were prepared into their places.
-    fn replace(&mut self) {
-        let Some(choice) = self.choice.take() else { return };
-        let evidence: Vec<_> = (self.places.iter().enumerate())
-            .map(|(index, place)| match &place.state {
-                State::Runs(member) => {
-                    let evidence = &member.windows.evidence;
-                    Some(match choice.by_weights.as_ref().and_then(|logs| logs.get(index)) {
-                        // What was measured before the choice has made it.
-                        Some(log) if log.is_finite() => evidence.chosen(*log),
-                        _ => evidence.clone(),
-                    })
-                }
-                _ => None,
-            })
-            .collect();
-        if choice.by_weights.is_some() {
-            self.renewals += 1;
-            for (place, evidence) in self.places.iter_mut().zip(&evidence) {
-                if let (State::Runs(member), Some(evidence)) = (&mut place.state, evidence) {
-                    member.windows.evidence = evidence.clone();
-                }
-            }
-        }
-        let mut replaced = Vec::new();
-        for Prepared { takes, near, mut place } in choice.prepared {
-            // A child of a member that has failed since has nothing that weighs it.
-            match (&mut place.state, evidence.get(near).cloned().flatten()) {
-                (State::Runs(member), Some(evidence)) => member.windows.evidence = evidence,
-                _ => place.state = State::Failed,
-            }
-            replaced.push(std::mem::replace(&mut self.places[takes], place));
-        }
-        self.keep_outermost(replaced);
-    }
-
-    /// Chooses which members stay where few carry most of the weight or some failed, and prepares others near those.
-    fn choose(&mut self, now: u64) {
-        let shares = self.weights();
-        let (count, effective) = (shares.len() as f64, effective_number(&shares));
-        let few = effective < (0.5 * count).max(LEAST_MEMBERS + 1.0).min(count - 0.5);
-        let failed = self.places.iter().any(Place::has_failed);
-        if !(few || failed) || effective == 0.0 {
-            return;
-        }
-        // A member that could not be drawn has no weight, wherever it is.
-        let size = self.priors.entries().len() + 2 * self.priors.sensors().len();
-        let scores = |place: &Place| {
-            place
-                .drawn
-                .as_ref()
-                .map_or_else(|_| vec![0.0; size], |drawn| drawn.scores.clone())
-        };
-        let scores: Vec<Vec<f64>> = self.places.iter().map(scores).collect();
-        let children = renewal(&scores, &shares, SCATTER, self.seed ^ now);
-        // The first child of a member is the member itself, which need not be prepared.
-        let mut stays = vec![false; shares.len()];
-        let mut others = Vec::new();
-        for child in children {
-            if std::mem::replace(&mut stays[child.parent], true) {
-                others.push(child);
-            }
-        }
-        let gone = (0..stays.len()).filter(|index| {
-            if few {
-                !stays[*index]
-            } else {
-                self.places[*index].has_failed()
-            }
-        });
-        let prepared = gone.zip(others).map(|(takes, child)| Prepared {
-            takes,
-            near: child.parent,
-            place: Place::new(self.priors.at(child.at).map_err(|error| error.to_string()), false),
-        });
-        self.choice = Some(Choice {
-            prepared: prepared.collect(),
-            by_weights: few.then(|| self.logs()),
-        });
     }
 }

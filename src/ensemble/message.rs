@@ -105,14 +105,9 @@ fn no_bands(counts: &Counts) -> String {
         return String::new();
     }
     format!(
-        "{} plausible tools amount to {:.1} alike, and bands need {LEAST_MEMBERS:.0}: {}",
-        counts.members,
-        counts.effective,
-        if counts.failed > 0 {
-            "some could not be computed, and are replaced"
-        } else {
-            "the measurements favour few, and others near them are prepared"
-        }
+        "{} plausible tools amount to {:.1} alike, and bands need {LEAST_MEMBERS:.0}: some could not be computed, and are \
+         replaced",
+        counts.members, counts.effective,
     )
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A member is a tool with parameters drawn from what is not known (`uncertainty`), on a rig whose weight indicator and speed
 //! sensor have errors (`member`). What the rig measures weighs the members (`evidence`); where few carry most of the weight,
-//! tools near those few replace the others (`engine`). What the members compute becomes bands and chances (`message`), the
+//! tools near those few replace the others (`replacing`). What the members compute becomes bands and chances (`message`), the
 //! ranges that the alarm `rig_disagrees` is judged by, and the friction that `calibration.follow` moves to (`judgement`).
 //!
 //! All of it is a function of the configuration, of what acts on the twin, of what the rig measured and of the number of
@@ -16,6 +16,7 @@ mod member;
 mod message;
 mod place;
 mod posterior;
+mod replacing;
 mod running;
 #[cfg(test)]
 mod tests;

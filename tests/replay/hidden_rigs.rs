@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{python, root};
 
-/// What is not known of the short rig's tool. Twenty tools, of which the torque at the surface leaves eight alike.
+/// What is not known of the short rig's tool.
 const NOT_KNOWN: &str = "
 uncertainty:
   keys:
@@ -35,7 +35,7 @@ fn scored(folder: &Path, config: &Path) -> Option<Vec<Value>> {
         ("--binary", env!("CARGO_BIN_EXE_flexdrill").to_owned()),
         ("--rigs", "1".to_owned()),
         ("--seconds", "90".to_owned()),
-        ("--members", "20".to_owned()),
+        ("--members", "12".to_owned()),
     ];
     let arguments: Vec<&str> = options
         .iter()
@@ -67,7 +67,7 @@ fn plausible_tools_hold_what_a_rig_of_another_structure_does() {
             all += 1;
         }
     }
-    // 30 of 90 s settle; bands may be missing where fewer than eight tools alike fit the torque.
-    assert!(all > 40, "{all} seconds were judged");
+    // 30 of 90 s settle, and the bands of the last second may come after the end of the truth.
+    assert!(all >= 58, "{all} seconds were judged");
     assert!(2 * inside > all, "{inside} of {all} seconds");
 }

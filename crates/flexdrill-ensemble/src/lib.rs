@@ -1,7 +1,8 @@
 //! An ensemble of plausible tools: what measurements say of each member, and what the members say together.
 //!
 //! A member is a tool with drawn parameters. Measurements weigh members ([`Evidence`], [`weights`]); where few carry most of
-//! the weight, the ensemble is renewed near them ([`renewal`]). What members compute becomes bands ([`Band`]) and chances
+//! the weight, the ensemble is renewed near them ([`renewal`()]) by so much of the weights that enough members remain alike
+//! ([`tempering`]); the rest counts afterwards. What members compute becomes bands ([`Band`]) and chances
 //! ([`Chance`]) over plausible tools. The model itself is wrong by a stated amount per channel, the *discrepancy*: no number
 //! of measurements takes it away.
 //!
@@ -15,6 +16,6 @@ mod weights;
 
 pub use band::{Band, LEAST_MEMBERS};
 pub use chance::Chance;
-pub use evidence::{Evidence, Measurement};
+pub use evidence::{Evidence, Measurement, Part};
 pub use renewal::{Renewal, renewal};
-pub use weights::{effective_number, weights};
+pub use weights::{effective_number, tempering, weights};

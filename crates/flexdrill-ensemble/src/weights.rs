@@ -21,9 +21,57 @@ pub fn effective_number(weights: &[f64]) -> f64 {
     if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 
+/// The largest power from 0 to 1 of weights with these logarithms that leaves at least `least` members alike. The effective
+/// number falls with the power, since its logarithm is 2 K(a) - K(2 a) of the convex K(a) = ln sum w^a. Fewer members than
+/// `least` have the power 0, which makes all alike.
+pub fn tempering(logs: &[f64], least: f64) -> f64 {
+    // Halvings of 1 to the last bit, the same on every machine.
+    const HALVINGS: i32 = 52;
+    let enough = |power: f64| {
+        let tempered: Vec<f64> = logs.iter().map(|log| power * log).collect();
+        effective_number(&weights(&tempered)) >= least
+    };
+    if enough(1.0) {
+        return 1.0;
+    }
+    let mut power = 0.0;
+    for halving in 1..=HALVINGS {
+        let larger = power + 0.5_f64.powi(halving);
+        if enough(larger) {
+            power = larger;
+        }
+    }
+    power
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tempering_leaves_as_many_members_as_asked_for() {
+        let mut random = fastrand::Rng::with_seed(5);
+        for spread in [0.1, 3.0, 500.0] {
+            let logs: Vec<f64> = (0..20).map(|_| -spread * random.f64()).chain([f64::NAN]).collect();
+            let of = |power: f64| effective_number(&weights(&logs.iter().map(|log| power * log).collect::<Vec<_>>()));
+            for least in [8.0, 10.0, 19.9] {
+                let power = tempering(&logs, least);
+                assert!(of(power) >= least);
+                // The largest such power: a little more of it leaves fewer.
+                assert!(
+                    power == 1.0 || of(power + 1e-12) < least + 1e-6,
+                    "{spread} {least} {power}"
+                );
+                assert!(power == 1.0 || (of(power) - least).abs() < 1e-3);
+            }
+            assert_eq!(tempering(&logs, 20.5), 0.0);
+            assert!((of(0.0) - 20.0).abs() < 1e-9);
+        }
+        // Of two members at e^-L and 1 the effective number (1 + e^-aL)^2 / (1 + e^-2aL) is 1.6 where e^-aL is 1/3.
+        let power = tempering(&[-5.0, 0.0], 1.6);
+        assert!((power - 3.0_f64.ln() / 5.0).abs() < 1e-12, "{power}");
+        assert_eq!(tempering(&[], 8.0), 0.0);
+    }
 
     #[test]
     fn weights_are_shares_whatever_the_likelihoods() {
