@@ -4,11 +4,12 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::evidence::{Compared, Errors, WINDOW, channel, unexplained};
+use super::evidence::{Compared, Errors, WINDOW, channel};
 use super::judgement::prior_of_friction;
 use super::member::Member;
 use super::place::{Place, State, Threads, in_parallel};
 use super::replacing::Choice;
+use super::trust::{Doubt, Trust};
 use crate::residuals::{Judgement, predicted};
 use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_config::{Config, Members};
@@ -110,6 +111,10 @@ pub struct Ensemble {
     compared: VecDeque<(u64, Compared)>,
     /// The newest comparison that members were weighed by.
     pub(super) newest: Option<Compared>,
+    /// Which sensors members are weighed by.
+    pub(super) trust: Trust,
+    /// Whether members were chosen by what is withdrawn since. Those of the beginning replace them.
+    pub(super) misled: bool,
 }
 
 impl Ensemble {
@@ -150,6 +155,8 @@ impl Ensemble {
             applied: VecDeque::new(),
             compared: VecDeque::new(),
             newest: None,
+            trust: Trust::default(),
+            misled: false,
         }))
     }
 
@@ -208,7 +215,7 @@ impl Ensemble {
             .map(|drawn| Place::new(drawn, true))
             .collect();
         self.outermost.clear();
-        self.newest = None;
+        (self.newest, self.trust, self.misled) = (None, Trust::default(), false);
         // What was compared before says nothing of members that begin now.
         self.compared.retain(|(ticks, _)| *ticks > begun);
         self.generation = Generation { begun, ..generation };
@@ -348,13 +355,30 @@ impl Ensemble {
 
     /// Takes the comparisons up to the end of a slice. A member that is prepared has no steady motion yet.
     fn weigh(&mut self, to: u64) {
-        while let Some((_, compared)) = self.compared.pop_front_if(|(ticks, _)| *ticks <= to) {
+        let settled = self.generation.begun + self.ticks_of(PREPARED);
+        while let Some((ticks, compared)) = self.compared.pop_front_if(|(ticks, _)| *ticks <= to) {
             let errors = self.errors;
             self.newest = Some(compared);
+            let anew = self.trust.measured(&compared, |quantity| errors.sample(quantity)[0]);
             self.members(|member| {
                 let computed = predicted(member.snapshot());
                 member.windows.add(&errors, &compared, &computed);
+                // A tool that begins moves until it has settled, whatever the rig does.
+                if ticks > settled {
+                    member.windows.follow(compared.step, &computed, &anew);
+                }
             });
+            for quantity in RigQuantity::ALL {
+                let running = self.places.iter().chain(&self.outermost).filter_map(Place::member);
+                let moved = running.map(|member| member.windows.moved(quantity));
+                if self
+                    .trust
+                    .moved(quantity, compared.step, moved, errors.sample(quantity))
+                {
+                    self.stop_believing(quantity);
+                }
+            }
+            self.withdraw();
         }
     }
 
@@ -362,19 +386,32 @@ impl Ensemble {
     fn end_window(&mut self) {
         let mut residuals = Vec::new();
         self.members(|member| residuals.push(member.windows.residuals()));
-        let unexplained = unexplained(&residuals);
-        let lies = RigQuantity::ALL
-            .into_iter()
-            .filter(|quantity| unexplained[*quantity as usize]);
-        for quantity in lies {
-            let name = channel(quantity).name();
-            if let Some(more) = log_ending(format!("the plausible tools do not believe the {name}")) {
-                tracing::warn!(
-                    "the plausible tools do not believe the {name} within the last {WINDOW:.0} s: it is further from what \
-                     each of them does than the stated errors of twin and sensor explain. Check the sensor{more}"
-                );
+        let doubted = self.trust.window(&residuals);
+        for quantity in RigQuantity::ALL {
+            if self.trust.doubt(quantity) == Some(Doubt::Beyond) {
+                self.stop_believing(quantity);
             }
         }
-        self.members(|member| member.windows.end(&unexplained));
+        self.members(|member| member.windows.end(&doubted));
+        self.withdraw();
+    }
+
+    /// Logs why a sensor is not believed.
+    fn stop_believing(&self, quantity: RigQuantity) {
+        let (name, doubt) = (channel(quantity).name(), self.trust.doubt(quantity));
+        let why = doubt.map_or("", Doubt::words);
+        if let Some(more) = log_ending(format!("the plausible tools do not believe the {name}: {why}")) {
+            tracing::warn!("the plausible tools do not believe the {name}: {why}. Check the sensor{more}");
+        }
+    }
+
+    /// Withdraws what sensors have said that turned out to be wrong. Members that were chosen by it are replaced by those of the
+    /// beginning; weights alone need no replacement.
+    fn withdraw(&mut self) {
+        for quantity in self.trust.withdrawn() {
+            self.members(|member| member.windows.evidence.forget(quantity as usize));
+            self.misled |= self.places.iter().any(|place| !place.first);
+            self.choice = None;
+        }
     }
 }

@@ -20,10 +20,8 @@ const LASTING: f64 = 7200.0;
 const LEAST_SECONDS: f64 = 5.0;
 /// Least noise of a window's mean, as a share of the discrepancy.
 const LEAST_NOISE: f64 = 0.1;
-/// Stated errors of twin and offset by which a window's mean must be beyond what every plausible tool does, to one side of
-/// all, for its sensor to count as one that lies. Of a normal error one in 30,000 is beyond four to one side. Weighed, such a
-/// mean would choose the tools that are the least wrong, and narrow the bands about what no tool does.
-const BEYOND: f64 = 4.0;
+/// Time of the means by which members' readings move (s): longer than any swing of a tool's motion.
+const SLOW: f64 = 10.0;
 /// A range that holds 90 % of a normal distribution, in standard deviations.
 const RANGE: f64 = 1.645;
 
@@ -63,18 +61,6 @@ struct OneError {
     drift: f64,
 }
 
-/// Which quantities no plausible tool explains, from the residuals of all members in a window ([`Windows::residuals`]).
-pub(super) fn unexplained(members: &[[Option<f64>; RigQuantity::COUNT]]) -> [bool; RigQuantity::COUNT] {
-    std::array::from_fn(|index| {
-        let mut residuals = members.iter().filter_map(|member| member[index]).peekable();
-        // A window without a measurement says nothing of its sensor.
-        let Some(first) = residuals.peek().copied() else {
-            return false;
-        };
-        residuals.all(|residual| residual * first.signum() > BEYOND)
-    })
-}
-
 /// The sensor of a quantity.
 pub(super) const fn channel(quantity: RigQuantity) -> Channel {
     match quantity {
@@ -105,6 +91,13 @@ impl Errors {
         });
         Self { of, mean: stated.mean }
     }
+
+    /// Noise of a sample of a quantity, and how late its sensor may follow the rig (s).
+    pub(super) fn sample(&self, quantity: RigQuantity) -> [f64; 2] {
+        let error = &self.of[quantity as usize];
+        // A sample counts as new up to this age; the one after it has followed.
+        [error.expected.noise, 2.0 * error.longest_age]
+    }
 }
 
 impl OneError {
@@ -126,6 +119,15 @@ pub(super) struct Windows {
     watches: [Option<Watch>; RigQuantity::COUNT],
     /// Means of the readings over about the last [`WINDOW`] of steady seconds, however long ago; NaN before.
     newest: [f64; RigQuantity::COUNT],
+    /// How the readings move.
+    slow: [Option<Slow>; RigQuantity::COUNT],
+}
+
+/// A slow mean of a reading, and its range since the sensor began to show one value.
+#[derive(Debug, Clone, Copy)]
+struct Slow {
+    mean: f64,
+    range: [f64; 2],
 }
 
 /// Sums of the present window, all over the scale of the second.
@@ -151,13 +153,21 @@ impl Windows {
             sums: Default::default(),
             watches: Default::default(),
             newest: [f64::NAN; RigQuantity::COUNT],
+            slow: Default::default(),
         }
     }
 
     /// Forgets the present window and means, after a reset of the model.
     pub(super) fn restart(&mut self) {
+        self.slow = Default::default();
         self.sums = Default::default();
         self.watches = Default::default();
+    }
+
+    /// Forgets what was measured, but for the means that the alarm is judged by.
+    pub(super) fn begin_again(&mut self) {
+        self.evidence = Evidence::new(&[1.0; RigQuantity::COUNT]);
+        self.sums = Default::default();
     }
 
     /// The sliding means of a quantity `hours` after the tares of the sensors were known, with the error that this member
@@ -175,6 +185,37 @@ impl Windows {
     /// The mean of the member's readings of a quantity over the newest steady seconds, however long ago; NaN before.
     pub(super) fn newest(&self, quantity: RigQuantity) -> f64 {
         self.newest[quantity as usize]
+    }
+
+    /// Takes a second in which the member computes `computed`, steady or not, for how its readings move. `anew` has the
+    /// sensors that have begun to show another value.
+    pub(super) fn follow(
+        &mut self,
+        step: f64,
+        computed: &[f64; RigQuantity::COUNT],
+        anew: &[bool; RigQuantity::COUNT],
+    ) {
+        for (index, slow) in self.slow.iter_mut().enumerate() {
+            let reading = self.factors[index] * computed[index];
+            if !reading.is_finite() {
+                continue;
+            }
+            let Slow { mean, range } = slow.unwrap_or(Slow {
+                mean: reading,
+                range: [reading; 2],
+            });
+            let mean = mean + (step / SLOW).min(1.0) * (reading - mean);
+            let range = match anew[index] {
+                true => [mean; 2],
+                false => [range[0].min(mean), range[1].max(mean)],
+            };
+            *slow = Some(Slow { mean, range });
+        }
+    }
+
+    /// By how much the readings of a quantity have moved since its sensor began to show one value.
+    pub(super) fn moved(&self, quantity: RigQuantity) -> f64 {
+        self.slow[quantity as usize].map_or(0.0, |slow| slow.range[1] - slow.range[0])
     }
 
     /// Takes a second in which the member computes `computed`.
@@ -211,11 +252,11 @@ impl Windows {
             .map(|sums| (sums.seconds >= LEAST_SECONDS).then(|| sums.residuals / sums.seconds))
     }
 
-    /// Ends the window. What no tool explains (`unexplained`) says nothing of which tool it is.
-    pub(super) fn end(&mut self, unexplained: &[bool; RigQuantity::COUNT]) {
+    /// Ends the window. What a sensor shows that is not believed (`doubted`) says nothing of which tool it is.
+    pub(super) fn end(&mut self, doubted: &[bool; RigQuantity::COUNT]) {
         for (index, sums) in self.sums.into_iter().enumerate() {
             let n = sums.seconds;
-            if n < LEAST_SECONDS || unexplained[index] {
+            if n < LEAST_SECONDS || doubted[index] {
                 continue;
             }
             // Noise falls with the number of seconds; the drift of the sensor within a window does not.

@@ -105,6 +105,9 @@ impl Ensemble {
     }
 
     fn friction_by(&self, shares: &[f64]) -> Option<Friction> {
+        if self.misled {
+            return None;
+        }
         let drawn = self.places.iter().zip(shares);
         let factors: Vec<(f64, f64)> = drawn
             .filter(|(_, share)| **share > 0.0)

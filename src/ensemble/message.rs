@@ -1,14 +1,20 @@
 //! Bands and chances of a second, as a message.
 
 use super::engine::{Counts, Ensemble};
+use super::evidence::channel;
 use super::member::Second;
 use super::place::{Place, State};
 use crate::alarms::{AlarmId, priority_code};
 use flexdrill_alarms::Priority;
+use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS, effective_number};
 use flexdrill_messages::{AlarmChance, Bands, FigureBand};
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::figures::OverTools;
+
+/// Why there are no bands while members run that were chosen by what is withdrawn.
+const MISLED: &str = "the plausible tools were chosen by a sensor that is not believed any more; those of the beginning are \
+                      prepared, which takes up to two minutes";
 
 impl Ensemble {
     /// What the members do in the second that ends.
@@ -20,7 +26,10 @@ impl Ensemble {
             prepared: self.choice.as_ref().map_or(0, |choice| choice.prepared.len() as u32),
             effective: effective_number(&shares),
             renewals: self.renewals,
-            why: self.generation.why.clone(),
+            why: match self.misled {
+                true => MISLED.to_owned(),
+                false => self.generation.why.clone(),
+            },
         };
         let second = |place: &mut Place| match &mut place.state {
             State::Runs(member) => Some(member.second()),
@@ -31,7 +40,15 @@ impl Ensemble {
             second(&mut prepared.place);
         }
         let seconds: Vec<(f64, Option<Second>)> = shares.into_iter().zip(self.places.iter_mut().map(second)).collect();
-        message(&counts, &seconds)
+        let doubts = RigQuantity::ALL.into_iter();
+        let doubts =
+            doubts.filter_map(|quantity| Some((channel(quantity).name(), self.trust.doubt(quantity)?.words())));
+        let (distrusted, distrusted_why) = doubts.map(|(name, why)| (name.to_owned(), why.to_owned())).unzip();
+        Bands {
+            distrusted,
+            distrusted_why,
+            ..message(&counts, &seconds)
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Plausible tools that run with the twin, under the same inputs (`ensemble` in the configuration): `twin/bands`.
 //!
 //! A member is a tool with parameters drawn from what is not known (`uncertainty`), on a rig whose weight indicator and speed
-//! sensor have errors (`member`). What the rig measures weighs the members (`evidence`); where few carry most of the weight,
+//! sensor have errors (`member`). What the rig measures weighs the members (`evidence`), unless a sensor shows what none of them
+//! does (`trust`); where few carry most of the weight,
 //! tools near those few replace the others (`replacing`). What the members compute becomes bands and chances (`message`), the
 //! ranges that the alarm `rig_disagrees` is judged by, and the friction that `calibration.follow` moves to (`judgement`).
 //!
@@ -20,6 +21,7 @@ mod replacing;
 mod running;
 #[cfg(test)]
 mod tests;
+mod trust;
 
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;

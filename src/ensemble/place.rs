@@ -51,6 +51,14 @@ impl Place {
         }
     }
 
+    /// The same, to change it.
+    pub(super) fn member_mut(&mut self) -> Option<&mut Member> {
+        match &mut self.state {
+            State::Runs(member) => Some(member),
+            _ => None,
+        }
+    }
+
     pub(super) fn has_failed(&self) -> bool {
         matches!(self.state, State::Failed)
     }

@@ -14,8 +14,8 @@ const SCATTER: f64 = 0.2;
 /// A member that is prepared to take a place.
 pub(super) struct Prepared {
     takes: usize,
-    /// The combination of members that it is.
-    near: Renewal,
+    /// The combination of members that it is; none of a draw from the priors.
+    near: Option<Renewal>,
     pub(super) place: Place,
 }
 
@@ -25,6 +25,8 @@ pub(super) enum Chosen {
     ByWeights(Vec<Option<Part>>),
     /// Some failed.
     Failed,
+    /// Those that run were chosen by what is withdrawn.
+    Misled,
 }
 
 /// A choice of members that stay, and of those that are prepared.
@@ -64,20 +66,52 @@ impl Ensemble {
         let evidence: Vec<Option<Evidence>> = (self.places.iter())
             .map(|place| place.member().map(|member| member.windows.evidence.clone()))
             .collect();
+        let begins_again = matches!(choice.by, Chosen::Misled);
         let mut replaced = Vec::new();
         for Prepared { takes, near, mut place } in choice.prepared {
-            // A child of a member that has failed since has nothing that weighs it.
-            match (&mut place.state, near_evidence(&near, &evidence)) {
-                (State::Runs(member), Some(evidence)) => member.windows.evidence = evidence,
+            match (&mut place.state, near.map(|near| near_evidence(&near, &evidence))) {
+                (State::Runs(member), Some(Some(evidence))) => member.windows.evidence = evidence,
+                (State::Runs(_), None) => {}
+                // A child of a member that has failed since has nothing that weighs it.
                 _ => place.state = State::Failed,
             }
             replaced.push(std::mem::replace(&mut self.places[takes], place));
         }
-        self.keep_outermost(replaced);
+        if begins_again {
+            // All that were drawn first run again, and what was measured before says nothing of those that begin now.
+            self.outermost.clear();
+            self.misled = false;
+            let running = self.places.iter_mut().filter_map(Place::member_mut);
+            running.for_each(|member| member.windows.begin_again());
+        } else {
+            self.keep_outermost(replaced);
+        }
+    }
+
+    /// Prepares the members of the beginning in the place of those that were chosen by what is withdrawn.
+    fn choose_the_first(&mut self) {
+        let places = self.places.iter().enumerate().filter(|(_, place)| !place.first);
+        let prepared = places.map(|(takes, _)| Prepared {
+            takes,
+            near: None,
+            place: Place::new(
+                self.priors
+                    .member(self.seed, takes as u64)
+                    .map_err(|error| error.to_string()),
+                true,
+            ),
+        });
+        self.choice = Some(Choice {
+            prepared: prepared.collect(),
+            by: Chosen::Misled,
+        });
     }
 
     /// Chooses which members stay where few carry most of the weight or some failed, and prepares others near those.
     pub(super) fn choose(&mut self, now: u64) {
+        if self.misled {
+            return self.choose_the_first();
+        }
         let logs = self.logs();
         let count = logs.len() as f64;
         let effective = effective_number(&tempered(&logs, 0.0).1);
@@ -118,7 +152,7 @@ impl Ensemble {
                 self.priors.at(child.at.clone()).map_err(|error| error.to_string()),
                 false,
             ),
-            near: child,
+            near: Some(child),
         });
         let parts = |place: &Place| place.member().map(|member| member.windows.evidence.part(power));
         self.choice = Some(Choice {

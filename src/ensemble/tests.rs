@@ -134,6 +134,15 @@ fn band(bands: &Bands, name: &str) -> [f64; 3] {
     [band.p5, band.p50, band.p95]
 }
 
+/// Bands without what they say of sensors.
+fn believing(bands: Bands) -> Bands {
+    Bands {
+        distrusted: Vec::new(),
+        distrusted_why: Vec::new(),
+        ..bands
+    }
+}
+
 /// The bytes of messages: values that are not known are not equal to themselves.
 fn bytes(all: &[Bands]) -> Vec<Vec<u8>> {
     all.iter()
@@ -408,7 +417,8 @@ fn a_sensor_that_shows_what_no_plausible_tool_does_is_not_believed() {
     let plan = [acts(config, 0, 60.0, 10.0)];
     let seconds = 70;
     let twin = run(config, &plan, seconds);
-    let with = |lie: &dyn Fn(f64) -> f64| {
+    let mut named = Vec::new();
+    let mut with = |lie: &dyn Fn(f64) -> f64| {
         let mut ensemble = begun(config, &plan, 12);
         let mut all = Vec::new();
         for (second, (_, values)) in twin.iter().enumerate() {
@@ -419,7 +429,8 @@ fn a_sensor_that_shows_what_no_plausible_tool_does_is_not_believed() {
             let found = second_of(&mut ensemble, second, second >= 10, values, &torque);
             all.extend(found.into_iter().map(|found| found.bands));
         }
-        bytes(&all)
+        named.extend(all.last().unwrap().distrusted.clone());
+        bytes(&all.into_iter().map(believing).collect::<Vec<_>>())
     };
     let without = with(&|_| f64::NAN);
     for (name, lie) in [
@@ -430,6 +441,7 @@ fn a_sensor_that_shows_what_no_plausible_tool_does_is_not_believed() {
         assert!(with(lie) == without, "{name}");
     }
     assert!(with(&|torque| 0.9 * torque) != without, "what a tool does is believed");
+    assert_eq!(named, ["surface_torque"; 3], "each lie is named, and nothing else");
 }
 
 /// A tool that cannot be computed is unknown: it is counted, in no band, and others take its place.

@@ -3,7 +3,7 @@
 
 use byteorder::{BigEndian, LittleEndian};
 
-use super::{AppliedInputs, Message, RigInputs, RigMeasured, Transfer, to_cdr_body};
+use super::{AppliedInputs, Bands, Message, RigInputs, RigMeasured, Transfer, to_cdr_body};
 
 /// What an older sender leaves out.
 struct Missing {
@@ -36,6 +36,14 @@ const GIVEN: Missing = Missing {
     last: 4,
 };
 
+/// The lists at the end of bands, which are empty: sensors that are not believed, and why.
+const LISTS: Missing = Missing {
+    first: 0,
+    align: 4,
+    numbers: &[],
+    last: 8,
+};
+
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.
 const NOT_APPLIED: &[f64] = &[0.0; 4];
 /// NaN is a value that is not given.
@@ -65,6 +73,7 @@ const MISSING: &[(&str, &[Missing])] = &[
         ],
     ),
     (RigMeasured::ROS_TYPE, &[GIVEN]),
+    (Bands::ROS_TYPE, &[LISTS]),
 ];
 
 /// Messages that grow by figures at their end, with the last field of the first version. An older twin does not say what
@@ -187,6 +196,20 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn older_bands_name_no_sensor_that_is_not_believed() {
+        let whole = Bands {
+            members: 12,
+            no_bands: "why".to_owned(),
+            any_alarm_upper: 0.5,
+            ..Bands::default()
+        };
+        let body = to_cdr_body(&whole).unwrap();
+        let older = body.len() - LISTS.last;
+        assert_eq!(message_from_cdr_body::<Bands>(&body[..older]).unwrap(), whole);
+        assert!(message_from_cdr_body::<Bands>(&body[..older - 8]).is_err());
     }
 
     #[test]
