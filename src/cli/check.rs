@@ -46,6 +46,7 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
             say!("{line}");
         }
         // A node would refuse what is refused here.
+        crate::ensemble::band_factors(&config)?;
         if let Some(posterior) = Posterior::named_by(&config, path.parent().unwrap_or(Path::new("")))? {
             known.drawn_from(&posterior)?;
             say!("{}", priors::posterior(&posterior));

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::evidence::{Compared, Errors, WINDOW, channel};
 use super::judgement::prior_of_friction;
 use super::member::Member;
+use super::message::band_factors;
 use super::place::{Place, State, Threads, in_parallel};
 use super::replacing::Choice;
 use super::trust::{Doubt, Trust};
@@ -115,6 +116,8 @@ pub struct Ensemble {
     pub(super) trust: Trust,
     /// Whether members were chosen by what is withdrawn since. Those of the beginning replace them.
     pub(super) misled: bool,
+    /// Factors on the bands, by [`flexdrill_outputs::figures::OverTools::known`].
+    pub(super) factors: Vec<f64>,
 }
 
 impl Ensemble {
@@ -122,7 +125,8 @@ impl Ensemble {
     /// names a file.
     ///
     /// # Errors
-    /// When nothing can be drawn, which the check of a configuration finds too, or the posterior does not fit its priors.
+    /// When nothing can be drawn or a factor is of no figure, which the check of a configuration finds too, or the posterior does
+    /// not fit its priors.
     pub fn of(config: &Arc<Config>, posterior: Option<Arc<Posterior>>) -> Result<Option<Self>, UncertaintyError> {
         let Some(stated) = &config.ensemble else {
             return Ok(None);
@@ -157,6 +161,7 @@ impl Ensemble {
             newest: None,
             trust: Trust::default(),
             misled: false,
+            factors: band_factors(config)?,
         }))
     }
 

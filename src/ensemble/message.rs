@@ -7,10 +7,12 @@ use super::place::{Place, State};
 use crate::alarms::{AlarmId, priority_code};
 use flexdrill_alarms::Priority;
 use flexdrill_calibration::residual::RigQuantity;
+use flexdrill_config::Config;
 use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS, effective_number};
 use flexdrill_messages::{AlarmChance, Bands, FigureBand};
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::figures::OverTools;
+use flexdrill_uncertainty::UncertaintyError;
 
 /// Why there are no bands while members run that were chosen by what is withdrawn.
 const MISLED: &str = "the plausible tools were chosen by a sensor that is not believed any more; those of the beginning are \
@@ -47,19 +49,45 @@ impl Ensemble {
         Bands {
             distrusted,
             distrusted_why,
-            ..message(&counts, &seconds)
+            ..message(&counts, &seconds, &self.factors)
         }
     }
 }
 
-/// The message of a second, but for its times. Members are given with their weight; `None` failed.
-pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)]) -> Bands {
+/// Figures whose factors the profiles of both layers have: the largest force of all stations is the same quantity.
+const OF_PROFILES: [&str; 2] = ["contact_forces/max_pipe_guide_force", "contact_forces/max_guide_wall_force"];
+
+/// The factors on the bands of a configuration, by [`OverTools::known`]: 1 where it states none.
+///
+/// # Errors
+/// When a factor is given for a figure that has no band.
+pub fn band_factors(config: &Config) -> Result<Vec<f64>, UncertaintyError> {
+    let known = OverTools::known();
+    let mut factors = vec![1.0; known.len()];
+    for of in config.ensemble.iter().flat_map(|stated| &stated.band_factors) {
+        let Some(index) = known.iter().position(|known| known.name == of.figure) else {
+            let nearest = known.iter().min_by_key(|known| strsim::levenshtein(&known.name, &of.figure));
+            return Err(UncertaintyError::Figure {
+                figure: of.figure.clone(),
+                nearest: nearest.map_or_else(String::new, |known| known.name.clone()),
+            });
+        };
+        factors[index] = of.factor;
+    }
+    Ok(factors)
+}
+
+/// The message of a second, but for its times. Members are given with their weight; `None` failed. `factors` are those of
+/// [`band_factors`].
+pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)], factors: &[f64]) -> Bands {
     let known = || {
         members
             .iter()
             .filter_map(|(weight, second)| Some((*weight, second.as_ref()?)))
     };
-    let band = |value: &dyn Fn(&Second) -> f64| Band::of(known().map(|(weight, second)| (weight, value(second))), 1.0);
+    let band = |factor: f64, value: &dyn Fn(&Second) -> f64| {
+        Band::of(known().map(|(weight, second)| (weight, value(second))), factor)
+    };
     let mut out = Bands {
         members: counts.members,
         failed: counts.failed,
@@ -76,9 +104,16 @@ pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)]) -> Ban
         return out;
     };
     let figures = OverTools::known().into_iter().enumerate();
+    let factor = |index: usize| factors.get(index).copied().unwrap_or(1.0);
+    let mut of_profiles = [1.0; 2];
     out.bands = figures
         .map(|(index, figure)| {
-            let [p5, p50, p95] = quantiles(band(&|second| second.figures.get(index).copied().unwrap_or(f64::NAN)));
+            if let Some(layer) = OF_PROFILES.iter().position(|name| *name == figure.name) {
+                of_profiles[layer] = factor(index);
+            }
+            let value = |second: &Second| second.figures.get(index).copied().unwrap_or(f64::NAN);
+            let [p5, p50, p95] = quantiles(band(factor(index), &value));
+            out.band_factors.push(factor(index));
             FigureBand {
                 name: figure.name,
                 unit: figure.unit.to_owned(),
@@ -92,7 +127,7 @@ pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)]) -> Ban
     out.measured_depth.clone_from(&first.measured_depth);
     for station in 0..first.measured_depth.len() {
         let of = |layer: usize| {
-            quantiles(band(&|second| {
+            quantiles(band(of_profiles[layer], &|second| {
                 second.peaks[layer].get(station).copied().unwrap_or(f64::NAN)
             }))
         };

@@ -25,6 +25,7 @@ mod trust;
 
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
+pub use message::band_factors;
 pub use place::Threads;
 pub use posterior::named_by;
 pub use running::{Pace, Running};

@@ -9,7 +9,9 @@ with its plausible tools (`flexdrill replay LOG --members N`), and its bands are
 The twin gets the log and the configuration that is under test, and nothing else.
 
 DIR/rig_NNN.json has the figures of one rig: a run that was interrupted continues where it was. DIR/scores.md has the
-tables. Rigs of one seed tune, those of another judge. Ends with 77 when packages are missing.
+tables. Rigs of even numbers tune: DIR/factors.yaml has the factors on the bands (`ensemble.band_factors`) with which a
+band holds 90 % of what another rig of the same population does. Rigs of odd numbers judge them. Factors that the
+configuration already has are taken out first. Ends with 77 when packages are missing.
 """
 
 import argparse
@@ -22,6 +24,8 @@ import sys
 from collections import defaultdict
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+import conformal
 
 try:
     from rosbags.highlevel import AnyReader
@@ -47,6 +51,8 @@ SETTLING = 30
 DRILLING, LOW = 0, 1
 WITHIN = 60
 TENTHS = 10
+# Share of what a hidden rig does that a band is to hold.
+HOLDS = 0.9
 
 
 def at(config, key, value):
@@ -254,13 +260,16 @@ def compared(truth, twin, first, names):
     bands = defaultdict(list)
     for second in seconds:
         message = twin["bands"][second]
-        of = {band.name: band for band in message.bands}
+        factors = getattr(message, "band_factors", [])
+        of = {band.name: (band, factor) for band, factor in zip(message.bands, factors, strict=True)}
         for name, path in JUDGED.items():
             topic = path.split("/")[0]
-            band, real, own = of.get(path), truth[topic].get(second - offset), twin[topic].get(second)
+            (band, factor), real, own = of.get(path, (None, 1.0)), truth[topic].get(second - offset), twin[topic].get(second)
             if band is not None and real is not None and own is not None and math.isfinite(band.p5):
                 since = second - first - offset
-                row = [since, field(real, path), band.p5, band.p50, band.p95, field(own, path), message.effective]
+                # As of the members themselves, so that factors are of one kind whatever the configuration has.
+                low, high = (band.p50 + (end - band.p50) / factor for end in (band.p5, band.p95))
+                row = [since, field(real, path), low, band.p50, high, field(own, path), message.effective]
                 bands[name].append(row)
     # The next minute: whether an alarm of the tool stands within it in the hidden rig.
     real = standing(truth, range(first, first + len(truth["transfer"]) + 1))
@@ -293,6 +302,63 @@ def mean(values):
     return sum(values) / len(values) if values else math.nan
 
 
+def needed(row):
+    """The factor on the members' band with which it holds the truth of a second."""
+    _, real, low, middle, high, _, _ = row
+    half = high - middle if real > middle else middle - low
+    off = abs(real - middle)
+    return 0.0 if off == 0 else off / half if half > 0 else math.inf
+
+
+def widened_rows(rows, factor):
+    """Rows with bands that are wider by a factor."""
+    return [
+        [since, real, middle - factor * (middle - low), middle, middle + factor * (high - middle), own, effective]
+        for since, real, low, middle, high, own, effective in rows
+    ]
+
+
+def held(rigs, name, factor):
+    """Shares of the seconds in which the band holds, by rig."""
+    of_rigs = (widened_rows(rig["bands"].get(name, []), factor) for rig in rigs)
+    return [mean(low <= real <= high for _, real, low, _, high, _, _ in rows) for rows in of_rigs if rows]
+
+
+def standard_error(values):
+    return math.sqrt(mean((value - mean(values)) ** 2 for value in values) / max(len(values) - 1, 1)) if values else math.nan
+
+
+def factors(rigs, options):
+    """Factors by the tuning half, and the table of what they are worth on the judging half.
+
+    `rigs` by number; None where one could not be computed.
+    """
+    tuning, judging = ([rig for rig in rigs[half::2] if rig] for half in (0, 1))
+    found = {}
+    out = [
+        f"Factors on the bands, by {len(tuning)} rigs that tune, on {len(judging)} others that judge: mean share of a rig's",
+        "seconds in which the band holds, with its standard error over rigs.",
+        "",
+        "| figure | factor | holds without it | with it |",
+        "| --- | --- | --- | --- |",
+    ]
+    for name, path in JUDGED.items():
+        factor = conformal.quantile([[needed(row) for row in rig["bands"].get(name, [])] for rig in tuning], HOLDS)
+        # Bands that hold more than asked for are not made narrower than the members say.
+        if factor is not None:
+            factor = found[path] = max(1.0, math.ceil(100 * factor) / 100)
+        shares = [held(judging, name, by) for by in (1.0, factor or math.nan)]
+        words = [f"{mean(of):.2f} +- {standard_error(of):.2f}" for of in shares]
+        out.append(f"| {name} | {f'{factor:.2f}' if factor else 'too few rigs'} | {words[0]} | {words[1] if factor else ''} |")
+    rows = [
+        f"- {{figure: {path}, factor: {factor}, source: \"{len(tuning)} hidden rigs of {options.seconds} s, seed {options.seed}, "
+        f'{options.members} members; tests/python/hidden_rigs.py"}}'
+        for path, factor in found.items()
+        if factor > 1.0
+    ]
+    return "\n".join(["", *out, ""]), "\n".join(["# ensemble.band_factors; figures that are left out have the factor 1", *rows, ""])
+
+
 def tables(rigs, options):
     """Scores as Markdown. A rig counts as one: its seconds are not independent."""
     out = [
@@ -303,14 +369,14 @@ def tables(rigs, options):
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in JUDGED:
-        held, early, late, ratio, error = [], [], [], [], []
+        all_of, early, late, ratio, error = [], [], [], [], []
         for rig in rigs:
             rows = rig["bands"].get(name, [])
             if not rows:
                 continue
             inside = [low <= real <= high for _, real, low, _, high, _, _ in rows]
             third = max(len(rows) // 3, 1)
-            held.append(mean(inside))
+            all_of.append(mean(inside))
             early.append(mean(inside[:third]))
             late.append(mean(inside[-third:]))
             # Widths in parts of the middle, since the plan moves both.
@@ -318,10 +384,10 @@ def tables(rigs, options):
             known = [[value for value in part if math.isfinite(value)] for part in (width[:third], width[-third:])]
             ratio.append(mean(known[1]) / mean(known[0]) if known[0] and known[1] else math.nan)
             error.append(mean(abs(own - real) / abs(real) for _, real, _, _, _, own, _ in rows if real))
-        spread = math.sqrt(mean((value - mean(held)) ** 2 for value in held) / max(len(held) - 1, 1)) if held else math.nan
+        spread = standard_error(all_of)
         finite = [value for value in ratio if math.isfinite(value)]
         out.append(
-            f"| {name} | {mean(held):.2f} | {spread:.2f} | {mean(early):.2f} | {mean(late):.2f} | {mean(finite):.2f} | "
+            f"| {name} | {mean(all_of):.2f} | {spread:.2f} | {mean(early):.2f} | {mean(late):.2f} | {mean(finite):.2f} | "
             f"{mean(error):.2f} |"
         )
     alarms = [row for rig in rigs for row in rig["alarms"] if math.isfinite(row[0])]
@@ -369,7 +435,9 @@ def main():
     with ThreadPoolExecutor(options.jobs) as pool:
         rigs = list(pool.map(safe, range(options.rigs)))
     failed = sum(rig is None for rig in rigs)
-    text = tables([rig for rig in rigs if rig], options)
+    of_factors, in_configuration = factors(rigs, options)
+    text = tables([rig for rig in rigs if rig], options) + of_factors
+    (options.out / "factors.yaml").write_text(in_configuration)
     if failed:
         text += f"\n{failed} rigs could not be computed: their messages are above, and they are in no table.\n"
     (options.out / "scores.md").write_text(text)

@@ -71,3 +71,9 @@ fn plausible_tools_hold_what_a_rig_of_another_structure_does() {
     assert!(all >= 58, "{all} seconds were judged");
     assert!(2 * inside > all, "{inside} of {all} seconds");
 }
+
+/// The factors on bands that the study finds, compared with populations whose quantiles are known.
+#[test]
+fn factors_hold_on_rigs_that_did_not_tune_them() {
+    python::run("conformal.py", &[], "");
+}

@@ -4,13 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
+use super::section::section;
 use super::{Config, ConfigError};
 
 const MEMBERS: Bound = Bound::within(8.0, 256.0);
 
 /// Plausible tools that run with the twin, for bands and chances on `twin/bands`: tools drawn from `uncertainty`, under the
 /// same inputs.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Ensemble {
     /// Their number, or `auto` for as many as the computer runs in the time that the twin leaves. A replay of a recording
@@ -25,6 +26,22 @@ pub struct Ensemble {
     /// SHA-256 of the posterior's file, in hex; another file is refused. A node adds it to the configuration that it records,
     /// so that a replay draws the same tools. Default none, any file.
     pub posterior_sha256: Option<String>,
+    /// Figures whose bands are wider than those of the members, because the truth was outside too often on rigs of another
+    /// structure than the model's. Default none, a factor of 1 each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub band_factors: Vec<BandFactor>,
+}
+
+section! {
+    /// By how much the bands of a figure are widened.
+    pub struct BandFactor(this) {
+        /// Name of the figure on `twin/bands`: topic and field, such as `transfer/bit_torque`. Required.
+        figure: String;
+        /// Factor on the distance of both ends of the band from its middle. Required.
+        factor: f64, within(1.0, 20.0), "", "a band is never narrower than the members', and one of 20 times their width says that they miss what matters";
+        /// Where the factor comes from: the rigs that it was measured on, and how many. Required.
+        source: String;
+    }
 }
 
 /// What plausible tools are drawn from.
@@ -64,6 +81,7 @@ impl Default for Ensemble {
             seed: 1,
             from: DrawnFrom::Prior,
             posterior_sha256: None,
+            band_factors: Vec::new(),
         }
     }
 }
@@ -105,6 +123,7 @@ impl Ensemble {
             "prior, or posterior with the name of a file",
             "an empty name is no sample",
         );
+        self.check_band_factors(c);
         // A checksum that no file can have would refuse every file with a misleading reason.
         if let Some(digest) = &self.posterior_sha256 {
             c.require(
@@ -124,6 +143,35 @@ impl Ensemble {
                 "a prior has no file",
             );
         }
+    }
+}
+
+impl Ensemble {
+    fn check_band_factors(&self, c: &mut Checker) {
+        c.below("band_factors", |c| {
+            for (index, of) in self.band_factors.iter().enumerate() {
+                c.below(index, |c| {
+                    of.check_numbers(c);
+                    let before = self.band_factors[..index].iter().any(|before| before.figure == of.figure);
+                    c.require(
+                        !before,
+                        "figure",
+                        &of.figure,
+                        "",
+                        "given once",
+                        "a figure has one factor",
+                    );
+                    c.require(
+                        !of.source.trim().is_empty(),
+                        "source",
+                        "an empty text",
+                        "",
+                        "the rigs that the factor was measured on",
+                        "a factor from nowhere is a guess",
+                    );
+                });
+            }
+        });
     }
 }
 

@@ -74,7 +74,7 @@ pub use changed::{ChangedNumber, FOLLOWED};
 pub use checker::NumberKey;
 pub use contact::{Contact, Layer, WallFrictionFactors};
 pub use derived::Unknowns;
-pub use ensemble::{DrawnFrom, Ensemble, Members};
+pub use ensemble::{BandFactor, DrawnFrom, Ensemble, Members};
 pub use environment::Environment;
 pub use error::{ConfigError, Problem};
 pub use hard_limits::{HardBounds, HardLimits};

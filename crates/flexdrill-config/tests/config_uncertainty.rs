@@ -287,7 +287,13 @@ fn a_changed_value_takes_its_prior_along() {
 fn an_ensemble_needs_members_that_have_a_band_and_something_to_draw() {
     let with_ensemble = |section: &str, ensemble: &str| format!("{GOOD}{section}ensemble: {ensemble}\n");
     let something = "uncertainty: {sensors: {rotary_speed: {factor_error: 0.01}}}\n";
-    for good in ["{}", "{members: auto}", "{members: 8, seed: 5}", "{members: 256}"] {
+    for good in [
+        "{}",
+        "{members: auto}",
+        "{members: 8, seed: 5}",
+        "{members: 256}",
+        "{band_factors: [{figure: transfer/bit_torque, factor: 1.5, source: a test}]}",
+    ] {
         let config = Config::from_text("rig.yaml", &with_ensemble(something, good)).unwrap();
         let again = Config::from_text("written", &config.to_yaml().unwrap()).unwrap();
         assert_eq!(again, config, "{good}");
@@ -302,6 +308,22 @@ fn an_ensemble_needs_members_that_have_a_band_and_something_to_draw() {
         let (key, text) = problem(&with_ensemble(something, bad));
         assert!(key == "ensemble.members" && text.contains(bound), "{key}: {text}");
     }
+    for (bad, wrong, bound) in [
+        ("{figure: a/b, factor: 0.9, source: s}", "0.factor", "1 to 20"),
+        ("{figure: a/b, factor: .nan, source: s}", "0.factor", "1 to 20"),
+        ("{figure: a/b, factor: 2, source: ''}", "0.source", "the rigs"),
+        (
+            "{figure: a/b, factor: 2, source: s}, {figure: a/b, factor: 3, source: s}",
+            "1.figure",
+            "given once",
+        ),
+    ] {
+        let (key, text) = problem(&with_ensemble(something, &format!("{{band_factors: [{bad}]}}")));
+        assert!(
+            key == format!("ensemble.band_factors.{wrong}") && text.contains(bound),
+            "{key}: {text}"
+        );
+    }
     let (key, text) = problem(&with_ensemble("", "{members: 8}"));
     assert!(key == "ensemble.members" && text.contains("uncertainty.keys"), "{text}");
     for unreadable in [
@@ -310,6 +332,7 @@ fn an_ensemble_needs_members_that_have_a_band_and_something_to_draw() {
         "{members: 8.5}",
         "{member: 8}",
         "{seed: -1}",
+        "{band_factors: [{figure: a/b, factor: 2}]}",
     ] {
         let error = Config::from_text("rig.yaml", &with_ensemble(something, unreadable)).unwrap_err();
         assert!(error.to_string().contains("ensemble"), "{unreadable}: {error}");

@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_tempered_and_renewed_ensemble_comes_to_the_posterior_of_bayes() {
         let (noise, discrepancy, truth, windows, slope) = (2.0, 1.5, 1.2, 12, 90.0_f64.sqrt());
-        let count = 800;
+        let count = 400;
         let figure = |member: &[f64]| 9.0 * member[0] + 3.0 * member[1];
         let (mut off, mut ratios, mut across) = (Vec::new(), Vec::new(), Vec::new());
         for seed in 0..12 {
@@ -223,14 +223,14 @@ mod tests {
             ratios.push(variance / exact[1]);
             across.push(ensemble.moments(&[3.0 / slope, -9.0 / slope])[1]);
         }
-        // Of n members alike a mean scatters by 1 / sqrt(n) of its deviation and a variance by sqrt(2 / n): 0.05 and 0.07 of
-        // the 400 that each of a few renewals leaves at the least, twice as much with what they add up to. Twelve seeds
+        // Of n members alike a mean scatters by 1 / sqrt(n) of its deviation and a variance by sqrt(2 / n): 0.07 and 0.1 of
+        // the 200 that each of a few renewals leaves at the least, twice as much with what they add up to. Twelve seeds
         // scatter by sqrt(12) less, and four standard deviations are allowed.
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         let allowed = |each: f64| 4.0 * 2.0 * each / 12.0_f64.sqrt();
-        assert!(mean(&off).abs() < allowed(0.05), "{off:?}");
-        assert!((mean(&ratios) - 1.0).abs() < allowed(0.07), "{ratios:?}");
-        assert!((mean(&across) - 1.0).abs() < allowed(0.07), "{across:?}");
+        assert!(mean(&off).abs() < allowed(0.07), "{off:?}");
+        assert!((mean(&ratios) - 1.0).abs() < allowed(0.1), "{ratios:?}");
+        assert!((mean(&across) - 1.0).abs() < allowed(0.1), "{across:?}");
     }
 
     /// One window that a single member of twelve explains: eight remain alike, and the mean comes to it in a few renewals.

@@ -981,6 +981,12 @@ pub mod flexdrill {
         pub any_alarm: f64,
         pub any_alarm_lower: f64,
         pub any_alarm_upper: f64,
+        /// Sensors of the rig that the plausible tools are not weighed by.
+        pub distrusted: Vec<String>,
+        /// Why, in words, for each of them.
+        pub distrusted_why: Vec<String>,
+        /// Factors by which the bands are wider.
+        pub band_factors: Vec<f64>,
     }
 
     impl Message for Bands {

@@ -36,12 +36,12 @@ const GIVEN: Missing = Missing {
     last: 4,
 };
 
-/// The lists at the end of bands, which are empty: sensors that are not believed, and why.
+/// The lists at the end of bands, which are empty: sensors that are not believed, why, and the factors of the bands.
 const LISTS: Missing = Missing {
     first: 0,
     align: 4,
     numbers: &[],
-    last: 8,
+    last: 12,
 };
 
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.

@@ -39,6 +39,14 @@ pub enum UncertaintyError {
         /// The file that it names.
         file: String,
     },
+    /// A factor is given for a figure that has no band.
+    #[error("ensemble.band_factors: {figure} is no figure of twin/bands; did you mean {nearest}?")]
+    Figure {
+        /// The name that is given.
+        figure: String,
+        /// The nearest one that there is.
+        nearest: String,
+    },
     /// The configuration refuses every draw of a member.
     #[error("uncertainty: {attempts} draws of member {member} were refused; the last one because of {reason}")]
     Refused {

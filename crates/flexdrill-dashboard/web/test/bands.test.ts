@@ -7,7 +7,7 @@ import { rangeOf } from "../src/ranges";
 import { Store } from "../src/store/store";
 import { digits, type System } from "../src/units";
 import { alarms, type Expected } from "../src/views/forecast";
-import { anyAlarm, chanceWords, standsIn, whyNone, worth } from "../src/views/plausible";
+import { anyAlarm, chanceWords, notBelieved, standsIn, whyNone, worth } from "../src/views/plausible";
 import { withBand, withGaps } from "../src/views/strip";
 import { facts, places, type Ranges } from "../src/views/transfer";
 
@@ -40,6 +40,9 @@ function bands(time: number, figures: Record<string, [number, number]>, more: Pa
     any_alarm: 0,
     any_alarm_lower: 0,
     any_alarm_upper: 0.24,
+    distrusted: [],
+    distrusted_why: [],
+    band_factors: none,
     ...more,
   };
 }
@@ -208,6 +211,16 @@ test("plausible tools say how many they are, what they are worth, and what is un
   assert.equal(worth(bands(0, {}, { members: 0, effective: 0 })), "");
   assert.equal(whyNone(bands(0, {})), "");
   assert.equal(whyNone(bands(0, {}, { no_bands: "they have not begun yet" })), "No bands: they have not begun yet.");
+});
+
+test("a sensor that is not believed is named with the reason", () => {
+  assert.equal(notBelieved(bands(0, {})), "");
+  const distrusted = ["surface_torque", "hook_load"];
+  assert.equal(
+    notBelieved(bands(0, {}, { distrusted, distrusted_why: ["it is stuck", "its unit"] })),
+    "Not believed: surface torque (it is stuck); hook load (its unit).",
+  );
+  assert.equal(notBelieved(bands(0, {}, { distrusted: ["hook_load"] })), "Not believed: hook load.");
 });
 
 test("an alarm has the chance of its highest priority, and never all of it", () => {

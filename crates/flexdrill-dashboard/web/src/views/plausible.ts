@@ -71,6 +71,16 @@ export function whyNone({ no_bands }: Bands): string {
   return no_bands === "" ? "" : `No bands: ${no_bands.replace(/\.$/, "")}.`;
 }
 
+/** Which sensors of the rig the plausible tools are not weighed by, and why; empty where all are believed. */
+export function notBelieved({ distrusted, distrusted_why }: Bands): string {
+  if (distrusted.length === 0) return "";
+  const each = distrusted.map((name, index) => {
+    const why = distrusted_why[index] ?? "";
+    return why === "" ? name.replaceAll("_", " ") : `${name.replaceAll("_", " ")} (${why})`;
+  });
+  return `Not believed: ${each.join("; ")}.`;
+}
+
 /** In how many plausible tools an alarm that stands in the twin stands too; empty where that is not known. */
 export function standsIn(alarm: Alarm, bands: Bands | null): string {
   if (!bands || bands.no_bands !== "" || !isActive(alarm) || !isMet(alarm)) return "";
@@ -104,9 +114,10 @@ export class PlausibleView implements View {
   private readonly state = h("p", { class: "hint", id: "plausible-state" });
   private readonly worth = h("p", { id: "plausible-worth" });
   private readonly none = h("p", { id: "plausible-none" });
+  private readonly distrusted = h("p", { id: "plausible-distrusted" });
   private readonly list = h("ul", { class: "chances", id: "plausible-alarms" });
   private readonly any = h("p", { id: "plausible-any" });
-  private readonly body = h("div", {}, this.worth, this.none, this.list, this.any);
+  private readonly body = h("div", {}, this.worth, this.none, this.distrusted, this.list, this.any);
   private readonly pace = new Pace(500);
   private drawn: Bands | null = null;
 
@@ -152,6 +163,7 @@ export class PlausibleView implements View {
     const lines: [HTMLElement, string][] = [
       [this.worth, worth(bands)],
       [this.none, why],
+      [this.distrusted, notBelieved(bands)],
       [this.any, why === "" ? anyAlarm(bands) : ""],
     ];
     for (const [element, text] of lines) {
