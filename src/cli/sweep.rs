@@ -1,6 +1,7 @@
 //! `flexdrill sweep`: runs over tables of values, by any number of machines that share a directory.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use clap::{Args, Subcommand};
@@ -134,7 +135,8 @@ fn work(args: &WorkArgs) -> anyhow::Result<()> {
         .collect();
     keep_priority();
     let mut progress = Progress::share();
-    let compute = |point: &_| point::run(directory.plan(), &config, point, &stop);
+    let states = Arc::default();
+    let compute = |point: &_| point::run(directory.plan(), &config, point, &states, &stop);
     let worked = directory.work(&numbers, args.jobs, &stop, compute, |work| {
         progress.at(work.done as f64 / work.all.max(1) as f64);
     })?;

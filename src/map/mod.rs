@@ -2,11 +2,13 @@
 //!
 //! # Layout
 //! - [`point`]: one point: the way to its values, then members judged by the node's alarms ([`crate::ahead`]).
+//! - [`states`]: the states that points start from, made once for all that share them.
 //! - [`study`]: a map: which points to run, and the map from what they say.
 //! - [`picture`], [`table`]: the map drawn and as tables.
 
 pub mod picture;
 pub mod point;
+pub mod states;
 pub mod study;
 pub mod table;
 

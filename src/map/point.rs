@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::states::{Key, State, States};
 use crate::ahead::{Candidate, CandidateAnswer, Ends, Figure, Goal, NoTool, Start as Begin, look_ahead};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
@@ -21,8 +22,8 @@ const PERIOD: f64 = 5e-3;
 const LONGEST_WAY: f64 = 300.0;
 
 /// Computes a point of a plan whose configuration is `base`; nothing when `stop` is set. What fails is part of the
-/// outcome.
-pub fn run(plan: &Plan, base: &Config, point: &Point, stop: &AtomicBool) -> Option<Outcome> {
+/// outcome. The outcome is the same with any `states` of the plan.
+pub fn run(plan: &Plan, base: &Config, point: &Point, states: &Arc<States>, stop: &AtomicBool) -> Option<Outcome> {
     let config = match plan.config(base, point.row) {
         Ok(config) => Arc::new(config),
         Err(error) => return Some(unknown(plan, error.to_string())),
@@ -34,8 +35,11 @@ pub fn run(plan: &Plan, base: &Config, point: &Point, stop: &AtomicBool) -> Opti
         weight_ramp: 0.0,
     };
     let running = (point.start == Start::Running).then_some(&plan.runs.running);
-    let mut start = match begin(&config, running, candidate.weight_on_bit, Readings::default(), stop) {
-        Ok(start) => start,
+    let begun = states.fork(Key::of(&config, base, running, None), || {
+        begin(&config, running, candidate.weight_on_bit, Readings::default(), stop)
+    });
+    let mut start = match begun {
+        Ok(state) => started(&config, state, Readings::default()),
         Err(NoTool::Unknown(why)) => return Some(unknown(plan, why)),
         Err(NoTool::Stopped) => return None,
     };
@@ -46,11 +50,16 @@ pub fn run(plan: &Plan, base: &Config, point: &Point, stop: &AtomicBool) -> Opti
         };
         // Members of a number are the same tool in all cells: what differs between cells is speed and weight alone.
         let (seed, running) = (point.seed, running.copied());
+        let (states, base) = (Arc::clone(states), base.clone());
         start = start.with_tools(move |member, stop| {
             let drawn = priors.member(seed, u64::from(member));
             let drawn = drawn.map_err(|error| NoTool::Unknown(error.to_string()))?;
-            let (readings, config) = (Readings::of(&drawn), Arc::new(drawn.config));
-            begin(&config, running.as_ref(), candidate.weight_on_bit, readings, stop)
+            let (readings, own) = (Readings::of(&drawn), Arc::new(drawn.config));
+            let key = Key::of(&config, &base, running.as_ref(), Some((seed, member)));
+            let state = states.fork(key, || {
+                begin(&own, running.as_ref(), candidate.weight_on_bit, readings, stop)
+            })?;
+            Ok(started(&own, state, readings))
         });
     }
     let goal = Goal {
@@ -75,7 +84,7 @@ fn begin(
     kn: f64,
     readings: Readings,
     stop: &AtomicBool,
-) -> Result<Begin, NoTool> {
+) -> Result<State, NoTool> {
     let mut settings = config.simulation();
     settings.initial_inputs = Inputs {
         rotary_speed: 0.0,
@@ -115,7 +124,12 @@ fn begin(
     }
     // What a candidate asks for has the configured slew limits as the rig shows them.
     let applied = RunInputs { slew, ..run.applied() };
-    Ok(Begin::new(Arc::clone(config), run.simulation().fork(), &applied).on_rig(readings))
+    Ok((run, applied))
+}
+
+/// A look-ahead's start from a state, which is the tool's own.
+fn started(config: &Arc<Config>, (run, applied): State, readings: Readings) -> Begin {
+    Begin::new(Arc::clone(config), run.simulation().fork(), &applied).on_rig(readings)
 }
 
 /// Advances by a period.

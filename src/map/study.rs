@@ -1,8 +1,10 @@
 //! A map: which of its points to run, and what they say together.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::states::States;
 use super::{point, program};
 use crate::ahead::Chance;
 use flexdrill_alarms::Priority;
@@ -132,6 +134,7 @@ pub fn make(
     // At least one run, at most all, also for shares that round to nothing.
     let most = ((question.share * all as f64).round() as usize).clamp(1, all);
     let mut here = 0;
+    let states = Arc::<States>::default();
     let mut outcomes: Vec<Vec<Option<Outcome>>> = vec![vec![None; plan.rows.len()]; plan.starts.len()];
     // Each round learns from the runs of the one before. Only whole rounds count,
     // so that threads and interruptions do not change the choice.
@@ -146,7 +149,7 @@ pub fn make(
         }
         let before = choice.runs();
         let numbers: Vec<usize> = wanted.iter().map(|run| plan.number(run.cell, run.start, 0)).collect();
-        let run = |point: &_| point::run(plan, config, point, stop);
+        let run = |point: &_| point::run(plan, config, point, &states, stop);
         let worked = directory.work(&numbers, jobs, stop, run, |work| {
             progress(Progress {
                 // Work that was found in the directory counts as done, but not as run here: the estimate of the

@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
@@ -244,7 +245,7 @@ fn members(run_all: bool) -> (u32, u32) {
     };
     let plan = study::plan("small.yaml", &config, &question).unwrap();
     let point = &plan.points()[0];
-    let outcome = point::run(&plan, &config, point, &AtomicBool::new(false)).unwrap();
+    let outcome = point::run(&plan, &config, point, &Arc::default(), &AtomicBool::new(false)).unwrap();
     assert_eq!((outcome.any_alarm, outcome.failed), ([0; 3], 0), "{outcome:?}");
     (outcome.members, outcome.ended())
 }
@@ -450,7 +451,14 @@ fn one_point(config: &Config, members: u32, plausible: bool, first_alarm: bool) 
         share: 1.0,
     };
     let plan = study::plan("small.yaml", config, &question).unwrap();
-    point::run(&plan, config, &plan.points()[0], &AtomicBool::new(false)).unwrap()
+    point::run(
+        &plan,
+        config,
+        &plan.points()[0],
+        &Arc::default(),
+        &AtomicBool::new(false),
+    )
+    .unwrap()
 }
 
 fn median(outcome: &Outcome, figure: &str) -> f64 {
@@ -495,7 +503,14 @@ fn a_map_over_plausible_tools_runs_the_draws() {
                 share: 1.0,
             };
             let plan = study::plan("drawn.yaml", plain, &question).unwrap();
-            let outcome = point::run(&plan, plain, &plan.points()[0], &AtomicBool::new(false)).unwrap();
+            let outcome = point::run(
+                &plan,
+                plain,
+                &plan.points()[0],
+                &Arc::default(),
+                &AtomicBool::new(false),
+            )
+            .unwrap();
             median(&outcome, "guide_wall_force")
         })
         .collect();
@@ -528,4 +543,103 @@ fn a_member_may_end_with_its_first_alarm() {
             .fold(f64::INFINITY, f64::min)
     };
     assert_eq!(first(&whole), first(&short));
+}
+
+/// The map that is fast: states made once per weight, members that end with their first alarm, cells that a part of their members
+/// decide. Its cells are those of a full grid of fresh runs, in which every member of every cell makes its own way from
+/// rest and runs over the whole horizon.
+#[test]
+fn the_cells_of_a_fast_map_are_those_of_fresh_full_runs() {
+    keep_priority();
+    let text = std::fs::read_to_string("tests/data/small.yaml").unwrap();
+    // A level amid the swings of the bit's speed over the grid, so that some cells have alarms and some have none.
+    let level = |watch: f64| {
+        let levels = format!(
+            "\nstick_slip: {{window: 2.0, hysteresis: 1.0e-9, hold_off: 0.0, levels: {{watch: {watch}, warning: 8.0, critical: 9.0}}}}\n"
+        );
+        Config::from_text("small.yaml", &(text.clone() + &levels)).unwrap()
+    };
+    let question = |fast: bool| Question {
+        axes: [
+            (ROTARY_SPEED.to_owned(), vec![20.0, 40.0, 50.0]),
+            (WEIGHT_ON_BIT.to_owned(), vec![2.0, 8.0]),
+        ],
+        horizon: 10.0,
+        members: 3,
+        run_all: !fast,
+        first_alarm: fast,
+        plausible: false,
+        seed: 5,
+        running_rpm: Some(50.0),
+        running_time: 1.0,
+        priority: Priority::Low,
+        limit: 0.4,
+        share: 1.0,
+    };
+    let outcomes = |config: &Config, fast: bool| -> Vec<Outcome> {
+        let plan = study::plan("small.yaml", config, &question(fast)).unwrap();
+        let shared = Arc::default();
+        let run = |point: &_| {
+            let fresh = Arc::default();
+            let states = if fast { &shared } else { &fresh };
+            point::run(&plan, config, point, states, &AtomicBool::new(false)).unwrap()
+        };
+        plan.points().iter().map(run).collect()
+    };
+    // The swing of a cell is the median of its members' means over the horizon, by runs without any alarm.
+    let calm = outcomes(&level(7.0), false);
+    let mut swings: Vec<f64> = calm.iter().map(|outcome| median(outcome, "bit_speed_ripple")).collect();
+    swings.sort_by(f64::total_cmp);
+    let config = level(swings[swings.len() / 2]);
+    let (full, fast) = (outcomes(&config, false), outcomes(&config, true));
+    let class = |outcome: &Outcome, fast| study::class(outcome, &question(fast));
+    let classes: Vec<_> = full.iter().map(|outcome| class(outcome, false)).collect();
+    assert!(
+        classes.iter().any(|class| *class != classes[0]),
+        "{swings:?} {classes:?}"
+    );
+    for (point, ((full, fast), expected)) in full.iter().zip(&fast).zip(&classes).enumerate() {
+        assert_eq!(class(fast, true), *expected, "point {point}: {full:?} {fast:?}");
+        // A cell with alarms ends with two members that saw one, which fresh runs of all three saw too.
+        assert!(fast.members <= full.members);
+        assert_eq!((full.members, full.failed, fast.failed), (3, 0, 0));
+    }
+    assert!(
+        fast.iter().any(|outcome| outcome.members == 2),
+        "no cell was decided early"
+    );
+}
+
+/// States that are made once for all cells of a weight change no digit of an outcome, also where members are plausible tools.
+#[test]
+fn shared_states_change_no_digit_of_a_point() {
+    keep_priority();
+    let text = std::fs::read_to_string("tests/data/small.yaml").unwrap();
+    let config = Config::from_text("small.yaml", &(text + NOT_KNOWN)).unwrap();
+    for plausible in [false, true] {
+        let question = Question {
+            axes: [
+                (ROTARY_SPEED.to_owned(), vec![40.0, 50.0]),
+                (WEIGHT_ON_BIT.to_owned(), vec![4.0, 6.0]),
+            ],
+            horizon: 10.0,
+            members: 2,
+            run_all: true,
+            first_alarm: false,
+            plausible,
+            seed: 5,
+            running_rpm: Some(50.0),
+            running_time: 1.0,
+            priority: Priority::Low,
+            limit: 0.1,
+            share: 1.0,
+        };
+        let plan = study::plan("small.yaml", &config, &question).unwrap();
+        let shared = Arc::default();
+        for point in plan.points() {
+            let [with, fresh] = [&shared, &Arc::default()]
+                .map(|states| point::run(&plan, &config, &point, states, &AtomicBool::new(false)).unwrap());
+            assert_eq!(with, fresh, "{plausible} {point:?}");
+        }
+    }
 }
