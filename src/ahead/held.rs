@@ -2,9 +2,9 @@
 
 use std::collections::VecDeque;
 
-use super::forecast::{Calibration, Forecast, HORIZON};
+use super::forecast::{Calibration, Forecast, HORIZON, Widths};
 use super::set_point::{LAG, SetPoint};
-use super::trace::{SIGNALS, Trace};
+use super::trace::Trace;
 use crate::rig_inputs::Fluctuation;
 use flexdrill_config::InputsConfig;
 use flexdrill_core::twin::Snapshot;
@@ -20,7 +20,7 @@ struct Open {
     /// Speed (rad/s) and weight (N) that it assumes.
     targets: [f64; 2],
     /// Factors that its bands were published with.
-    widths: [f64; SIGNALS],
+    widths: Widths,
     /// Second that is compared next.
     next: u64,
 }
@@ -143,10 +143,12 @@ impl Held {
                     open.next = end;
                     break;
                 }
-                let bands = open.forecast.seconds.get((number - open.forecast.first) as usize);
+                let (first, ahead) = (open.forecast.first, number - open.forecast.first);
+                let bands = open.forecast.seconds.get(ahead as usize);
                 let second = self.trace.seconds().iter().find(|second| second.number == number);
                 if let (Some(bands), Some(second)) = (bands, second) {
-                    self.calibration.compare(bands, &open.widths, &second.values());
+                    self.calibration
+                        .compare(first, ahead, bands, &open.widths, &second.values());
                 }
             }
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::goal::Ends;
-use super::measured::Measured;
+use super::measured::{Measured, hazard};
 use super::set_point::Wavering;
 use super::trace::Trace;
 use crate::alarms::{AlarmBook, AlarmId, AlarmSet};
@@ -15,7 +15,7 @@ use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{QualityLevel, Run, RunInputs, Snapshot};
 use flexdrill_core::units::rad_per_s_to_rpm;
-use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
+use flexdrill_motion::{BIT, Hold, KICK_OFF, SURFACE};
 
 /// Largest lateral velocity (m/s) by which members differ at the beginning. It is a ten-thousandth of the velocities that
 /// the pipe has in drilling, and no instrument in a well resolves it; a turn later the places of the pipe differ by
@@ -114,8 +114,8 @@ impl Member {
 pub(super) enum Horizon {
     /// So long (s): what lasts into its second half has not ended.
     Of(f64),
-    /// Until none of the alarms stands, and for `within` (s) at most; what stands within `lasting` (s) from then on, or before
-    /// `least` (s), has not ended.
+    /// Until the condition of none of the alarms is met, and for `within` (s) at most; what stands within `lasting` (s) from then
+    /// on, or before `least` (s), has not ended. With `lasting`, the alarms themselves must have ended too.
     Settling {
         /// The alarms that are to end, and those that may come with the change for a moment.
         alarms: AlarmSet,
@@ -125,6 +125,9 @@ pub(super) enum Horizon {
         lasting: f64,
         /// Least time of the member (s).
         least: f64,
+        /// An alarm without whose end the rest of the member says nothing more, and the time (s) for which it outlasts its
+        /// condition at least.
+        leading: (AlarmId, f64),
     },
 }
 
@@ -151,7 +154,8 @@ pub(super) struct Watched<'a> {
     period: u64,
     /// Periods per look.
     periods: u64,
-    trace: Option<Trace>,
+    /// The trace, and the time of the run at tick 0 of this one (s).
+    trace: Option<(Trace, f64)>,
     measured: Option<Measured>,
     wavering: Wavering,
 }
@@ -176,9 +180,10 @@ impl<'a> Watched<'a> {
         }
     }
 
-    /// Keeps the figures of every second.
-    pub(super) fn traced(mut self) -> Self {
-        self.trace = Some(Trace::default());
+    /// Keeps the figures of every second of a run whose time is `time` (s) now.
+    pub(super) fn traced(mut self, time: f64) -> Self {
+        let counted = self.run.ticks() as f64 * self.config.solver.time_step;
+        self.trace = Some((Trace::default(), time - counted));
         self
     }
 
@@ -251,23 +256,33 @@ impl<'a> Watched<'a> {
         let mut stood = vec![true; AlarmId::ALL.len()];
         let mut tally = Tally::default();
         let mut quality = QualityLevel::Good;
-        let looks = |time: f64| {
-            (time / (self.periods as f64 * self.period as f64 * self.config.solver.time_step)).ceil() as u64
-        };
+        let per_look = self.periods as f64 * self.period as f64 * self.config.solver.time_step;
+        let looks = |time: f64| (time / per_look).ceil() as u64;
         // Looks at which the alarms must have ended at the latest, and for which they must stay away from then on.
-        let (all, early) = match horizon {
+        let (all, mut early) = match horizon {
             Horizon::Of(horizon) => (looks(horizon), None),
             Horizon::Settling {
                 alarms,
                 within,
                 lasting,
                 least,
-            } => {
-                let lasting = looks(lasting);
-                (looks(within) + lasting, Some((alarms, lasting, looks(least))))
-            }
+                leading: (leading, hold),
+            } => (
+                looks(within) + looks(lasting),
+                Some(Early {
+                    alarms,
+                    lasting,
+                    least: looks(least),
+                    leading,
+                    // A look more for each of the two rounded times, and one for the alarm that follows the analysis.
+                    hopeless: (looks(within) + 3).saturating_sub(looks(hold)),
+                    over: None,
+                }),
+            ),
         };
-        let latest = early.map_or(all.div_ceil(2), |(_, lasting, _)| all - lasting);
+        let latest = early
+            .as_ref()
+            .map_or(all.div_ceil(2), |early| all - looks(early.lasting));
         let mut end = all;
         let mut lasts = false;
         let set = self.run.applied().inputs;
@@ -286,13 +301,28 @@ impl<'a> Watched<'a> {
             // What stands before belongs to the transition. Where all has ended early, the rest of the transition says
             // nothing more.
             let gone = snapshot.time - begun;
-            if let Some((alarms, lasting, least)) = early
+            if let Some(early) = &mut early
                 && !lasts
                 && gone >= SETTLING
-                && alarms.iter().all(|id| session.alarms().active(id).is_none())
             {
-                lasts = true;
-                end = (look + lasting).max(least).min(all);
+                early.follow(snapshot, session.alarms());
+                if let Some(over) = early.over {
+                    // A member that only chooses asks whether the motion ends. How long it stays away is for others.
+                    if early.lasting == 0.0 {
+                        break;
+                    }
+                    if early.alarms.iter().all(|id| session.alarms().active(id).is_none()) {
+                        lasts = true;
+                        end = looks(over - begun + early.lasting).max(early.least).clamp(look, all);
+                    }
+                } else if look >= early.hopeless
+                    && let Some(priority) = early.is_met(snapshot, session.alarms())
+                {
+                    // Its condition keeps the alarm for longer than the time that is left.
+                    let called = &mut alarms[early.leading as usize];
+                    (called.worst, called.first) = (Some(priority), gone);
+                    break;
+                }
             }
             lasts |= look >= latest;
             for ((id, called), stood) in AlarmId::ALL.into_iter().zip(&mut alarms).zip(&mut stood) {
@@ -319,10 +349,10 @@ impl<'a> Watched<'a> {
                 None => {}
             }
             tally.add(snapshot);
-            if let Some(trace) = &mut self.trace {
-                // The run counts its steps from its start, not from the fork, so
-                // that the trace continues that of the live run.
-                let time = self.run.ticks() as f64 * self.config.solver.time_step;
+            if let Some((trace, origin)) = &mut self.trace {
+                // The run counts its steps from its start, not from the fork, so that the trace continues that of the
+                // live run; a plausible tool has begun later than the twin.
+                let time = *origin + self.run.ticks() as f64 * self.config.solver.time_step;
                 trace.look(time, snapshot);
                 trace.peaks(time, snapshot);
             }
@@ -339,10 +369,53 @@ impl<'a> Watched<'a> {
             alarms,
             figures,
             quality,
-            trace: self.trace.unwrap_or_default(),
+            trace: self.trace.map_or_else(Trace::default, |(trace, _)| trace),
             measured: self.measured,
             judged,
         })
+    }
+}
+
+/// When a member ends before its horizon.
+struct Early {
+    /// The alarms that are to end.
+    alarms: AlarmSet,
+    /// Time for which they must stay away (s).
+    lasting: f64,
+    /// Least looks of the member.
+    least: u64,
+    /// The alarm without whose end the rest says nothing.
+    leading: AlarmId,
+    /// Looks from which on a condition that is met keeps its alarm for the rest of the time that alarms have to end.
+    hopeless: u64,
+    /// Model time from which on the condition of none of the alarms was met (s); none while one is.
+    over: Option<f64>,
+}
+
+impl Early {
+    /// Takes a look. An alarm outlasts its condition by the hold-off of the analysis, in which the motion has ended already.
+    fn follow(&mut self, snapshot: &Snapshot, book: &AlarmBook) {
+        let ended = self.alarms.iter().map(|id| match (book.active(id), hazard(id)) {
+            (None, _) => Some(f64::NEG_INFINITY),
+            (Some(_), Some(kind)) => match snapshot.hazards.of(kind).hold {
+                Hold::Ended { at } => Some(at),
+                Hold::Met | Hold::Less { .. } => None,
+            },
+            (Some(_), None) => None,
+        });
+        let ended = ended.collect::<Option<Vec<f64>>>();
+        self.over = ended.map(|ended| {
+            let last = ended.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            // Where all alarms have ended, they did between two looks.
+            let last = if last.is_finite() { last } else { snapshot.time };
+            self.over.unwrap_or(last)
+        });
+    }
+
+    /// The priority of the leading alarm, where it stands and its condition is met.
+    fn is_met(&self, snapshot: &Snapshot, book: &AlarmBook) -> Option<Priority> {
+        let hold = snapshot.hazards.of(hazard(self.leading)?).hold;
+        book.active(self.leading).filter(|_| hold == Hold::Met)
     }
 }
 

@@ -2,12 +2,12 @@
 //!
 //! # Layout
 //! - [`Goal`]: candidates, horizon, members; checked against the configuration before anything runs.
-//! - [`Start`]: the state from which all members begin.
+//! - [`Start`]: the states from which members begin: one for all, or a plausible tool for each (`draws`).
 //! - [`SetPoint`]: what the driller has set, and how the rig wavers about it; members waver alike.
 //! - `member`: one run of one candidate, judged by the alarms that the node itself uses.
 //! - `measured`: the motion of a member without the gates of the alarms.
 //! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
-//! - [`look_ahead`]: runs the members on some threads and gathers an [`Answer`].
+//! - [`look_ahead`]: runs the members on some threads (`engine`) and gathers an [`Answer`].
 //! - [`search`]: the smallest change of speed or weight that ends the alarms that stand.
 //! - [`forecast`]: the next minute at the present speed and weight, second by second. [`Held`] compares it with what came.
 //!
@@ -21,24 +21,29 @@
 //!   since the way may decide whether a motion ends. Only a long way is run once for all.
 
 mod advice;
+mod answer;
 mod chance;
+mod draws;
 mod engine;
 mod forecast;
 mod goal;
 mod held;
 mod measured;
 mod member;
+#[cfg(test)]
+mod plausible_tests;
 mod set_point;
+mod start;
 mod trace;
 
-pub use advice::{SearchProgress, Searched, search};
+pub use advice::{LEAST_CONFIRMING, SearchProgress, Searched, search};
+pub use answer::{AlarmChance, Answer, CandidateAnswer, Progress};
 pub use chance::{Band, Chance};
-pub use engine::{
-    AlarmChance, Answer, CandidateAnswer, NoTool, Progress, Start, StartError, keep_priority, look_ahead,
-};
-pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, forecast, widened};
+pub use engine::{keep_priority, look_ahead};
+pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, LEADS, Widths, forecast, lead, widened};
 pub use goal::{Candidate, Ends, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use held::Held;
 pub use member::{DISTURBANCE, Figure};
 pub use set_point::SetPoint;
+pub use start::{NoTool, Start, StartError};
 pub use trace::{SIGNALS, Second, Signal, Trace};

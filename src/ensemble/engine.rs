@@ -26,7 +26,7 @@ pub(super) const SLICE: f64 = 0.5;
 const PER_SECOND: u64 = 2;
 /// Model time after which members may give way to others, and for which those are prepared: the motion and the means of a
 /// tool that begins in the middle of a run have settled after it (s).
-const PREPARED: f64 = 60.0;
+pub(super) const PREPARED: f64 = 60.0;
 /// What the ensemble hears of the twin, in the order of its ticks.
 #[derive(Debug, Clone)]
 pub enum Told {
@@ -97,7 +97,7 @@ pub struct Ensemble {
     pub(super) prior_friction: [f64; 2],
     pub(super) seed: u64,
     /// What acts at `at`, once that is known.
-    acts: Option<RunInputs>,
+    pub(super) acts: Option<RunInputs>,
     pub(super) generation: Generation,
     pub(super) places: Vec<Place>,
     /// Members that others have replaced, and that run on as the outermost of those drawn before anything was measured.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::engine::Slice;
 use super::evidence::Windows;
+use super::fork::Fork;
 use crate::alarms::{AlarmBook, AlarmId};
 use flexdrill_alarms::{Priority, span};
 use flexdrill_config::Config;
@@ -142,6 +143,21 @@ impl Member {
             for (peak, value) in peaks.iter_mut().zip(&layer.normal_peak) {
                 *peak = peak.max(*value);
             }
+        }
+    }
+
+    /// Its present state, while the rig shows `shown`.
+    pub(super) fn fork(&self, shown: &RunInputs) -> Fork {
+        let stands = |id: &AlarmId| self.alarms.active(*id).is_some();
+        Fork {
+            config: Arc::clone(&self.config),
+            run: self.run.fork(),
+            shown: RunInputs {
+                live: self.live,
+                ..*shown
+            },
+            readings: self.readings,
+            standing: AlarmId::ALL.into_iter().filter(stands).collect(),
         }
     }
 

@@ -12,6 +12,7 @@
 
 mod engine;
 mod evidence;
+mod fork;
 mod judgement;
 mod member;
 mod message;
@@ -26,6 +27,7 @@ mod trust;
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
 pub use message::band_factors;
+pub use fork::{Fork, Forks};
 pub use place::Threads;
 pub use posterior::named_by;
-pub use running::{Pace, Running};
+pub use running::{Forking, Pace, Running};

@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use super::engine::{Ensemble, Found, Generation, SLICE, Told};
+use super::fork::Forks;
 use super::place::Threads;
 use flexdrill_ensemble::LEAST_MEMBERS;
 use flexdrill_text::{counted, log_ending};
@@ -21,6 +22,11 @@ const MOST_BY_ITSELF: f64 = 64.0;
 const TAKEN: f64 = 0.75;
 /// Processors that the twin's messages take, as the busiest demonstration does.
 const MESSAGES: f64 = 0.25;
+/// Members that may run on as the outermost of those drawn first: two for each of torque and hook load, which every rig
+/// measures. They take the time of others.
+const OUTERMOST: f64 = 4.0;
+/// Longest wait for the members of now: they are handed over between two slices.
+const PATIENCE: Duration = Duration::from_secs(3);
 /// Time between two looks for news.
 const POLL: Duration = Duration::from_millis(50);
 
@@ -53,6 +59,30 @@ struct Shared {
     /// Ticks up to which all that can be computed is computed.
     at: Mutex<u64>,
     moved: Condvar,
+    /// Those who wait for the members of now.
+    asking: Mutex<Vec<Sender<Result<Forks, String>>>>,
+}
+
+/// Where a look-ahead has the members of now from. It waits for the ensemble; nothing waits for it.
+#[derive(Clone)]
+pub struct Forking(Arc<Shared>);
+
+impl Forking {
+    /// The members of now, each forked between two slices.
+    ///
+    /// # Errors
+    /// Why there are none to look ahead from, in words.
+    pub fn ask(&self) -> Result<Forks, String> {
+        let (sender, found) = channel();
+        self.0
+            .asking
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(sender);
+        found
+            .recv_timeout(PATIENCE)
+            .unwrap_or_else(|_| Err("the plausible tools did not answer on this busy computer".to_owned()))
+    }
 }
 
 impl Running {
@@ -90,6 +120,11 @@ impl Running {
             told_until: 0,
             ahead,
         })
+    }
+
+    /// Where look-aheads have the members of now from.
+    pub fn forking(&self) -> Forking {
+        Forking(Arc::clone(&self.shared))
     }
 
     /// Tells the ensemble what acts or what was compared.
@@ -169,6 +204,7 @@ impl Worker {
                 self.ensemble.hear(told);
             }
             self.begin();
+            self.hand_over();
             let [at, reached] = self.ensemble.ticks();
             let is_due = self.begun && self.ensemble.is_due();
             // Before the first members there is nothing to wait for, nor where all that was heard is computed.
@@ -192,6 +228,15 @@ impl Worker {
                     Err(RecvTimeoutError::Disconnected) => ended = true,
                 }
             }
+        }
+    }
+
+    /// Gives the members of now to those who have asked for them.
+    fn hand_over(&self) {
+        let asking = std::mem::take(&mut *self.shared.asking.lock().unwrap_or_else(PoisonError::into_inner));
+        for sender in asking {
+            // One who no longer waits needs no answer.
+            let _ = sender.send(self.ensemble.fork());
         }
     }
 
@@ -255,7 +300,7 @@ impl Worker {
         };
         let cores = self.threads.count as f64;
         let left = (cores - cost - MESSAGES).max(0.0) * TAKEN;
-        let members = (left / cost).floor().min(MOST_BY_ITSELF);
+        let members = ((left / cost).floor() - OUTERMOST).clamp(0.0, MOST_BY_ITSELF);
         let speed = format!(
             "{} at {:.1} times real time",
             counted(self.threads.count as u64, "processor"),

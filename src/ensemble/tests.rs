@@ -1,3 +1,5 @@
+mod fork;
+
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, LazyLock};
 

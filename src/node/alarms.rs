@@ -408,6 +408,7 @@ mod tests {
             },
             ended: 10,
             of: 10,
+            tools: 0,
         };
         advisor.answer(asked, Some(tested));
         assert!(advice(&desk).contains("84 r/min"));

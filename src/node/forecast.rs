@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::what_if_messages::of_alarm;
-use crate::ahead::{Forecast, HORIZON, Held, Signal, widened};
+use crate::ahead::{Compared, Forecast, HORIZON, Held, LEADS, Signal, lead, widened};
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
@@ -195,6 +195,7 @@ impl ForecastDesk {
                 let first = (forecast.first as f64 / self.time_step).round() as u64;
                 message.bands_from = Time::from_nanoseconds(instant(first));
                 (message.members, message.failed) = (forecast.members, forecast.failed);
+                message.tools = forecast.tools;
                 message.failure.clone_from(&forecast.failure);
                 message.bands = Signal::ALL.map(|signal| self.band(signal, &forecast)).into();
                 message.alarms = forecast.alarms.iter().map(of_alarm).collect();
@@ -275,11 +276,12 @@ impl ForecastDesk {
     fn band(&self, signal: Signal, forecast: &Forecast) -> ForecastBand {
         let (name, unit) = signal.name_and_unit();
         let of = self.held.calibration().of(signal);
-        let width = of.width();
-        let bands = forecast.seconds.iter();
-        let bands: Vec<[f64; 3]> = bands
-            .map(|bands| widened(signal, &bands[signal as usize], width))
+        let widths = of.each_ref().map(Compared::width);
+        let bands: Vec<[f64; 3]> = (0..)
+            .zip(&forecast.seconds)
+            .map(|(second, bands)| widened(signal, &bands[signal as usize], widths[lead(second)]))
             .collect();
+        let sum = |count: fn(&Compared) -> u32| of.iter().map(count).sum();
         let quantile = |index: usize| bands.iter().map(|band| band[index]).collect();
         ForecastBand {
             name: name.to_owned(),
@@ -287,10 +289,15 @@ impl ForecastDesk {
             p5: quantile(0),
             p50: quantile(1),
             p95: quantile(2),
-            width,
-            compared: of.compared,
-            inside: of.inside,
-            inside_members: of.inside_members,
+            width: widths[0],
+            compared: sum(|of| of.compared),
+            inside: sum(|of| of.inside),
+            inside_members: sum(|of| of.inside_members),
+            lead_until: LEADS.map(|until| until as f64).into(),
+            lead_width: widths.into(),
+            lead_calibrated: of.each_ref().map(Compared::is_calibrated).into(),
+            lead_compared: of.each_ref().map(|of| of.compared).into(),
+            lead_inside: of.each_ref().map(|of| of.inside).into(),
         }
     }
 }
@@ -350,6 +357,7 @@ mod tests {
                 first: second + 1,
                 seconds: Vec::new(),
                 members: 4,
+                tools: 0,
                 failed: 0,
                 failure: String::new(),
                 alarms: Vec::new(),

@@ -153,6 +153,7 @@ impl PreparedNode {
             advisor,
             forecasts: config.look_ahead.forecast.then(Arc::default),
             set_point: Arc::new(SharedSetPoint::new(&config)),
+            tools: None,
         };
         let shut_down = Arc::new(Notify::new());
         // Without `--lifecycle` the services do not exist, and a supervisor sees at once that the node is not managed.
@@ -238,7 +239,7 @@ impl PreparedNode {
     /// # Errors
     /// When one of them cannot be started.
     pub(super) async fn start(self) -> Result<RunningNode, NodeError> {
-        let setup = self.setup;
+        let (setup, mut answering) = (self.setup, self.answering);
         let topic_name = |topic: &TopicInfo| topic_name(&setup, topic);
         // The recording starts first, so that it has the first message of every topic.
         let recording = match &setup.record {
@@ -291,13 +292,15 @@ impl PreparedNode {
         if let Some(ensemble) = ensemble.map_err(|error| NodeError::Stopped(error.to_string()))? {
             let running =
                 Running::start(ensemble, Pace::Clock).map_err(|error| NodeError::Stopped(error.to_string()))?;
+            // Look-aheads have their members from it, without a way through publisher or solver.
+            answering.tools = Some(running.forking());
             session.run_with(running);
         }
         if self.config.look_ahead.advice {
-            alarms.advised_by(Arc::clone(&self.answering.advisor));
+            alarms.advised_by(Arc::clone(&answering.advisor));
         }
         // The forecast desk exists only where forecasts are made, so that nothing is published that never changes.
-        let forecasts = self.answering.forecasts.as_ref().map(Arc::clone);
+        let forecasts = answering.forecasts.as_ref().map(Arc::clone);
         let parts = PublisherParts {
             end: self.publisher_end,
             publishers: self.publishers,
@@ -314,7 +317,7 @@ impl PreparedNode {
             node_name: setup.identity.full_name(),
             finish: Arc::clone(&finish),
             forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
-            set_point: Arc::clone(&self.answering.set_point),
+            set_point: Arc::clone(&answering.set_point),
             moves: self.moves,
         };
         let publisher = Publisher::new(parts, session).map_err(|error| NodeError::Stopped(error.to_string()))?;
@@ -333,7 +336,7 @@ impl PreparedNode {
         let solver_thread = spawn("solver", move || solver.run(built_sender))?;
         // The look-ahead has its own thread, because a fork of the run is
         // expensive and must never hold up publisher or solver.
-        let (what_if, answering) = (Arc::clone(&self.answering.what_if), self.answering);
+        let what_if = Arc::clone(&answering.what_if);
         let look_ahead_thread = spawn("look-ahead", move || answering.run())?;
         Ok(RunningNode {
             what_if,

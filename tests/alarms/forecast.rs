@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use flexdrill::ahead::{Held, Signal, Start, forecast, keep_priority};
+use flexdrill::ahead::{Compared, Held, Signal, Start, forecast, keep_priority};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::{InputKind, Inputs};
@@ -85,14 +85,21 @@ fn held(config: &Arc<Config>, from: f64, seconds: u64, members: u32) -> Held {
 fn shares(held: &Held) -> Vec<(Signal, u32, f64, f64)> {
     let of = |signal| {
         let of = held.calibration().of(signal);
-        let share = |inside: u32| f64::from(inside) / f64::from(of.compared);
-        let shares = (signal, of.compared, share(of.inside), share(of.inside_members));
+        let sum = |count: fn(&Compared) -> u32| of.iter().map(count).sum::<u32>();
+        let compared = sum(|of| of.compared);
+        let share = |inside: u32| f64::from(inside) / f64::from(compared);
+        let shares = (
+            signal,
+            compared,
+            share(sum(|of| of.inside)),
+            share(sum(|of| of.inside_members)),
+        );
         println!(
-            "{signal:?}: {} s compared, {:.1} % in the band, {:.1} % in that of the members, width {:.2}",
+            "{signal:?}: {} s compared, {:.1} % in the band, {:.1} % in that of the members, widths by lead {:.2?}",
             shares.1,
             100.0 * shares.2,
             100.0 * shares.3,
-            of.width()
+            of.each_ref().map(Compared::width)
         );
         shares
     };

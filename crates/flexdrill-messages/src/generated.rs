@@ -297,7 +297,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_Feedback";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Feedback";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Feedback_";
-        const RIHS01: &'static str = "RIHS01_3da0e9b0ff2e18d946e538777ed261775099d9c3c5298a8cd0a88ff010eae94e";
+        const RIHS01: &'static str = "RIHS01_68509d5b8c1893bce7007419b20cc93deab87667b5f3172bde6251cd78382d0f";
         const SCHEMA: &'static str = concat!(
             "# Members that have ended.\nuint32 done\n# Members that may have to run yet.\nuint32 remaining\n# What they say so far, one per candidate.\nWhatIfAnswer[] answers\n",
             "================================================================================\nMSG: flexdrill/WhatIfAnswer\n",
@@ -324,7 +324,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_FeedbackMessage";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_FeedbackMessage";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_FeedbackMessage_";
-        const RIHS01: &'static str = "RIHS01_05c43ea2965621e44b9bed9799e2d775fc6571d1b12ffc86f0d5ebe0286b66bf";
+        const RIHS01: &'static str = "RIHS01_1cc4fac0fc86f6342ce1a209e4d4cdc3ceafa722682ff4a0873d8fcdeb6c266e";
         const SCHEMA: &'static str = concat!(
             "unique_identifier_msgs/UUID goal_id\nflexdrill/WhatIf_Feedback feedback\n",
             "================================================================================\nMSG: unique_identifier_msgs/UUID\n",
@@ -375,7 +375,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_GetResult_Response";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_GetResult_Response";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_GetResult_Response_";
-        const RIHS01: &'static str = "RIHS01_47e1f8d418ed640a0c1ceb4364ae8be154e100bd7b5f30946f9ef55ab4741e7d";
+        const RIHS01: &'static str = "RIHS01_db83f948412a7aae974cfad9de28a13d16b0307a43305411d1995bb4d03d1e53";
         const SCHEMA: &'static str = concat!(
             "int8 status\nflexdrill/WhatIf_Result result\n",
             "================================================================================\nMSG: flexdrill/WhatIf_Result\n",
@@ -444,7 +444,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIf_Result";
         const ROS_TYPE: &'static str = "flexdrill/action/WhatIf_Result";
         const DDS_TYPE: &'static str = "flexdrill::action::dds_::WhatIf_Result_";
-        const RIHS01: &'static str = "RIHS01_4ebb5dd81f331b83dfc1d2d2574df162732ab99a007e062fe90654c5ebf9641c";
+        const RIHS01: &'static str = "RIHS01_0e32a9e2bf8b670d697c0b680947fbdd430189ccd560ad2389ea171fe2a850f5";
         const SCHEMA: &'static str = concat!(
             "# The instant of the state that was looked ahead from, on the rig's clock.\nbuiltin_interfaces/Time from_stamp\n# Model step of that state.\nuint64 from_step\n# Whether all members ran that were needed; false after a cancellation.\nbool complete\n# In a sentence: what was found, or why nothing was.\nstring message\n# One per candidate, in the order of the goal.\nWhatIfAnswer[] answers\n",
             "================================================================================\nMSG: builtin_interfaces/Time\n",
@@ -1213,6 +1213,9 @@ pub mod flexdrill {
         pub any_alarm: f64,
         pub any_alarm_lower: f64,
         pub any_alarm_upper: f64,
+        /// Plausible tools that the members, those that failed included, are runs of, each from its own state; 0 where they are runs of
+        /// the twin.
+        pub tools: u32,
     }
 
     impl Message for Forecast {
@@ -1220,7 +1223,7 @@ pub mod flexdrill {
         const NAME: &'static str = "Forecast";
         const ROS_TYPE: &'static str = "flexdrill/msg/Forecast";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Forecast_";
-        const RIHS01: &'static str = "RIHS01_56a0b5d3bd4c69cc08c438c4f7c43412755fb2a70145175df536d4f52715a4ea";
+        const RIHS01: &'static str = "RIHS01_83b6cf767febf9da436c3d22188ec703ed632391f72a544715a0dc6a00bc124a";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/Forecast.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -1232,7 +1235,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: flexdrill/AlarmChance\n",
             include_str!("../../../msg/AlarmChance.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Forecast", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "from_step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands_from", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "interval", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/ForecastBand"}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Forecast", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "from_step", "type": {"type_id": 9, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rotary_speed", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "weight_on_bit", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands_from", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "builtin_interfaces/msg/Time"}}, {"name": "interval", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bands", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/ForecastBand"}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "tools", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// One figure of a forecast, second by second.
@@ -1248,8 +1251,7 @@ pub mod flexdrill {
         pub p5: Vec<f64>,
         pub p50: Vec<f64>,
         pub p95: Vec<f64>,
-        /// Factor on the band of the members. It is the one with which nine of ten of the last seconds that were compared would
-        /// have been in their band; 1 before a minute has been compared.
+        /// Factor on the band of the members over the first seconds, lead_width\[0\].
         pub width: f64,
         /// Seconds of earlier forecasts of this run that were compared with what came, while speed and weight stayed.
         pub compared: u32,
@@ -1257,6 +1259,18 @@ pub mod flexdrill {
         pub inside: u32,
         /// Seconds among them in which it was in the band of the members as they were.
         pub inside_members: u32,
+        /// How far ahead seconds are that are calibrated together, counted from the beginning of the bands: the i-th of the lists below
+        /// holds for seconds before lead_until\[i\] (s), and from lead_until\[i - 1\] on.
+        pub lead_until: Vec<f64>,
+        /// Factor on the band of the members. It is the one with which nine of ten of the last seconds that were compared at this
+        /// lead would have been in their band; 1 before that is known.
+        pub lead_width: Vec<f64>,
+        /// Whether it is known: nine forecasts at least were compared with what came at this lead. Where it is false, the band is
+        /// that of the members, and not calibrated yet.
+        pub lead_calibrated: Vec<bool>,
+        /// Seconds that were compared at this lead, and those among them in which the figure was in the published band.
+        pub lead_compared: Vec<u32>,
+        pub lead_inside: Vec<u32>,
     }
 
     impl Message for ForecastBand {
@@ -1264,9 +1278,9 @@ pub mod flexdrill {
         const NAME: &'static str = "ForecastBand";
         const ROS_TYPE: &'static str = "flexdrill/msg/ForecastBand";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::ForecastBand_";
-        const RIHS01: &'static str = "RIHS01_8cc60a6e5166ce23aeacf9dc3cbaafd84162fa1a7e814eac6a7dd0e1b07ab8d4";
+        const RIHS01: &'static str = "RIHS01_0d68d4f104a7f3e111c012bdfa712bc39cb7fb1084d1ac6df3074563a7b21984";
         const SCHEMA: &'static str = include_str!("../../../msg/ForecastBand.msg");
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ForecastBand", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p5", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p50", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p95", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "width", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "compared", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside_members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/ForecastBand", "fields": [{"name": "name", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "unit", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p5", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p50", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "p95", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "width", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "compared", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "inside_members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lead_until", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lead_width", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lead_calibrated", "type": {"type_id": 159, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lead_compared", "type": {"type_id": 151, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "lead_inside", "type": {"type_id": 151, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// Where this tool drills next: what the bit does now, and the next metres with the range of plausible tools, once per second
@@ -2238,6 +2252,15 @@ pub mod flexdrill {
         pub hole_plan_distance: f64,
         /// How far ahead of the bit that is: 5 m, or less where the plan ends before (m).
         pub hole_plan_ahead: f64,
+        /// Plausible tools that the members are runs of, each from its own state, drawn by their weights; 0 where they are runs of
+        /// the twin. A tool that is drawn again has another disturbance.
+        pub tools: u32,
+        /// Factors on the friction: a fifth lower and higher.
+        pub friction_factors: Vec<f64>,
+        /// Members with that friction, those among them that failed, and those that saw any alarm.
+        pub friction_members: Vec<u32>,
+        pub friction_failed: Vec<u32>,
+        pub friction_any_alarm: Vec<u32>,
     }
 
     impl Message for WhatIfAnswer {
@@ -2245,7 +2268,7 @@ pub mod flexdrill {
         const NAME: &'static str = "WhatIfAnswer";
         const ROS_TYPE: &'static str = "flexdrill/msg/WhatIfAnswer";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::WhatIfAnswer_";
-        const RIHS01: &'static str = "RIHS01_13da51932d44e6fa8cc2a62356ce46e825cd37aeed845aa3fea6a2669235b323";
+        const RIHS01: &'static str = "RIHS01_7633ba0f5873b924f2d458828a71cdba4628059df8e78088607e1b4bd17603e7";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/WhatIfAnswer.msg"),
             "================================================================================\nMSG: flexdrill/WhatIfCandidate\n",
@@ -2255,7 +2278,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: flexdrill/FigureBand\n",
             include_str!("../../../msg/FigureBand.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhatIfAnswer", "fields": [{"name": "candidate", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfCandidate"}}, {"name": "run_up", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "decided", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "figures", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/FigureBand"}}, {"name": "quality_good", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_degraded", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_poor", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_known", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_because", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_plan_distance", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_plan_ahead", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/WhatIfAnswer", "fields": [{"name": "candidate", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/WhatIfCandidate"}}, {"name": "run_up", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "members", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failed", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "failure", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "decided", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_lower", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "any_alarm_upper", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "alarms", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/AlarmChance"}}, {"name": "figures", "type": {"type_id": 145, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/msg/FigureBand"}}, {"name": "quality_good", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_degraded", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "quality_poor", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_known", "type": {"type_id": 15, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_because", "type": {"type_id": 17, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius_low", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_radius_high", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_plan_distance", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "hole_plan_ahead", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "tools", "type": {"type_id": 7, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_factors", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_members", "type": {"type_id": 151, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_failed", "type": {"type_id": 151, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "friction_any_alarm", "type": {"type_id": 151, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// A rotary speed and a weight on bit to be tried in a look-ahead.
@@ -5010,7 +5033,7 @@ pub const SERVICES: &[ServiceInfo] = &[
     },
     ServiceInfo {
         ros_type: "flexdrill/action/WhatIf_GetResult",
-        rihs01: "RIHS01_eff14f36d1ff3195eb128d5469426512111cec360d3af59c1e034ec814df2ba8",
+        rihs01: "RIHS01_fba9a20bea4a6136650cad1ee6bc4e22a9701f13c80d4b5726d3212c2a6f77ec",
         source: "",
         description: r#"{"type_name": "flexdrill/action/WhatIf_GetResult", "fields": [{"name": "request_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Request"}}, {"name": "response_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Response"}}, {"name": "event_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult_Event"}}]}"#,
         event_type: "flexdrill/action/WhatIf_GetResult_Event",
@@ -5238,7 +5261,7 @@ pub const SERVICES: &[ServiceInfo] = &[
 pub const ACTIONS: &[ActionInfo] = &[
     ActionInfo {
         ros_type: "flexdrill/action/WhatIf",
-        rihs01: "RIHS01_6b2f7fb903715b8c109246b1704d9894c71de6af52eec07158f76e957ceb6b08",
+        rihs01: "RIHS01_3b780d28a08bcc955e0ba8d773f0f5015499bd8961918487e46f04dec321d922",
         source: include_str!("../../../msg/WhatIf.action"),
         description: r#"{"type_name": "flexdrill/action/WhatIf", "fields": [{"name": "goal", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Goal"}}, {"name": "result", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Result"}}, {"name": "feedback", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_Feedback"}}, {"name": "send_goal_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_SendGoal"}}, {"name": "get_result_service", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_GetResult"}}, {"name": "feedback_message", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "flexdrill/action/WhatIf_FeedbackMessage"}}]}"#,
     },

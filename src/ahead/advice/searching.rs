@@ -14,8 +14,10 @@ const CONFIRMING: u32 = 10;
 /// Most of them in which an alarm may go on or another may come. With two, a change that ends the alarms in eight of ten
 /// runs would pass in two searches of three; with one it passes in three of eight.
 const MOST_AGAINST: u32 = 1;
+/// Fewest confirming members that may give a first answer.
+pub const LEAST_CONFIRMING: u32 = 4;
 /// Numbers of confirming members after which it is asked whether a first answer can be given.
-const ASKED_AFTER: [u32; 3] = [4, 8, CONFIRMING];
+const ASKED_AFTER: [u32; 3] = [LEAST_CONFIRMING, 8, CONFIRMING];
 /// A first answer is given once the lower end of the 95 % interval (Wilson) of its share is above this: the change then
 /// ends the alarms more often than not. Four of four are the fewest (51 %), seven of eight the fewest with one against.
 const MORE_OFTEN_THAN_NOT: f64 = 0.5;
@@ -391,6 +393,7 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
             change: tried.trial.change,
             ended: of - tried.against(ends).min(of),
             of,
+            tools: 0,
         }
     }
 

@@ -14,7 +14,8 @@ use flexdrill_core::tool::Body;
 use flexdrill_core::twin::{SimulationSettings, Snapshot};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_motion::{
-    AlarmThresholds, BIT, DriveState, HazardKind, SURFACE, Severity, ShockSettings, WhirlKind, WhirlSettings,
+    AlarmThresholds, BIT, DriveState, ENDED_AFTER, HazardKind, SURFACE, Severity, ShockSettings, WhirlKind,
+    WhirlSettings,
 };
 
 /// Part by which speed and weight must be above a gate: those of a rig fluctuate by some percent, and an alarm that is
@@ -27,7 +28,7 @@ const STUCK: f64 = 0.1;
 const SLOWEST: f64 = 1e-3;
 
 /// The hazard of an alarm of the tool's motion.
-fn hazard(id: AlarmId) -> Option<HazardKind> {
+pub(super) fn hazard(id: AlarmId) -> Option<HazardKind> {
     HazardKind::ALL.into_iter().find(|kind| AlarmId::of_hazard(*kind) == id)
 }
 
@@ -54,6 +55,15 @@ pub(super) fn is_judged_at(id: AlarmId, [rpm, kn]: [f64; 2], settings: &Simulati
     };
     // Below the gate of whirl the drive counts as standing, and no alarm of the motion is judged.
     gates && speed > 0.0 && above(speed, settings.whirl.min_rotary_speed)
+}
+
+/// Time (s) for which an alarm stands on at least after a look at which its condition counts as met. Only that of
+/// stick-slip is long.
+pub(super) fn least_hold(id: AlarmId, settings: &SimulationSettings) -> f64 {
+    match hazard(id) {
+        Some(HazardKind::StickSlip) => (settings.stick_slip.thresholds.hold_off - ENDED_AFTER).max(0.0),
+        _ => 0.0,
+    }
 }
 
 /// Sums of a figure.

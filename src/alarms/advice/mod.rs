@@ -158,6 +158,9 @@ pub struct Tested {
     /// Runs that took no part in choosing the change: the count of those that chose it is the best of many, and too
     /// good.
     pub of: u32,
+    /// Plausible tools that these runs are of, none of which took part in choosing the change; 0 where they are runs of the
+    /// twin.
+    pub tools: u32,
 }
 
 impl Tested {
@@ -188,13 +191,18 @@ impl fmt::Display for Tested {
         };
         write!(
             f,
-            "{verb} the {} to {to} {unit} ({from:.0} {unit} now) and keep the {}: this ended {what} in {} of {} runs that \
-             took no part in choosing it.",
+            "{verb} the {} to {to} {unit} ({from:.0} {unit} now) and keep the {}: this ended {what} in {} of {} ",
             quantity.name(),
             quantity.other().name(),
             self.ended,
             self.of
         )?;
+        match self.tools {
+            0 => f.write_str("runs that took no part in choosing it.")?,
+            tools if tools == self.of => f.write_str("plausible tools.")?,
+            1 => f.write_str("runs of one plausible tool.")?,
+            tools => write!(f, "runs of {tools} plausible tools.")?,
+        }
         match self.stays.len() {
             0 => Ok(()),
             1 => write!(f, " It does not end {}, which stays.", self.stays),

@@ -140,6 +140,7 @@ fn without_the_rigs_speed_and_weight_no_number_of_the_twin_is_given() {
         },
         ended: 10,
         of: 10,
+        tools: 0,
     };
     let now = Operating {
         unknown: Unknown {
@@ -309,6 +310,7 @@ fn a_tested_change_says_which_alarms_it_ends_and_which_stay() {
         },
         ended: 9,
         of: 10,
+        tools: 0,
     };
     let demands = [
         demand(AlarmId::BackwardWhirl, HIGH, Advice::default()),
@@ -344,6 +346,10 @@ fn a_tested_change_says_which_alarms_it_ends_and_which_stay() {
         ..tested
     };
     assert!(texts(alone)[0].contains("this ended the alarm in 9 of 10 runs that took no part in choosing it. If"));
+    let of_tools = |tools| texts(Tested { tools, ..alone })[0].clone();
+    assert!(of_tools(10).contains("this ended the alarm in 9 of 10 plausible tools. If"));
+    assert!(of_tools(7).contains("this ended the alarm in 9 of 10 runs of 7 plausible tools. If"));
+    assert!(of_tools(1).contains("this ended the alarm in 9 of 10 runs of one plausible tool. If"));
     let two = Tested {
         stays: set(&[AlarmId::Shock, AlarmId::ChaoticWhirl]),
         ..tested

@@ -63,6 +63,7 @@ fn tested() -> Tested {
         },
         ended: 9,
         of: 10,
+        tools: 0,
     }
 }
 
@@ -305,6 +306,7 @@ fn a_first_answer_holds_until_more_members_refute_it() {
     let four = Tested {
         ended: 4,
         of: 4,
+        tools: 0,
         ..tested()
     };
     advisor.hear(&what, &progress(None));

@@ -6,14 +6,16 @@ use std::time::{Duration, Instant};
 
 use super::hole::{holes, with_hole};
 use super::{IDLE, Next, WhatIf};
-use crate::ahead::{Start, forecast, look_ahead, search};
+use crate::ahead::{Goal, LEAST_CONFIRMING, Start, forecast, look_ahead, search};
+use crate::alarms::AlarmId;
+use crate::ensemble::Forking;
 use crate::node::advisor::Advisor;
 use crate::node::control::Control;
 use crate::node::forecast::{Busy, Forecasts, Issued};
 use crate::node::set_point::SharedSetPoint;
 use crate::node::states::SavedRun;
 use crate::node::turns::{self, Turn, Turns};
-use crate::node::what_if_messages::{feedback, goal, of_candidate, sentence};
+use crate::node::what_if_messages::{feedback, goal, of_candidate, sentence, with_friction};
 use flexdrill_config::Config;
 use flexdrill_core::twin::{RunInputs, Simulation};
 use flexdrill_messages::action_msgs::GoalStatus;
@@ -32,6 +34,11 @@ const ADVICE_SEED: u64 = 1;
 const FORECAST_SEED: u64 = 1;
 /// From the beginning of a forecast to that of the next.
 const FORECAST_INTERVAL: Duration = Duration::from_secs(30);
+/// Factors on the friction of both layers in the extra rows of an answer: a fifth lower and higher. A calibration knows
+/// friction to a fifth.
+const FRICTION: [f64; 2] = [0.8, 1.2];
+/// Most members of such a row: two that see an alarm decide for it, and two that see none show that it is not certain.
+const FRICTION_MEMBERS: u32 = 2;
 
 /// What the thread that answers goals works with.
 pub struct Answering {
@@ -47,6 +54,19 @@ pub struct Answering {
     pub forecasts: Option<Arc<Forecasts>>,
     /// What the driller has set.
     pub set_point: Arc<SharedSetPoint>,
+    /// Where plausible tools are had from; none where they do not run.
+    pub tools: Option<Forking>,
+}
+
+/// What a look-ahead begins from.
+struct Begins {
+    start: Start,
+    /// What is set, with the model step of the state.
+    set: RunInputs,
+    /// Ticks of the state.
+    ticks: u64,
+    /// Why members are runs of the twin although plausible tools run with it.
+    alone: Option<String>,
 }
 
 impl Answering {
@@ -132,41 +152,97 @@ impl Answering {
         // The limits may have changed since it was accepted.
         goal.check(&config).map_err(|error| error.to_string())?;
         let standing = self.control.stands_still();
-        let (start, applied, ticks) = self.start(&config, tool)?;
+        let twin = self.start(&config, tool)?;
+        // The rows of other friction are the twin's own: it has one friction, which plausible tools differ in already.
+        let rubbing = FRICTION.map(|factor| twin.start.rubbing(factor));
+        let begins = self.among_tools(twin, goal.seed, None);
         let (began, mut told) = (Instant::now(), Instant::now());
         let (mut first, mut stopped_by) = (true, "cancelled");
         let threads = config.look_ahead.threads as usize;
-        let answer = look_ahead(&start, &goal, threads, &begun.stop, |progress| {
-            if first || told.elapsed() >= FEEDBACK_INTERVAL {
-                (first, told) = (false, Instant::now());
-                publish(&self.what_if.feedback, &feedback(begun.id, &progress));
-            }
+        let mut end = || {
             if turns::is_over(began.elapsed(), self.what_if.is_wanted()) && !begun.stop.load(Ordering::Relaxed) {
                 stopped_by = "ended after ten minutes, since other goals wait";
                 begun.stop.store(true, Ordering::Relaxed);
             }
+        };
+        let mut answer = look_ahead(&begins.start, &goal, threads, &begun.stop, |progress| {
+            if first || told.elapsed() >= FEEDBACK_INTERVAL {
+                (first, told) = (false, Instant::now());
+                publish(&self.what_if.feedback, &feedback(begun.id, &progress));
+            }
+            end();
         });
+        let of_friction = Goal {
+            members: goal.members.min(FRICTION_MEMBERS),
+            ..goal.clone()
+        };
+        let rows = rubbing.map(|start| look_ahead(&start, &of_friction, threads, &begun.stop, |_| end()));
+        answer.stopped |= rows.iter().any(|row| row.stopped);
         // By statics: a second per weight, once the members have ended.
         let holes = holes(&config, &goal.candidates, &begun.stop);
-        let candidates = answer.candidates.iter().zip(&holes);
-        let answers = candidates.map(|(of, hole)| with_hole(of_candidate(of), hole)).collect();
+        let candidates = answer.candidates.iter().zip(&holes).enumerate();
+        let answers = candidates
+            .map(|(index, (of, hole))| {
+                let rows = FRICTION
+                    .iter()
+                    .zip(rows.iter().filter_map(|row| row.candidates.get(index)));
+                with_friction(with_hole(of_candidate(of), hole), rows)
+            })
+            .collect();
+        let found = sentence(&answer, &rows.each_ref().map(|row| &row.candidates[..]), stopped_by);
+        let before = [
+            standing.map(|why| format!("{why}; these runs begin at its present state. ")),
+            begins.alone.map(|why| format!("Runs of the twin: {why}. ")),
+        ];
         Ok(WhatIfResult {
-            from_stamp: self.stamp(ticks, &config),
-            from_step: applied.step,
+            from_stamp: self.stamp(begins.ticks, &config),
+            from_step: begins.set.step,
             complete: !answer.stopped,
-            message: match standing {
-                Some(why) => format!(
-                    "{why}; these runs begin at its present state. {}",
-                    sentence(&answer, stopped_by)
-                ),
-                None => sentence(&answer, stopped_by),
-            },
+            message: before.into_iter().flatten().chain([found]).collect(),
             answers,
         })
     }
 
-    /// The present state of the live run under what the driller has set, with that, and its ticks.
-    fn start(&self, config: &Arc<Config>, tool: &mut Option<Simulation>) -> Result<(Start, RunInputs, u64), String> {
+    /// The same with plausible tools as members, where they run with the twin: those in which an alarm stands, where one is
+    /// named. They may be a little older than the twin's own state.
+    fn among_tools(&self, twin: Begins, seed: u64, in_which: Option<AlarmId>) -> Begins {
+        let Some(forking) = &self.tools else { return twin };
+        let forks = forking.ask().and_then(|forks| {
+            let Some(alarm) = in_which else { return Ok(forks) };
+            let forks = forks.in_which(alarm);
+            // As many as a first answer needs.
+            match forks.known() {
+                known if known >= LEAST_CONFIRMING as usize => Ok(forks),
+                known => Err(format!(
+                    "{} stands in {} only",
+                    alarm.name(),
+                    counted(known as u64, "plausible tool")
+                )),
+            }
+        });
+        match forks {
+            Ok(forks) => {
+                let ticks = (forks.time / twin.start.config().solver.time_step).round() as u64;
+                let older = twin.ticks.saturating_sub(ticks);
+                Begins {
+                    start: twin.start.among(forks, seed, &self.set_point.now()),
+                    ticks,
+                    set: RunInputs {
+                        step: twin.set.step.saturating_sub(older),
+                        ..twin.set
+                    },
+                    alone: None,
+                }
+            }
+            Err(why) => Begins {
+                alone: Some(why),
+                ..twin
+            },
+        }
+    }
+
+    /// The present state of the live run under what the driller has set.
+    fn start(&self, config: &Arc<Config>, tool: &mut Option<Simulation>) -> Result<Begins, String> {
         let SavedRun {
             checkpoint,
             applied,
@@ -188,7 +264,12 @@ impl Answering {
             step: applied.step,
             ..start.applied()
         };
-        Ok((start, set, ticks))
+        Ok(Begins {
+            start,
+            set,
+            ticks,
+            alone: None,
+        })
     }
 
     /// Looks for the smallest change that ends the alarms that stand, if that is asked for.
@@ -200,7 +281,7 @@ impl Answering {
         let config = self.control.config();
         // A state that cannot be had ends this question, not the advice on the next alarm.
         let start = match self.start(&config, tool) {
-            Ok((start, ..)) => start,
+            Ok(begins) => self.among_tools(begins, ADVICE_SEED, Some(asked.leading.alarm)),
             Err(message) => {
                 if let Some(more) = log_ending("no advice") {
                     tracing::warn!("advice on {}: {message}{more}", asked.leading.alarm.name());
@@ -210,6 +291,12 @@ impl Answering {
         };
         let (began, threads) = (Instant::now(), config.look_ahead.threads as usize);
         let alarm = asked.leading.alarm.name();
+        let Begins { start, alone, .. } = start;
+        if let Some(why) = alone
+            && let Some(more) = log_ending("advice from the twin alone")
+        {
+            tracing::info!("advice on {alarm} is from runs of the twin alone: {why}{more}");
+        }
         // The log has the first answer and the last: how long a driller waits is the time of the first.
         let mut first = None;
         let searched = search(&start, &asked.leading, ADVICE_SEED, threads, &stop, |progress| {
@@ -275,7 +362,8 @@ impl Answering {
         let config = self.control.config();
         let settings = &config.look_ahead;
         let issued = match self.start(&config, tool) {
-            Ok((start, applied, ticks)) => {
+            Ok(begins) => {
+                let Begins { start, set, ticks, .. } = self.among_tools(begins, FORECAST_SEED, None);
                 let threads = settings.threads as usize;
                 let found = forecast(&start, settings.forecast_members, FORECAST_SEED, threads, &stop);
                 let Some(found) = found else { return };
@@ -283,8 +371,8 @@ impl Answering {
                 // ones, and see when it no longer applies.
                 Issued {
                     ticks,
-                    step: applied.step,
-                    targets: [applied.inputs.rotary_speed, applied.inputs.weight_on_bit],
+                    step: set.step,
+                    targets: [set.inputs.rotary_speed, set.inputs.weight_on_bit],
                     forecast: Ok(found),
                 }
             }

@@ -828,10 +828,7 @@ export interface ForecastBand {
   p5: Float64Array;
   p50: Float64Array;
   p95: Float64Array;
-  /**
-   * Factor on the band of the members. It is the one with which nine of ten of the last seconds that were compared would
-   * have been in their band; 1 before a minute has been compared.
-   */
+  /** Factor on the band of the members over the first seconds, lead_width[0]. */
   width: number;
   /** Seconds of earlier forecasts of this run that were compared with what came, while speed and weight stayed. */
   compared: number;
@@ -839,6 +836,24 @@ export interface ForecastBand {
   inside: number;
   /** Seconds among them in which it was in the band of the members as they were. */
   inside_members: number;
+  /**
+   * How far ahead seconds are that are calibrated together, counted from the beginning of the bands: the i-th of the lists below
+   * holds for seconds before lead_until[i] (s), and from lead_until[i - 1] on.
+   */
+  lead_until: Float64Array;
+  /**
+   * Factor on the band of the members. It is the one with which nine of ten of the last seconds that were compared at this
+   * lead would have been in their band; 1 before that is known.
+   */
+  lead_width: Float64Array;
+  /**
+   * Whether it is known: nine forecasts at least were compared with what came at this lead. Where it is false, the band is
+   * that of the members, and not calibrated yet.
+   */
+  lead_calibrated: boolean[];
+  /** Seconds that were compared at this lead, and those among them in which the figure was in the published band. */
+  lead_compared: Uint32Array;
+  lead_inside: Uint32Array;
 }
 /** Reads a `flexdrill/msg/ForecastBand`. */
 export function decodeForecastBand(reader: CdrReader): ForecastBand {
@@ -852,6 +867,11 @@ export function decodeForecastBand(reader: CdrReader): ForecastBand {
     compared: reader.uint32(),
     inside: reader.uint32(),
     inside_members: reader.uint32(),
+    lead_until: reader.float64Array(reader.length()),
+    lead_width: reader.float64Array(reader.length()),
+    lead_calibrated: reader.many(reader.length(), () => reader.bool()),
+    lead_compared: reader.uint32Array(reader.length()),
+    lead_inside: reader.uint32Array(reader.length()),
   };
 }
 
@@ -883,6 +903,11 @@ export interface Forecast {
   any_alarm: number;
   any_alarm_lower: number;
   any_alarm_upper: number;
+  /**
+   * Plausible tools that the members, those that failed included, are runs of, each from its own state; 0 where they are runs of
+   * the twin.
+   */
+  tools: number;
 }
 /** Reads a `flexdrill/msg/Forecast`. */
 export function decodeForecast(reader: CdrReader): Forecast {
@@ -901,6 +926,7 @@ export function decodeForecast(reader: CdrReader): Forecast {
     any_alarm: reader.float64(),
     any_alarm_lower: reader.float64(),
     any_alarm_upper: reader.float64(),
+    tools: reader.uint32(),
   };
 }
 
@@ -2137,6 +2163,17 @@ export interface WhatIfAnswer {
   hole_plan_distance: number;
   /** How far ahead of the bit that is: 5 m, or less where the plan ends before (m). */
   hole_plan_ahead: number;
+  /**
+   * Plausible tools that the members are runs of, each from its own state, drawn by their weights; 0 where they are runs of
+   * the twin. A tool that is drawn again has another disturbance.
+   */
+  tools: number;
+  /** Factors on the friction: a fifth lower and higher. */
+  friction_factors: Float64Array;
+  /** Members with that friction, those among them that failed, and those that saw any alarm. */
+  friction_members: Uint32Array;
+  friction_failed: Uint32Array;
+  friction_any_alarm: Uint32Array;
 }
 /** Reads a `flexdrill/msg/WhatIfAnswer`. */
 export function decodeWhatIfAnswer(reader: CdrReader): WhatIfAnswer {
@@ -2162,6 +2199,11 @@ export function decodeWhatIfAnswer(reader: CdrReader): WhatIfAnswer {
     hole_radius_high: reader.float64(),
     hole_plan_distance: reader.float64(),
     hole_plan_ahead: reader.float64(),
+    tools: reader.uint32(),
+    friction_factors: reader.float64Array(reader.length()),
+    friction_members: reader.uint32Array(reader.length()),
+    friction_failed: reader.uint32Array(reader.length()),
+    friction_any_alarm: reader.uint32Array(reader.length()),
   };
 }
 
