@@ -1,11 +1,13 @@
 //! What the mechanics, the analysis of its motion and their users share: unit conversions, the two pipes and locations on
-//! them, the terms of the energy ledger, and the checks of numbers. The crate depends on no other of the workspace.
+//! them, the curvature of a tube as made, the terms of the energy ledger, and the checks of numbers. The crate depends on no other of the workspace.
 
+mod bends;
 pub mod energies;
 mod location;
 pub mod units;
 pub mod validation;
 
+pub use bends::{Bend, Bends};
 pub use location::{Body, Location};
 
 #[cfg(doctest)]

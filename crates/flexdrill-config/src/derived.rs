@@ -1,10 +1,11 @@
 //! Quantities derived from a configuration.
 
 use super::Config;
+use super::pipe::MadePiece;
 use std::f64::consts::PI;
 
 use flexdrill_core::tool::{JointKind, SectionProperties};
-use flexdrill_core::units::rad_to_deg;
+use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// Size of the system, held directions included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,33 +75,46 @@ impl Config {
         PI * (lightest / self.contact.inner.stiffness).sqrt()
     }
 
-    /// Largest curvature of the guide in the path against its shape as made (1/m), by the tightest section of the well
-    /// and by straight ones; 0 where it is without stress.
-    fn guide_bend(&self) -> f64 {
-        let Some(free) = self.tool.guide.free_curvature() else {
-            return 0.0;
-        };
-        let (sin, cos) = (free.phase.sin(), free.phase.cos());
-        let bent = |path: f64| (path - free.curvature * cos).hypot(free.curvature * sin);
-        self.well
-            .sections
-            .iter()
-            .map(|section| bent(section.curvature()))
-            .fold(0.0, f64::max)
+    /// Changes of curvature (1/m) by which sections of the well bend the guide as made: each piece in the sections that it
+    /// lies in, or, with `has_passed`, in those that it has been in on its way from the kick-off, and in the straight hole
+    /// above that.
+    fn guide_bends(&self, has_passed: bool) -> Vec<f64> {
+        let guide = &self.tool.guide;
+        let phase = deg_to_rad(guide.free_curvature_phase_deg);
+        let (sin, cos) = (phase.sin(), phase.cos());
+        let bit = self.well.length();
+        let mut bends = Vec::new();
+        for MadePiece { above_bit, curvature } in guide.made() {
+            let mut bent = |path: f64| bends.push((path - curvature * cos).hypot(curvature * sin));
+            if has_passed {
+                bent(0.0);
+            }
+            let [lower, upper] = above_bit.map(|distance| bit - distance);
+            let mut begin = 0.0;
+            for section in &self.well.sections {
+                let end = begin + section.length();
+                if begin < lower && (has_passed || end > upper) {
+                    bent(section.curvature());
+                }
+                begin = end;
+            }
+        }
+        bends
     }
 
     /// Strain of the guide's outermost bent fibre where it is bent most on its way through the hole, which is straight above
-    /// the tool: the guide as made against each section of the well and against a straight hole. A guide without stress in
-    /// the path was made with the curvature of its tightest section. What slots take until they close strains nothing.
+    /// the tool: each piece of the guide as made against the sections that it has been in and against a straight hole. A guide
+    /// without stress in the path was made with the curvature of its tightest section. What slots take until they close
+    /// strains nothing.
     pub fn guide_bending_strain(&self) -> f64 {
         let guide = &self.tool.guide;
-        let sections = || self.well.sections.iter().map(|section| section.curvature());
-        let (curvature, phase) = match guide.free_curvature() {
-            Some(free) => (free.curvature, free.phase),
-            None => (sections().fold(0.0, f64::max), 0.0),
-        };
-        let bent = |path: f64| (path - curvature * phase.cos()).hypot(curvature * phase.sin());
-        let most = sections().map(bent).fold(bent(0.0), f64::max);
+        let mut bends = self.guide_bends(true);
+        if bends.is_empty() {
+            let sections = self.well.sections.iter().map(|section| section.curvature());
+            let tightest = sections.clone().fold(0.0, f64::max);
+            bends.extend(sections.chain([0.0]).map(|path| (path - tightest).abs()));
+        }
+        let most = bends.into_iter().fold(0.0, f64::max);
         let taken_by_slots = guide.slots_close_at().unwrap_or(0.0);
         guide.outer_fibre() * (most - taken_by_slots).max(0.0)
     }
@@ -109,7 +123,8 @@ impl Config {
     pub fn guide_preload_moment(&self) -> f64 {
         let (guide, material) = (&self.tool.guide, self.tool.material.describe());
         let bending = |factor: f64| SectionProperties::of(guide.section(), material, factor).bending;
-        let (open, bend) = (bending(guide.bending_factor), self.guide_bend());
+        let bend = self.guide_bends(false).into_iter().fold(0.0, f64::max);
+        let open = bending(guide.bending_factor);
         let beyond = guide
             .slots_close_at()
             .map_or(0.0, |close_at| (bend - close_at).max(0.0));

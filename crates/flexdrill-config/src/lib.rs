@@ -87,7 +87,7 @@ pub use motion::PROMPT_OFF_DELAY;
 pub use mud::Mud;
 pub use network::{Network, Reach};
 pub use outputs::{Outputs, Rates};
-pub use pipe::{AsBuilt, FreeBend, Guide, Never, Piece, Pipe, SlotsClose};
+pub use pipe::{AsBuilt, BentPiece, FreeBend, Guide, Never, Piece, Pipe, SlotsClose};
 pub use place::At;
 pub use pressure::{AtTop, End, Pressure, Standpipe};
 pub use rock::{DepthOfCut, Law, Rock, Weakening};
@@ -300,6 +300,7 @@ impl Config {
             tool.pipe_contact_diameters = pipe.contact_diameters(elements);
             tool.guide_bending_factor = guide.bending_factor;
             tool.guide_free_curvature = guide.free_curvature();
+            tool.guide_bends = guide.bends();
             tool.guide_slots_close_at = guide.slots_close_at();
             tool.guide_fixed = guide.fixed;
             tool.joint = self.tool.joint.describe();

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
-use flexdrill_core::tool::{FreeCurvature, Tube};
+use flexdrill_core::tool::{Bend, Bends, FreeCurvature, Tube};
 use flexdrill_core::units::deg_to_rad;
 
 const DIAMETER: Bound = Bound::above(0.0, 2.0);
@@ -13,6 +13,8 @@ const INNER_DIAMETER: Bound = Bound::within(0.0, 2.0);
 const BENDING_FACTOR: Bound = Bound::above(0.0, 10.0);
 /// Up to the tightest arc that a well may have.
 const FREE_CURVATURE: Bound = Bound::within(0.0, 2.0);
+/// A piece longer than a kilometre belongs to no guide.
+const PIECE_LENGTH: Bound = Bound::above(0.0, 1000.0);
 /// A curvature of 10 1/m is that of an arc narrower than a hand.
 const SLOTS_CLOSE_AT: Bound = Bound::above(0.0, 10.0);
 const PHASE: Bound = Bound::within(-360.0, 360.0);
@@ -60,7 +62,7 @@ pub struct Piece {
 }
 
 /// The guide pipe: one continuous tube that is not driven.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
     /// Outer diameter (m). Required.
@@ -73,8 +75,9 @@ pub struct Guide {
     #[serde(default = "one")]
     #[schemars(transform = BENDING_FACTOR.in_schema())]
     pub bending_factor: f64,
-    /// Curvature of the tube as made: a number in 1/m, 0 for a straight tube, or `as_built`, the path's own curvature, so
-    /// that it lies in the hole without stress. Default as_built.
+    /// Curvature of the tube as made: a number in 1/m, 0 for a straight tube; a list of pieces from the bit up, each with its
+    /// `length` and `curvature`; or `as_built`, the path's own curvature, so that it lies in the hole without stress. Default
+    /// as_built.
     ///
     /// Allowed: within 0 to 2 1/m
     #[serde(default)]
@@ -102,8 +105,8 @@ pub struct Guide {
     pub fixed: bool,
 }
 
-/// `as_built`, or a number in 1/m.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// `as_built`, a number in 1/m, or pieces.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 #[schemars(transform = FREE_CURVATURE.in_schema())]
 pub enum FreeBend {
@@ -111,6 +114,29 @@ pub enum FreeBend {
     Path(AsBuilt),
     /// In 1/m, 0 is straight.
     Curvature(f64),
+    /// Pieces, from the bit up.
+    Pieces(Vec<BentPiece>),
+}
+
+/// A piece of a guide that was made with several curvatures.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BentPiece {
+    /// Length (m); the uppermost piece reaches to the top of the guide, however long it is.
+    #[schemars(transform = PIECE_LENGTH.in_schema())]
+    pub length: f64,
+    /// Curvature as made (1/m), 0 is straight.
+    #[schemars(transform = FREE_CURVATURE.in_schema())]
+    pub curvature: f64,
+}
+
+/// A piece of a guide as made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MadePiece {
+    /// Distances of its lower and its upper end above the bit (m); the uppermost one has no end.
+    pub above_bit: [f64; 2],
+    /// Curvature (1/m).
+    pub curvature: f64,
 }
 
 /// The word for a tube that has the curvature of the path.
@@ -304,19 +330,34 @@ impl Guide {
         }
         let phase = self.free_curvature_phase_deg;
         c.number("free_curvature_phase_deg", phase, PHASE, "deg", "one turn");
-        match self.free_curvature {
-            FreeBend::Curvature(curvature) => {
-                let reason = "0 is a straight tube; no arc of a well is tighter than 0.5 m";
-                c.number("free_curvature", curvature, FREE_CURVATURE, "1/m", reason);
+        let reason = "0 is a straight tube; no arc of a well is tighter than 0.5 m";
+        if let (true, Some(first)) = (self.fixed, self.made().first()) {
+            c.wrong(
+                "free_curvature",
+                first.curvature,
+                "1/m",
+                "as_built while tool.guide.fixed is true",
+                "a guide that is held at every node does not bend",
+            );
+        }
+        match &self.free_curvature {
+            FreeBend::Curvature(curvature) => c.number("free_curvature", *curvature, FREE_CURVATURE, "1/m", reason),
+            FreeBend::Pieces(pieces) => c.below("free_curvature", |c| {
                 c.require(
-                    !self.fixed,
-                    "free_curvature",
-                    curvature,
-                    "1/m",
-                    "as_built while tool.guide.fixed is true",
-                    "a guide that is held at every node does not bend",
+                    (1..=Bends::MOST + 1).contains(&pieces.len()),
+                    "",
+                    pieces.len(),
+                    "pieces",
+                    format!("1 to {} pieces", Bends::MOST + 1),
+                    "join pieces of about the same curvature",
                 );
-            }
+                for (index, piece) in pieces.iter().enumerate() {
+                    c.below(index, |c| {
+                        c.number("length", piece.length, PIECE_LENGTH, "m", "a piece has a length");
+                        c.number("curvature", piece.curvature, FREE_CURVATURE, "1/m", reason);
+                    });
+                }
+            }),
             FreeBend::Path(_) => c.require(
                 phase == 0.0,
                 "free_curvature_phase_deg",
@@ -372,15 +413,55 @@ impl Guide {
         self.slots_close_at().is_some()
     }
 
-    /// The free bend, if it is not that of the path.
-    pub(super) fn free_curvature(&self) -> Option<FreeCurvature> {
-        match self.free_curvature {
-            FreeBend::Path(_) => None,
-            FreeBend::Curvature(curvature) => Some(FreeCurvature {
-                curvature,
-                phase: deg_to_rad(self.free_curvature_phase_deg),
-            }),
+    /// The guide as made, from the bit up; nothing where it has the curvature of the path.
+    pub(super) fn made(&self) -> Vec<MadePiece> {
+        let mut from = 0.0;
+        let one = |curvature| MadePiece {
+            above_bit: [0.0, f64::INFINITY],
+            curvature,
+        };
+        match &self.free_curvature {
+            FreeBend::Path(_) => Vec::new(),
+            FreeBend::Curvature(curvature) => vec![one(*curvature)],
+            FreeBend::Pieces(pieces) => {
+                let mut made: Vec<MadePiece> = Vec::new();
+                for piece in pieces {
+                    let above_bit = [from, from + piece.length];
+                    made.push(MadePiece {
+                        above_bit,
+                        curvature: piece.curvature,
+                    });
+                    from = above_bit[1];
+                }
+                if let Some(last) = made.last_mut() {
+                    last.above_bit[1] = f64::INFINITY;
+                }
+                made
+            }
         }
+    }
+
+    /// The free bend at the bit, if it is not that of the path.
+    pub(super) fn free_curvature(&self) -> Option<FreeCurvature> {
+        self.made().first().map(|piece| FreeCurvature {
+            curvature: piece.curvature,
+            phase: deg_to_rad(self.free_curvature_phase_deg),
+        })
+    }
+
+    /// Where the curvature as made changes above the bit.
+    pub(super) fn bends(&self) -> Bends {
+        let changes: Vec<Bend> = self
+            .made()
+            .iter()
+            .skip(1)
+            .map(|piece| Bend {
+                from: piece.above_bit[0],
+                curvature: piece.curvature,
+            })
+            .collect();
+        // Pieces that have been checked rise, and are few enough.
+        Bends::new(&changes).unwrap_or_default()
     }
 
     pub(super) fn section(&self) -> Tube {

@@ -207,12 +207,14 @@ impl Config {
             ));
         } else {
             let guide = &self.tool.guide;
-            let (made, cure) = match guide.free_curvature() {
-                Some(free) => (
-                    format!("made with {:.4} 1/m", free.curvature),
+            let made = guide.made();
+            let curvatures: Vec<String> = made.iter().map(|piece| format!("{:.4} 1/m", piece.curvature)).collect();
+            let (made, cure) = match made.len() {
+                1.. => (
+                    format!("made with {}", curvatures.join(", ")),
                     "a curvature between that of the arc and a straight hole (tool.guide.free_curvature)",
                 ),
-                None => (
+                0 => (
                     "that was made with the curvature of the arc".to_owned(),
                     "tool.guide.free_curvature as it was really made",
                 ),

@@ -39,10 +39,10 @@ pub enum Excluded {
 }
 
 impl Range {
-    /// Of a configuration whose guide has a free curvature as a number, in the plane of the build, and holds the bit's axis.
+    /// Of a configuration whose guide has a free curvature as a number or in pieces, in the plane of the build, and holds the bit's axis.
     pub fn of(config: &Config) -> Option<Self> {
         let guide = &config.tool.guide;
-        let is_given = matches!(guide.free_curvature, FreeBend::Curvature(_));
+        let is_given = !matches!(guide.free_curvature, FreeBend::Path(_));
         // A guide rolled out of the plane of the build drills out of it, for which no closed form holds.
         let is_in_plane = guide.free_curvature_phase_deg == 0.0;
         if !is_given || !is_in_plane || guide.fixed || config.tool.bit.axis() == BitAxis::Link {

@@ -1,6 +1,6 @@
 //! The guide, the bit and the hole of a configuration, as [`flexdrill_hole`] takes them.
 
-use flexdrill_config::{BitAxis, Config, FreeBend, Law, Section};
+use flexdrill_config::{BitAxis, Config, Law, Section};
 use flexdrill_core::tool::{HoleInterval, SectionProperties};
 use flexdrill_core::units::{deg_to_rad, n_to_kn};
 use flexdrill_hole::{BitLaw, Gravity, Guide, Hole, HoleError};
@@ -108,14 +108,12 @@ pub fn curvature_at_bit(config: &Config) -> f64 {
 pub fn guide(config: &Config, weight: f64) -> Guide {
     let tool = config.tool();
     let station = config.link_length() / config.tool.elements_per_link as f64;
-    let free_curvature = match config.tool.guide.free_curvature {
-        FreeBend::Path(_) => curvature_at_bit(config),
-        FreeBend::Curvature(curvature) => curvature,
-    };
+    let made = tool.guide_free_curvature;
     Guide {
         length: config.well.length(),
         bending_stiffness: SectionProperties::of(tool.guide_section, tool.material, tool.guide_bending_factor).bending,
-        free_curvature,
+        free_curvature: made.map_or_else(|| curvature_at_bit(config), |free| free.curvature),
+        bends: tool.guide_bends,
         roll: deg_to_rad(config.tool.guide.free_curvature_phase_deg),
         weight_per_metre: weights(&tool).iter().sum(),
         gravity: Gravity::Down,

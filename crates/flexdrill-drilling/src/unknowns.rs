@@ -94,7 +94,10 @@ impl Unknown {
         let Drilling { guide, law, .. } = drilling;
         match self {
             Self::LateralResistance => law.lateral_resistance = value,
-            Self::FreeCurvature => guide.free_curvature *= value,
+            Self::FreeCurvature => {
+                guide.free_curvature *= value;
+                guide.bends = guide.bends.times(value);
+            }
             Self::BendingStiffness => guide.bending_stiffness *= value,
             Self::Gap => guide.gap += value,
             // The tool was built under the weight that was drawn.

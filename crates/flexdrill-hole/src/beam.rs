@@ -27,6 +27,8 @@ pub(crate) struct Piece {
     slopes: [Vector2<f64>; 2],
     /// Mean y'' = (ky, -kb) of the hole (1/m).
     pub turn: Vector2<f64>,
+    /// Mean curvature of the guide as made in it (1/m).
+    made: f64,
     /// Weight across the hole (right, low) and along it, down (N/m).
     pub weight: Vector2<f64>,
     pub weight_along: f64,
@@ -39,14 +41,14 @@ impl Piece {
         let offset = Vector2::new(start.x + end.x, start.z + end.z) * 0.5;
         // The middle of the cubic is off the mean of its ends by the slopes' difference.
         let offset = offset - bend * (self.length * self.length / 8.0);
-        (bend + self.turn + self.turn * self.turn.dot(&offset) - shape(guide)) * guide.bending_stiffness
+        (bend + self.turn + self.turn * self.turn.dot(&offset) - shape(guide, self.made)) * guide.bending_stiffness
     }
 }
 
-/// y'' of the guide as made (right, low) (1/m).
-fn shape(guide: &Guide) -> Vector2<f64> {
+/// y'' of the guide (right, low) where it was made with a curvature (1/m).
+fn shape(guide: &Guide, made: f64) -> Vector2<f64> {
     let (sine, cosine) = guide.roll.sin_cos();
-    Vector2::new(sine, -cosine) * guide.free_curvature
+    Vector2::new(sine, -cosine) * made
 }
 
 /// Pieces of the last `points` points of a hole.
@@ -72,10 +74,20 @@ pub(crate) fn pieces(guide: &Guide, hole: &Hole, points: usize, out: &mut Vec<Pi
             length,
             slopes,
             turn: (slopes[1] - slopes[0]) / length,
+            made: guide.free_curvature,
             weight,
             weight_along,
         }
     }));
+    // The pieces of the guide count from the bit up.
+    if !guide.bends.is_none() {
+        let mut near = 0.0;
+        for piece in out.iter_mut().rev() {
+            let far = near + piece.length;
+            piece.made = guide.bends.mean(guide.free_curvature, near, far);
+            near = far;
+        }
+    }
 }
 
 /// The shapes N and N'' at x = xi h of the offsets and slopes at both ends.
@@ -181,7 +193,7 @@ fn element(guide: &Guide, piece: &Piece) -> (SMatrix<f64, 8, 8>, Row, Row) {
     let h = piece.length;
     let mut matrix = SMatrix::<f64, 8, 8>::zeros();
     let (mut force, mut curve) = (Row::zeros(), Row::zeros());
-    let shape = shape(guide);
+    let shape = shape(guide, piece.made);
     for xi in GAUSS {
         let (value, second) = shapes(xi, h);
         let [offset_right, offset_low] = [0, 1].map(|plane| row(plane, value));

@@ -34,6 +34,7 @@ mod surveys;
 pub use bit_law::BitLaw;
 pub use closed_form::{Bounds, Steady, bounds, indifferent_resistance, steady};
 pub use error::HoleError;
+pub use flexdrill_base::{Bend, Bends};
 pub use guide::{Gravity, Guide};
 pub use hole::{Frame, Hole};
 pub use propagation::{Advance, Propagation};

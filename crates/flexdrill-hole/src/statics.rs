@@ -148,7 +148,7 @@ impl Statics {
         // The last is the force that straightens the guide: without weight and thrust it is all that acts.
         let loads = weight.abs()
             + guide.weight_per_metre * guide.length
-            + guide.bending_stiffness * guide.free_curvature.abs() / guide.length;
+            + guide.bending_stiffness * guide.bends.most(guide.free_curvature) / guide.length;
         let mut factor = 1.0;
         for update in 0..UPDATES {
             self.thrust.clear();

@@ -10,7 +10,8 @@
 //! ```
 //!
 //! The elements have U for kf = kb at psi_0 = 0, a tube that is without stress in the path. This file has the rest, to
-//! second order in the displacements, dk = kb - c. For small tilts k_y = kb + phi_y' - kb phi_z^2 / 2 and
+//! second order in the displacements, dk = kb - c. A guide in pieces has kf by the distance from the bit, each element the
+//! mean over its length. For small tilts k_y = kb + phi_y' - kb phi_z^2 / 2 and
 //! k_z = phi_z' + kb phi_y phi_z / 2, primes along the node frames:
 //!
 //! ```text
@@ -120,7 +121,7 @@ impl Preload {
 
 /// The preload of the guide's element `e`, of a guide that is not without stress in the path.
 pub(crate) fn of_element(model: &Model, e: usize) -> Option<Preload> {
-    let free = model.description.guide_free_curvature?;
+    let free = model.description.bend_above_bit(model.above_bit(e))?;
     let beam = &model.guide[e].beam;
     let turn = model.stations[e + 1].inclination - model.stations[e].inclination;
     Some(Preload::of(free, beam.section.bending, beam.length, turn))
@@ -236,6 +237,39 @@ mod tests {
             turned,
             1e-4,
         );
+    }
+
+    /// In an arc each element of a guide in pieces has EI |1/R - kf| with the curvature of its piece, and the one in which a piece
+    /// ends that with the mean. Tolerance 1e-5: the chord of an element.
+    #[test]
+    fn each_element_has_the_curvature_of_its_piece() {
+        use crate::tool::{Bend, Bends, ToolDescription};
+        let change = |from, curvature| Bend { from, curvature };
+        let tool = ToolDescription::paper().with(|tool| {
+            tool.guide_free_curvature = Some(FreeCurvature {
+                curvature: 0.3,
+                phase: 0.0,
+            });
+            tool.guide_bends = Bends::new(&[change(1.0, 0.2), change(2.5, 0.0)]).unwrap();
+        });
+        let model = Model::new(&tool).unwrap();
+        let bending = model.guide[0].beam.section.bending;
+        let mut mixed = 0;
+        for e in 0..model.guide.len() {
+            let [near, far] = model.above_bit(e);
+            let share = |end: f64| ((end - near) / (far - near)).clamp(0.0, 1.0);
+            // 0.3 below 1 m, 0.2 up to 2.5 m, 0 above.
+            let made = 0.1 * share(1.0) + 0.2 * share(2.5);
+            mixed += usize::from([0.0, 0.2, 0.3].iter().all(|whole| (made - whole).abs() > 1e-9));
+            let found = of_element(&model, e).unwrap().moment(0.0, [0.0; 2]);
+            let expected = bending * (1.0 / R - made);
+            assert!(
+                (found - expected).abs() < 1e-5 * bending / R,
+                "{e}: {found}, not {expected}"
+            );
+        }
+        assert_eq!(mixed, 2);
+        assert!(model.above_bit(model.guide.len() - 1)[0] == 0.0);
     }
 
     /// First and second order of the energy against finite rotations, for straight and bent tubes, with any phase.

@@ -170,7 +170,7 @@ pub(crate) fn of_element(model: &Model, e: usize) -> Option<Slots> {
     Some(Slots {
         stiffening: whole.bending - model.guide[e].beam.section.bending,
         close_at,
-        tube: d.bent_guide(length, turn),
+        tube: d.bent_guide(length, turn, model.above_bit(e)),
     })
 }
 

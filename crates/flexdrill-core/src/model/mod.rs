@@ -78,6 +78,12 @@ pub struct Model {
 }
 
 impl Model {
+    /// Distances of the lower and the upper end of element `e` above the bit (m).
+    pub(crate) fn above_bit(&self, e: usize) -> [f64; 2] {
+        let bit = self.stations.last().map_or(0.0, |station| station.depth);
+        [e + 1, e].map(|station| bit - self.stations[station].depth)
+    }
+
     /// Builds the tool.
     ///
     /// # Errors

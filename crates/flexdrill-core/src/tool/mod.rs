@@ -8,5 +8,6 @@ mod validation;
 pub(crate) mod well;
 
 pub use description::*;
+pub use flexdrill_base::{Bend, Bends};
 pub use section::SectionProperties;
 pub use well::{WellPath, frame_along, tangent};

@@ -11,6 +11,7 @@ use super::{
     WellSection, WobPath,
 };
 use crate::units::deg_to_rad;
+use flexdrill_base::Bends;
 
 /// Gravity (m/s2) times the buoyancy factor 1 - 1100 / 7850 of water-based mud.
 const GRAVITY_IN_MUD: f64 = 9.81 * 0.86;
@@ -52,6 +53,7 @@ impl ToolDescription {
             },
             guide_bending_factor: 1.0,
             guide_free_curvature: None,
+            guide_bends: Bends::default(),
             guide_slots_close_at: None,
             guide_fixed: false,
             hole_diameter: 0.118,

@@ -19,10 +19,11 @@ const STEPS: usize = 400;
 /// a, x, y, n_x, n_y, M.
 type State = [f64; 6];
 
-fn rates(guide: &Guide, [a, x, y, nx, ny, moment]: State) -> State {
+/// Rates where the guide was made with a curvature.
+fn rates(guide: &Guide, made: f64, [a, x, y, nx, ny, moment]: State) -> State {
     let (sine, cosine) = a.sin_cos();
     let radius = x.hypot(y);
-    let kappa = guide.free_curvature + moment / guide.bending_stiffness;
+    let kappa = made + moment / guide.bending_stiffness;
     let q = guide.weight_per_metre;
     [
         -kappa,
@@ -38,21 +39,35 @@ fn misfit(guide: &Guide, law: &BitLaw, unknown: Vector4<f64>) -> Vector4<f64> {
     let [tilt, force, length, curvature] = [unknown.x, unknown.y, unknown.z, unknown.w];
     let radius = 1.0 / curvature;
     let mut state = [-tilt, radius, 0.0, -force, -law.weight, 0.0];
-    let h = length / STEPS as f64;
-    for _ in 0..STEPS {
-        let shifted = |rate: State, share: f64| -> State { std::array::from_fn(|i| state[i] + share * h * rate[i]) };
-        let first = rates(guide, state);
-        let second = rates(guide, shifted(first, 0.5));
-        let third = rates(guide, shifted(second, 0.5));
-        let fourth = rates(guide, shifted(third, 1.0));
-        state = std::array::from_fn(|i| state[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]));
+    // Each piece of the guide has its own steps, so that its curvature is constant within one.
+    let mut made = guide.free_curvature;
+    let mut from = 0.0;
+    let changes = guide.bends.changes().iter().filter(|change| change.from < length);
+    let ends = changes
+        .map(|change| (change.from, change.curvature))
+        .chain([(length, f64::NAN)]);
+    for (to, next) in ends {
+        let h = (to - from) / STEPS as f64;
+        for _ in 0..STEPS {
+            let shifted =
+                |rate: State, share: f64| -> State { std::array::from_fn(|i| state[i] + share * h * rate[i]) };
+            let first = rates(guide, made, state);
+            let second = rates(guide, made, shifted(first, 0.5));
+            let third = rates(guide, made, shifted(second, 0.5));
+            let fourth = rates(guide, made, shifted(third, 1.0));
+            state = std::array::from_fn(|i| state[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]));
+        }
+        from = to;
+        if to < length {
+            made = next;
+        }
     }
     let [a, x, y, .., moment] = state;
     let (sine, cosine) = a.sin_cos();
     Vector4::new(
         x.hypot(y) - radius - guide.gap,
         (-sine * x + cosine * y) / x.hypot(y),
-        guide.free_curvature + moment / guide.bending_stiffness - 1.0 / (radius + guide.gap),
+        made + moment / guide.bending_stiffness - 1.0 / (radius + guide.gap),
         law.turn(Vector2::new(0.0, tilt), Vector2::new(0.0, force)).y,
     )
 }

@@ -7,7 +7,7 @@
     reason = "each test uses some of these helpers, which fail by panicking"
 )]
 
-use flexdrill_hole::{Gravity, Guide, Hole};
+use flexdrill_hole::{Bends, Gravity, Guide, Hole};
 
 /// EI of the paper's guide as a tube (N m2).
 pub const TUBE: f64 = 6.8037e5;
@@ -24,6 +24,7 @@ pub fn guide(factor: f64) -> Guide {
         length: 125.0 * CHORD,
         bending_stiffness: TUBE * factor,
         free_curvature: ARC,
+        bends: Bends::default(),
         roll: 0.0,
         weight_per_metre: 361.5,
         gravity: Gravity::Down,

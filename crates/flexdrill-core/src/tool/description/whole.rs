@@ -9,6 +9,7 @@ use super::{
 use crate::tool::section::BentTube;
 use crate::tool::well::WellPath;
 use crate::validation::{Bound, ValidationError, require};
+use flexdrill_base::Bends;
 
 type Checked = Result<(), ValidationError>;
 
@@ -33,8 +34,11 @@ pub struct ToolDescription {
     pub guide_section: Tube,
     /// Factor on the guide's bending stiffness (slotted guides are softer), dimensionless.
     pub guide_bending_factor: f64,
-    /// Curvature of the guide as made; `None` where it is without stress in the path.
+    /// Curvature of the guide as made; `None` where it is without stress in the path. Of a guide in pieces that of the piece
+    /// at the bit.
     pub guide_free_curvature: Option<FreeCurvature>,
+    /// Curvatures of the guide's pieces above it, where that is given; their bends have the same toolface.
+    pub guide_bends: Bends,
     /// Curvature against its shape as made at which the slots of the guide close (1/m): beyond it the guide bends with the
     /// stiffness of the whole tube. `None` where they never do.
     pub guide_slots_close_at: Option<f64>,
@@ -112,6 +116,7 @@ impl ToolDescription {
         };
         Bound::NotNegative.check("guide_free_curvature.curvature", free.curvature, "1/m")?;
         Bound::Finite.check("guide_free_curvature.phase", free.phase, "rad")?;
+        self.guide_bends.check()?;
         require(
             !self.guide_fixed,
             "guide_free_curvature",
@@ -119,11 +124,21 @@ impl ToolDescription {
         )
     }
 
+    /// The bend of the guide as made, its mean between two distances above the bit (m); `None` where it is without stress in
+    /// the path.
+    pub(crate) fn bend_above_bit(&self, [near, far]: [f64; 2]) -> Option<FreeCurvature> {
+        self.guide_free_curvature.map(|free| FreeCurvature {
+            curvature: self.guide_bends.mean(free.curvature, near, far),
+            ..free
+        })
+    }
+
     /// A part of the guide of `length` (m, the chord's) between two nodes whose frames are turned by `turn` (rad) against each
-    /// other. A guide without stress in the path was made with its curvature.
-    pub(crate) fn bent_guide(&self, length: f64, turn: f64) -> BentTube {
+    /// other, and which are at these distances above the bit (m). A guide without stress in the path was made with its
+    /// curvature.
+    pub(crate) fn bent_guide(&self, length: f64, turn: f64, above_bit: [f64; 2]) -> BentTube {
         let path = BentTube::path_curvature(length, turn);
-        let free = self.guide_free_curvature.unwrap_or(FreeCurvature {
+        let free = self.bend_above_bit(above_bit).unwrap_or(FreeCurvature {
             curvature: path,
             phase: 0.0,
         });

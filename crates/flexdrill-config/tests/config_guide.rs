@@ -1,0 +1,84 @@
+//! `tool.guide.free_curvature` in pieces from the bit up.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "helpers of tests fail by panicking"
+)]
+
+use flexdrill_config::Config;
+
+/// The paper's soft guide below a straight hole of 3.9 m, in an arc of 3.2 m and 20.16 deg, 1.126 m long.
+fn config(free_curvature: &str) -> Result<Config, String> {
+    let yaml = include_str!("../../../tests/data/ahead.yaml");
+    let yaml = yaml.replace("free_curvature: 0.3125", &format!("free_curvature: {free_curvature}"));
+    Config::from_text("tool.yaml", &yaml).map_err(|error| error.to_string())
+}
+
+#[test]
+fn pieces_count_from_the_bit_up() {
+    let config = config("[{length: 1.126, curvature: 0.3125}, {length: 9, curvature: 0}]").unwrap();
+    let tool = config.tool();
+    assert_eq!(tool.guide_free_curvature.unwrap().curvature, 0.3125);
+    let [change] = tool.guide_bends.changes() else {
+        panic!("{:?}", tool.guide_bends)
+    };
+    assert_eq!((change.from, change.curvature), (1.126, 0.0));
+    // A value of a piece is a key like any other.
+    let changed = config
+        .with_value("tool.guide.free_curvature.0.curvature", 0.25)
+        .unwrap();
+    assert_eq!(changed.tool().guide_free_curvature.unwrap().curvature, 0.25);
+}
+
+/// Strain is half of the diameter, 51 mm, times the change of curvature. A number has 0.3125 1/m in the straight hole.
+/// A straight upper piece has been in the straight hole alone; the piece at the bit has been bent straight above the arc.
+#[test]
+fn each_piece_is_strained_by_the_hole_that_it_has_been_in() {
+    let strain = |free: &str| config(free).unwrap().guide_bending_strain();
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+    near(strain("0.3125"), 0.051 * 0.3125);
+    near(
+        strain("[{length: 1.2, curvature: 0.3125}, {length: 1, curvature: 0}]"),
+        0.051 * 0.3125,
+    );
+    near(
+        strain("[{length: 1.2, curvature: 0.2}, {length: 1, curvature: 0}]"),
+        0.051 * 0.2,
+    );
+    // The upper piece is in the arc where the one at the bit is shorter than the arc.
+    near(
+        strain("[{length: 0.5, curvature: 0.2}, {length: 1, curvature: 0}]"),
+        0.051 * 0.3125,
+    );
+    let moment = |free: &str| config(free).unwrap().guide_preload_moment();
+    near(
+        moment("[{length: 0.5, curvature: 0.2}, {length: 1, curvature: 0.2}]"),
+        moment("0.2"),
+    );
+    // Made as the hole is: without stress in it, but for the 1e-4 m by which the piece is not the arc.
+    let as_made = moment("[{length: 1.1259468, curvature: 0.3125}, {length: 9, curvature: 0}]");
+    assert!(as_made <= moment("0.3125"), "{as_made}");
+}
+
+#[test]
+fn pieces_that_cannot_be_are_refused() {
+    for (free, expected) in [
+        ("[]", "tool.guide.free_curvature = 0 pieces"),
+        (
+            "[{length: 0, curvature: 0.1}]",
+            "tool.guide.free_curvature.0.length = 0 m",
+        ),
+        (
+            "[{length: 1, curvature: 0.1}, {length: 1, curvature: -1}]",
+            "tool.guide.free_curvature.1.curvature = -1 1/m",
+        ),
+        (
+            "[{length: 1, curvature: 0.1}], fixed: true",
+            "as_built while tool.guide.fixed is true",
+        ),
+    ] {
+        let error = config(free).unwrap_err();
+        assert!(error.contains(expected), "{free}: {error}");
+    }
+}
