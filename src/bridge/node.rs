@@ -22,18 +22,21 @@ pub enum Outgoing {
     Inputs,
     /// `rig/measured`.
     Measured,
+    /// `rig/survey`.
+    Survey,
     /// `/diagnostics`.
     Diagnostics,
 }
 
 impl Outgoing {
     /// What a rig sends, and the state of the bridge.
-    pub const OF_A_RIG: [Self; 3] = [Self::Inputs, Self::Measured, Self::Diagnostics];
+    pub const OF_A_RIG: [Self; 4] = [Self::Inputs, Self::Measured, Self::Survey, Self::Diagnostics];
 
     const fn topic(self) -> &'static TopicInfo {
         match self {
             Self::Inputs => &topics::RIG_INPUTS,
             Self::Measured => &topics::RIG_MEASURED,
+            Self::Survey => &topics::RIG_SURVEY,
             Self::Diagnostics => &topics::DIAGNOSTICS,
         }
     }

@@ -11,7 +11,7 @@ use flexdrill_bridge::wits::capture::{CaptureError, CaptureWriter};
 use flexdrill_bridge::wits::{
     FrameUse, Line, LineEvent, Mapping, NotUsed, RawFrame, Reading, Refused, Sources, TwinFrames, shown,
 };
-use flexdrill_messages::{ConfirmMappingRequest, ConfirmMappingResponse, RigInputs, RigMeasured};
+use flexdrill_messages::{ConfirmMappingRequest, ConfirmMappingResponse, RigInputs, RigMeasured, RigSurvey};
 use flexdrill_ros2::service::ServiceServer;
 use flexdrill_text::{counted, log_ending, printable};
 use tokio::sync::{broadcast, mpsc, oneshot};
@@ -316,6 +316,9 @@ impl WitsBridge {
         if let Some(measured) = &reading.measured {
             self.node.publish(Outgoing::Measured, measured);
         }
+        if let Some(survey) = &reading.survey {
+            self.node.publish(Outgoing::Survey, survey);
+        }
         match reading.outcome {
             FrameUse::Used { .. } => {
                 self.health.used_at = Some(arrived);
@@ -409,7 +412,8 @@ async fn serve(server: Option<ServiceServer>, ask: mpsc::Sender<Asked>) {
     server.serve(handler).await;
 }
 
-/// Marks the values of a frame whose mapping no person has confirmed: they drive the twin, and are shown as doubtful.
+/// Marks the values of a frame whose mapping no person has confirmed: they drive the twin, and are shown as doubtful. The twin
+/// uses no survey of it.
 fn mark_as_suspect(reading: &mut Reading) {
     if let Some(inputs) = reading
         .inputs
@@ -424,6 +428,13 @@ fn mark_as_suspect(reading: &mut Reading) {
         .filter(|measured| measured.quality == RigMeasured::GOOD)
     {
         measured.quality = RigMeasured::SUSPECT;
+    }
+    if let Some(survey) = reading
+        .survey
+        .as_mut()
+        .filter(|survey| survey.quality == RigSurvey::GOOD)
+    {
+        survey.quality = RigSurvey::SUSPECT;
     }
 }
 

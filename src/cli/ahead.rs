@@ -1,12 +1,11 @@
 //! `flexdrill ahead`: where the tool drills in the next metres.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
 
-use super::plan::Planned;
+use super::plan::{Planned, read_table};
 use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
@@ -59,8 +58,8 @@ pub struct AheadArgs {
     /// optionally inclination_sd_deg and azimuth_sd_deg. An azimuth may be empty.
     #[arg(long)]
     surveys: Option<PathBuf>,
-    /// Measured depth (m) from which on this tool has drilled: surveys above it say nothing of the tool. By default where the
-    /// arc above the bit begins.
+    /// Measured depth (m) from which on this tool has drilled: surveys above it say nothing of the tool. By default
+    /// well.drilled_from, else where the arc above the bit begins.
     #[arg(long, requires = "surveys", value_parser = numbers::measured_depth)]
     drilled_from: Option<f64>,
     /// Distance from the plan that counts as on plan (m); that of the configuration's plan by default, else 0.5.
@@ -77,8 +76,6 @@ pub struct AheadArgs {
 
 /// Distance that counts as on plan where none is given (m).
 const USUAL_TARGET: f64 = 0.5;
-/// Largest table of surveys (bytes).
-const LARGEST: u64 = 4 << 20;
 
 /// Runs the subcommand.
 ///
@@ -151,7 +148,7 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     whole_file::write(&args.out, "ahead.svg", &svg)?;
     if let Some(learnt) = &found.learnt {
         let used = learnt.surveys.iter().map(|survey| (survey, learnt.corrects(survey)));
-        whole_file::write(&args.out, "surveys.csv", &surveys::csv(used))?;
+        whole_file::write(&args.out, "surveys.csv", &table::surveys_csv(used))?;
     }
     for line in taken {
         say!("{line}");
@@ -183,7 +180,7 @@ fn taken(args: &AheadArgs, present: &Present, name: &str, drilling: &Drilling) -
 
 /// Name and surveys of a table.
 fn surveyed(path: &Path, bit: f64) -> anyhow::Result<(String, Vec<Survey>)> {
-    let (name, text) = read_table(path)?;
+    let (name, text) = read_table(path, "the surveys of the hole above the bit")?;
     let read = surveys::read(&name, &text, bit)?;
     Ok((name, read))
 }
@@ -191,7 +188,7 @@ fn surveyed(path: &Path, bit: f64) -> anyhow::Result<(String, Vec<Survey>)> {
 /// Measured depth from which on this tool has drilled (m).
 fn drilled_from(args: &AheadArgs, config: &Config) -> Result<f64, WrongUse> {
     let bit = config.well.length();
-    let since = args.drilled_from.unwrap_or_else(|| learnt::arc_begins(config));
+    let since = args.drilled_from.unwrap_or_else(|| learnt::drilled_from(config));
     if since < bit {
         return Ok(since);
     }
@@ -204,23 +201,6 @@ fn drilled_from(args: &AheadArgs, config: &Config) -> Result<f64, WrongUse> {
             ""
         }
     )))
-}
-
-/// Name and text of a table.
-fn read_table(path: &Path) -> anyhow::Result<(String, String)> {
-    let name = path.display().to_string();
-    let file = std::fs::File::open(path).with_context(|| format!("cannot read {name}"))?;
-    let mut text = String::new();
-    // One byte more than allowed shows that the file is longer.
-    file.take(LARGEST + 1)
-        .read_to_string(&mut text)
-        .with_context(|| format!("cannot read {name}"))?;
-    anyhow::ensure!(
-        text.len() as u64 <= LARGEST,
-        "{name}: must be at most {} MB: give the surveys of the hole above the bit",
-        LARGEST >> 20
-    );
-    Ok((name, text))
 }
 
 /// Weight at the bit (N): as asked for, or as it arrives in a run.

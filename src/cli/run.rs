@@ -7,7 +7,7 @@ use std::time::SystemTime;
 use clap::Args;
 
 use super::built_in::{self, BuiltIn};
-use super::{WrongUse, numbers, record_name, signals};
+use super::{WrongUse, numbers, plan, record_name, signals};
 use crate::alarms::state_file;
 use crate::bag::Losses;
 use crate::cli::output::say;
@@ -183,10 +183,11 @@ fn chosen_config<'a>(option: Option<&'a Path>, named: Option<(&'a str, &str)>) -
 
 /// The configuration and the name of its source.
 pub(super) fn load_config(path: Option<&std::path::Path>) -> anyhow::Result<(Config, String)> {
-    Ok(match path {
-        Some(path) => built_in::load(path)?,
-        None => (BuiltIn::Default.or_file(None)?, DEFAULT_CONFIG_NAME.to_owned()),
-    })
+    let Some(path) = path else {
+        return Ok((BuiltIn::Default.or_file(None)?, DEFAULT_CONFIG_NAME.to_owned()));
+    };
+    let (config, name) = built_in::load(path)?;
+    Ok((plan::with_stations(config, &name, path)?, name))
 }
 
 fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
@@ -228,6 +229,7 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
     for (topic, what) in [
         (&topics::RIG_INPUTS, "both, with stamp"),
         (&topics::RIG_MEASURED, "what the rig measures besides, for comparison"),
+        (&topics::RIG_SURVEY, "surveys of the hole, for the hole ahead"),
     ] {
         row(
             "input",

@@ -3,15 +3,12 @@
 //!
 //! # Layout
 //! - [`advice`]: what the plan needs, and under which weight the bit comes nearest to it.
-//! - [`surveys`]: a table of surveys; [`learnt`]: what they correct.
 //! - [`present`]: the tool at the end of a recorded run, or as a state has it.
 //! - [`table`], [`words`], [`picture`]: the results.
 
 pub mod advice;
-pub mod learnt;
 pub mod picture;
 pub mod present;
-pub mod surveys;
 pub mod table;
 pub mod words;
 
@@ -19,13 +16,12 @@ use flexdrill_config::{Config, sha256};
 use flexdrill_hole::{Bounds, HoleError, bounds, steady};
 
 pub use crate::drilling::{
-    Band, Drilling, Long, Plan, Refusal, SPACING, Spread, Station, Track, USUAL_LENGTH, USUAL_WEIGHT, across, along,
-    build, drill, plan, tool, turned,
+    Band, Drilling, Learnt, Long, Plan, Refusal, SPACING, Spread, Station, Track, USUAL_LENGTH, USUAL_WEIGHT, across,
+    along, build, drill, learnt, plan, surveys, tool, turned,
 };
 use crate::drilling::{middle_inclination, spread, unknowns};
 use crate::runs::{KeepError, Kept, KeptAs, Work, run_all};
 pub use advice::Advice;
-pub use learnt::Learnt;
 pub use present::Present;
 
 /// What is asked.
@@ -75,6 +71,9 @@ struct Run<'a> {
     drilling: &'a Result<Drilling, String>,
     stations: usize,
 }
+
+/// Holes that are drawn from what surveys say: the ends of a band scatter by 4 % of its half.
+const HOLES: usize = 1000;
 
 /// Numbers of a station.
 const NUMBERS: usize = 5;
@@ -174,7 +173,7 @@ pub fn answer(
     let mut members = run_all(&runs, question.jobs, kept, progress)?;
     let mut nominal = nominal;
     if let Some(learnt) = &learnt {
-        members = learnt.plausible(&nominal, &members, seed)?;
+        members = learnt.plausible(&nominal, &members, HOLES, seed)?;
         nominal = learnt.corrected(&nominal);
     }
     let sine = libm::sin(middle_inclination(&nominal));

@@ -1,9 +1,12 @@
 //! The results as a table (CSV).
 
 use flexdrill_core::units::rad_to_deg;
+use flexdrill_hole::Survey;
 use flexdrill_text::fixed;
 
+use super::surveys::DEVIATIONS;
 use super::{Answer, Band, Plan, SPACING, advice};
+use crate::drilling::table::COLUMNS as DIRECTION;
 
 const COLUMNS: &str = "ahead_m,measured_depth_m,inclination_deg,inclination_low_deg,inclination_median_deg,\
                        inclination_high_deg,azimuth_deg,azimuth_low_deg,azimuth_median_deg,azimuth_high_deg,x_m,y_m,z_m,\
@@ -36,6 +39,29 @@ pub fn csv(answer: &Answer, plan: Option<&Plan>) -> String {
             Some(distance) => [distance.whole, distance.high, distance.right].map(number),
             None => [const { String::new() }; 3],
         });
+        out.push_str(&line.join(","));
+        out.push('\n');
+    }
+    out
+}
+
+/// The table of surveys: `corrects` is what a survey corrected.
+pub fn surveys_csv<'a>(used: impl Iterator<Item = (&'a Survey, &'static str)>) -> String {
+    let mut out = [DIRECTION.as_slice(), &DEVIATIONS, &["corrects"]].concat().join(",") + "\n";
+    let degrees = |angle: f64| fixed(rad_to_deg(angle), 4);
+    for (survey, corrects) in used {
+        let [azimuth, deviation] = match survey.azimuth {
+            Some(azimuth) => azimuth.map(degrees),
+            None => [const { String::new() }; 2],
+        };
+        let line = [
+            fixed(survey.depth, 4),
+            degrees(survey.inclination),
+            azimuth,
+            degrees(survey.inclination_deviation),
+            deviation,
+            corrects.to_owned(),
+        ];
         out.push_str(&line.join(","));
         out.push('\n');
     }

@@ -3,7 +3,7 @@
 use super::received::plain_topic;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
-use flexdrill_messages::{RigMeasured, to_cdr_body, topics};
+use flexdrill_messages::{RigMeasured, RigSurvey, to_cdr_body, topics};
 use flexdrill_ros2::JoinError;
 use flexdrill_ros2::args::{NodeIdentity, Remapping};
 use flexdrill_ros2::dds::network::Network;
@@ -17,7 +17,7 @@ const RATE: f64 = 50.0;
 
 /// A node that publishes the rig's inputs and what it measures besides.
 pub struct RigNode {
-    /// By [`InputKind::ALL`], then `rig/measured`.
+    /// By [`InputKind::ALL`], then `rig/measured` and `rig/survey`.
     publishers: Vec<TopicPublisher>,
     names: Vec<String>,
     port: Port,
@@ -34,7 +34,7 @@ impl RigNode {
         for topic in InputKind::ALL
             .map(plain_topic)
             .into_iter()
-            .chain([&topics::RIG_MEASURED])
+            .chain([&topics::RIG_MEASURED, &topics::RIG_SURVEY])
         {
             let name = remapping.topic(identity, RIG_NODE_NAME, topic.name)?;
             let offer = Offer {
@@ -67,7 +67,13 @@ impl RigNode {
         self.port.monitor().health().is_up
     }
 
-    /// Absolute names of the topics, in the order of [`InputKind::ALL`], then that of `rig/measured`.
+    /// Publishes a survey. Returns false while DDS is down.
+    pub fn publish_survey(&self, message: &RigSurvey) -> bool {
+        self.publishers[InputKind::COUNT + 1].publish(to_cdr_body(message).unwrap_or_default());
+        self.port.monitor().health().is_up
+    }
+
+    /// Absolute names of the topics, in the order of [`InputKind::ALL`], then those of `rig/measured` and `rig/survey`.
     pub fn topics(&self) -> &[String] {
         &self.names
     }

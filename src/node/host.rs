@@ -1,6 +1,8 @@
 //! The node as the host of its session: it sends messages to DDS, the recording and the viewers, and gives what the rig has
 //! measured.
 
+use std::sync::Arc;
+
 use super::publish::PublisherParts;
 use super::thinned::{Share, Thinned};
 use crate::alarms::AlarmBook;
@@ -9,6 +11,7 @@ use crate::live::LiveServer;
 use crate::residuals::{Comparison, RigComparison, Samples};
 use crate::session::Host;
 use flexdrill_core::twin::{Frame, Snapshot};
+use flexdrill_hole::Survey;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{CdrError, Message, to_cdr};
 use flexdrill_outputs::Encoded;
@@ -59,6 +62,10 @@ impl Host for NodeHost<'_> {
         let inputs = &self.parts.inputs;
         rig.is_due(ticks)
             .then(|| inputs.with_measured(|measured| rig.samples(measured, stamp)))
+    }
+
+    fn surveys(&mut self, _: i64) -> Arc<[Survey]> {
+        self.parts.inputs.surveys()
     }
 
     fn judged(&mut self, alarms: &mut AlarmBook, _: &Snapshot) {

@@ -8,7 +8,8 @@ use crate::rig_inputs::{
 };
 use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{InputKind, Stamp};
-use flexdrill_messages::{RigInputs as RigInputsMessage, RigMeasured};
+use flexdrill_hole::Survey;
+use flexdrill_messages::{RigInputs as RigInputsMessage, RigMeasured, RigSurvey};
 use flexdrill_realtime::link::Targets;
 use flexdrill_text::log_ending;
 
@@ -29,7 +30,7 @@ impl RigInputs {
     /// Inputs that follow the rules of a configuration.
     pub fn new(config: &Config, targets: Arc<Targets>, clocks: Clocks) -> Self {
         Self {
-            intake: Arc::new(Mutex::new(Intake::new(&config.inputs, config.used_inputs()))),
+            intake: Arc::new(Mutex::new(Intake::of(config))),
             targets,
             clocks,
             max_skew: config.inputs.stamp.max_skew,
@@ -127,6 +128,18 @@ impl RigInputs {
         let stamp = self.clocks.stamp_time();
         let accepted = self.locked().accept_measured(message, stamp, time, self.max_skew);
         accepted.err()
+    }
+
+    /// Accepts a survey, or returns the refusal.
+    pub fn accept_survey(&self, message: &RigSurvey) -> Option<SampleRefused> {
+        let stamp = self.clocks.stamp_time();
+        let accepted = self.locked().accept_survey(message, stamp, self.max_skew);
+        accepted.err()
+    }
+
+    /// The surveys that are known, in the order of arrival.
+    pub fn surveys(&self) -> Arc<[Survey]> {
+        self.locked().surveys().known()
     }
 
     fn accept(

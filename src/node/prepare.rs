@@ -68,6 +68,7 @@ pub(super) struct PreparedNode {
     stamped_samples: Arc<Inbox<Sample>>,
     measured_samples: Arc<Inbox<Sample>>,
     confirmed: Confirmed,
+    surveys: Arc<Inbox<Sample>>,
     received: (ReceivedSender, ReceivedQueue),
     /// What viewers may steer; none without viewers.
     viewers: Option<Arc<Viewers>>,
@@ -150,6 +151,7 @@ impl PreparedNode {
             what_if,
             control: Arc::clone(&control),
             gauges: Arc::clone(&gauges),
+            inputs: inputs.clone(),
             advisor,
             forecasts: config.look_ahead.forecast.then(Arc::default),
             set_point: Arc::new(SharedSetPoint::new(&config)),
@@ -175,7 +177,11 @@ impl PreparedNode {
 
         let mut subscribe = |topic: &TopicInfo| -> Result<(String, Arc<Inbox<Sample>>), NodeError> {
             let name = setup.topic_name(topic)?;
-            let samples = port.subscription(&name, topic.kind.dds_type, false);
+            let samples = if topic.qos.reliable {
+                port.reliable_subscription(&name, topic.kind.dds_type)
+            } else {
+                port.subscription(&name, topic.kind.dds_type, false)
+            };
             Ok((name, samples))
         };
         let mut plain = Vec::new();
@@ -189,6 +195,7 @@ impl PreparedNode {
         // Bridges report there which mappings persons have confirmed.
         let (confirmed, diagnostics) = confirmed::receive(subscribe(&topics::DIAGNOSTICS)?.1);
         tasks.push(diagnostics);
+        let (_, surveys) = subscribe(&topics::RIG_SURVEY)?;
         // With simulated time the clock itself is a subscription: until its first message there is no time.
         if let Some(newest) = clocks.simulated() {
             let (_, ticks) = subscribe(&topics::CLOCK)?;
@@ -223,6 +230,7 @@ impl PreparedNode {
             stamped_samples: stamped,
             measured_samples: measured,
             confirmed,
+            surveys,
             received: received::queue(),
             viewers,
             checkpoint,
@@ -274,6 +282,7 @@ impl PreparedNode {
         }
         tasks.spawn(receive::receive_stamped(receiver(), self.stamped_samples));
         tasks.spawn(receive::receive_measured(receiver(), self.measured_samples));
+        tasks.spawn(receive::receive_surveys(receiver(), self.surveys));
         tasks.spawn(receive::update_targets(self.inputs.clone()));
 
         // The alarms begin with the state of the last run: an acknowledgement survives a restart of the node.

@@ -331,6 +331,7 @@ impl Publisher {
             Received::Plain { value, .. } => to_cdr(&Float64 { data: value }),
             Received::Stamped(message) => to_cdr(&message),
             Received::Measured(message) => to_cdr(&message),
+            Received::Survey(message) => to_cdr(&message),
         };
         if let Ok(cdr) = cdr {
             self.parts.sinks().write(Encoded {

@@ -11,7 +11,7 @@ use crate::rig_inputs::{Carried, Driver, DriverId, SampleRefused};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{Message, RigMeasured, message_from_cdr_body};
+use flexdrill_messages::{Message, RigMeasured, RigSurvey, message_from_cdr_body};
 use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::frames::Peer;
@@ -145,6 +145,7 @@ async fn receive<M: Message>(
                 SampleRefused::Driver(_) => usize::MAX,
                 SampleRefused::Value(rejection) => rejection.reason.index(),
                 SampleRefused::Measured(refused) => usize::MAX - 1 - refused.index(),
+                SampleRefused::Survey(refused) => refused.index(),
             };
             if let Some(more) = log_ending(format!("{}: refused {cause}", topic.name)) {
                 tracing::warn!("{refused}{more}");
@@ -214,6 +215,22 @@ pub async fn receive_measured(receiver: SampleReceiver, samples: Arc<Inbox<Sampl
             receiver.warn_of_zeros(message.has_doubtful_zero(), &topics::RIG_MEASURED, id);
             let refused = receiver.inputs.accept_measured(&message);
             receiver.record(Received::Measured(message));
+            refused.into_iter().collect()
+        },
+    )
+    .await;
+}
+
+/// Receives the surveys on `rig/survey` for as long as it is polled.
+pub async fn receive_surveys(receiver: SampleReceiver, samples: Arc<Inbox<Sample>>) {
+    receive(
+        receiver,
+        &topics::RIG_SURVEY,
+        Carried::Surveys,
+        &samples,
+        |receiver, message: RigSurvey, _| {
+            let refused = receiver.inputs.accept_survey(&message);
+            receiver.record(Received::Survey(message));
             refused.into_iter().collect()
         },
     )

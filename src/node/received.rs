@@ -6,17 +6,18 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{RigInputs, RigMeasured};
+use flexdrill_messages::{RigInputs, RigMeasured, RigSurvey};
 
 /// Most samples that wait for the recording.
 const CAPACITY: usize = 1024;
-const TOPICS: [&TopicInfo; 6] = [
+const TOPICS: [&TopicInfo; 7] = [
     &topics::ROTARY_SPEED_RPM,
     &topics::WEIGHT_ON_BIT_KN,
     &topics::RATE_OF_PENETRATION,
     &topics::STANDPIPE_PRESSURE,
     &topics::RIG_INPUTS,
     &topics::RIG_MEASURED,
+    &topics::RIG_SURVEY,
 ];
 
 /// A sample as received.
@@ -33,6 +34,8 @@ pub enum Received {
     Stamped(RigInputs),
     /// What the rig measures besides.
     Measured(RigMeasured),
+    /// A survey of the hole.
+    Survey(RigSurvey),
 }
 
 impl Received {
@@ -42,6 +45,7 @@ impl Received {
             Received::Plain { kind, .. } => plain_topic(*kind),
             Received::Stamped(_) => &topics::RIG_INPUTS,
             Received::Measured(_) => &topics::RIG_MEASURED,
+            Received::Survey(_) => &topics::RIG_SURVEY,
         }
     }
 }

@@ -6,10 +6,11 @@ use super::driver::{Driver, DriverId};
 use super::drivers::{DriverSummary, Drivers, NotDriving, Rule};
 use super::measured::{Measured, MeasuredRefused};
 use super::safe_value_watch::{SafeValueEvent, SafeValueWatch};
+use super::surveys::{SurveyRefused, Surveys};
 use super::time_zone::TimeZone;
-use flexdrill_config::InputsConfig;
+use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, RejectionReason, Stamp};
-use flexdrill_messages::RigMeasured;
+use flexdrill_messages::{RigMeasured, RigSurvey};
 
 /// What a message on `rig/inputs` states about its source.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -44,6 +45,8 @@ pub enum SampleRefused {
     Value(Rejection),
     /// A message of `rig/measured` is refused.
     Measured(MeasuredRefused),
+    /// A survey is refused.
+    Survey(SurveyRefused),
 }
 
 /// What a topic carries.
@@ -53,6 +56,8 @@ pub enum Carried {
     Inputs(&'static [InputKind]),
     /// What the rig measures besides.
     Measured,
+    /// Surveys.
+    Surveys,
 }
 
 impl fmt::Display for SampleRefused {
@@ -70,6 +75,7 @@ impl fmt::Display for SampleRefused {
                 }
             }
             Self::Measured(refused) => refused.fmt(f),
+            Self::Survey(refused) => refused.fmt(f),
         }
     }
 }
@@ -87,6 +93,7 @@ pub struct Intake {
     /// Of the newest good sample.
     sources: [SampleSource; InputKind::COUNT],
     measured: Measured,
+    surveys: Surveys,
 }
 
 /// The largest weight that the configuration can allow (N): its hard limit, or the configured maximum beyond it.
@@ -95,7 +102,15 @@ fn heaviest(inputs: &InputsConfig) -> f64 {
 }
 
 impl Intake {
-    /// An intake that has received nothing; `used` as in [`InputsConfig::rules_of`].
+    /// An intake of a run that has received nothing.
+    pub fn of(config: &Config) -> Self {
+        Self {
+            surveys: Surveys::new(config),
+            ..Self::new(&config.inputs, config.used_inputs())
+        }
+    }
+
+    /// One without a hole to survey; `used` as in [`InputsConfig::rules_of`].
     pub fn new(inputs: &InputsConfig, used: [bool; InputKind::COUNT]) -> Self {
         Self {
             drivers: Drivers::new(Rule::of(inputs)),
@@ -106,6 +121,7 @@ impl Intake {
             overrun: [0; InputKind::COUNT],
             sources: Default::default(),
             measured: Measured::new(heaviest(inputs)),
+            surveys: Surveys::default(),
         }
     }
 
@@ -186,6 +202,20 @@ impl Intake {
         &self.measured
     }
 
+    /// Accepts a survey. `now` is the present instant of the stamps (ns), `max_skew` how far ahead of it a stamp may be (s).
+    ///
+    /// # Errors
+    /// When it is refused.
+    pub fn accept_survey(&mut self, message: &RigSurvey, now: i64, max_skew: f64) -> Result<(), SampleRefused> {
+        let accepted = self.surveys.accept(message, now, max_skew);
+        accepted.map_err(SampleRefused::Survey)
+    }
+
+    /// The surveys of the hole.
+    pub fn surveys(&self) -> &Surveys {
+        &self.surveys
+    }
+
     /// Counts a sample whose bytes are no message of its type.
     pub fn count_unreadable(&mut self, carried: Carried) {
         match carried {
@@ -195,6 +225,7 @@ impl Intake {
                 }
             }
             Carried::Measured => self.measured.count_unreadable(),
+            Carried::Surveys => self.surveys.count_unreadable(),
         }
     }
 
@@ -212,6 +243,7 @@ impl Intake {
                 }
             }
             Carried::Measured => self.measured.count_overrun(samples),
+            Carried::Surveys => self.surveys.count_overrun(samples),
         }
     }
 

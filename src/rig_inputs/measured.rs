@@ -12,7 +12,7 @@ use super::time_zone::TimeZone;
 
 /// Later than this (ns) a stamp of 0 is one that the sender has not set. A simulated clock begins at 0, and measurements of
 /// its first hour may say so.
-const NO_STAMP: i64 = 3_600_000_000_000;
+pub(super) const NO_STAMP: i64 = 3_600_000_000_000;
 
 /// The newest good value of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 //! no clock: the caller passes times in.
 //!
 //! [`Intake`] owns all of them: it accepts a sample, or refuses it with a reason. It also keeps what the rig measures
-//! besides ([`Measured`]).
+//! besides ([`Measured`]), and the surveys of the hole ([`Surveys`]).
 
 mod driver;
 mod drivers;
@@ -12,6 +12,7 @@ mod intake;
 mod measured;
 mod safe_value_watch;
 pub mod stamped;
+mod surveys;
 mod time_zone;
 
 pub use driver::{Driver, DriverId};
@@ -20,3 +21,4 @@ pub use fluctuation::Fluctuation;
 pub use intake::{Carried, Intake, RigSample, SampleRefused, SampleSource};
 pub use measured::{Measured, MeasuredRefused, MeasuredValue};
 pub use safe_value_watch::{SafeValueEvent, SafeValueWatch};
+pub use surveys::{SurveyRefused, Surveys};

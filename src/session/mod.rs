@@ -17,6 +17,7 @@ use crate::residuals::{Comparison, RigComparison, Samples, predicted};
 use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Snapshot};
+use flexdrill_hole::Survey;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{AlarmEvent, CdrError, Residuals, to_cdr, topics};
@@ -36,6 +37,11 @@ pub trait Host {
     /// What the rig has measured since the last comparison, if the frame at these ticks is compared with it. `stamp` is the
     /// frame's instant (ns since 1970).
     fn measured(&mut self, rig: &mut RigComparison, ticks: u64, stamp: i64) -> Option<Samples>;
+
+    /// The surveys that are known at an instant of the run (ns since 1970), in the order of arrival.
+    fn surveys(&mut self, _stamp: i64) -> Arc<[Survey]> {
+        Arc::default()
+    }
 
     /// Looks at the alarms once a snapshot has been judged.
     fn judged(&mut self, _alarms: &mut AlarmBook, _snapshot: &Snapshot) {}
@@ -205,7 +211,7 @@ impl Session {
         if frame.due.has(Output::Alarms) {
             let stamp = outputs.instant(frame.ticks);
             self.observe(&frame.snapshot, stamp);
-            self.hole.observe(frame);
+            self.hole.observe(frame, || host.surveys(stamp));
             host.judged(&mut self.alarms, &frame.snapshot);
             self.compare(frame, stamp, host)?;
         }

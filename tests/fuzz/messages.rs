@@ -81,6 +81,7 @@ types! {
     ours::Residuals,
     ours::RigInputs,
     ours::RigMeasured,
+    ours::RigSurvey,
     ours::SafeWindow,
     ours::SessionInfo,
     ours::Transfer,

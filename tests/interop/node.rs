@@ -292,6 +292,7 @@ fn types_are_described_to_both_kinds_of_clients() {
         "std_msgs/msg/Float64",
         "flexdrill/msg/RigInputs",
         "flexdrill/msg/RigMeasured",
+        "flexdrill/msg/RigSurvey",
         "rosgraph_msgs/msg/Clock",
     ];
     let outputs = OUTPUTS.map(|(_, kind, _)| kind);

@@ -7,7 +7,7 @@ use flexdrill::bag;
 use flexdrill::messages::{Alarm, AlarmEvent, HoleAhead};
 
 /// The paper's tool with a soft guide of a known shape, after 70 degrees of its arc.
-const TOOL: &str = "
+pub(crate) const TOOL: &str = "
 well:
   sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
   hole_diameter: 0.118
@@ -22,16 +22,20 @@ contact:
 environment: {gravity: 9.81, buoyancy_factor: 0.86}
 ";
 
-fn succeeds(arguments: &[&Path]) {
+/// What a replay that succeeds says.
+pub(crate) fn replayed(arguments: &[&Path]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .arg("replay")
         .args(arguments)
         .output()
         .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let said = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    assert!(output.status.success(), "{}", said.concat());
+    said.concat()
 }
 
 /// Time and bytes of each message.
-fn messages(of: &Path) -> Vec<(i64, Vec<u8>)> {
+pub(crate) fn messages(of: &Path) -> Vec<(i64, Vec<u8>)> {
     let messages = bag::open(of).unwrap().map(Result::unwrap);
     messages
         .filter(|message| message.topic.is("twin/hole_ahead"))
@@ -66,9 +70,9 @@ fn run(folder: &Path, tool: &str, seconds: u32) -> PathBuf {
          weight_on_bit: {direct: {column: wob, unit: kN}}\n",
     )
     .unwrap();
-    let [replay, config, mapping, to] = ["replay", "--config", "--mapping", "--out"].map(Path::new);
+    let [config, mapping, to] = ["--config", "--mapping", "--out"].map(Path::new);
     let (tool, log, columns) = (at("tool.yaml"), at("log.csv"), at("mapping.yaml"));
-    succeeds(&[replay, &log, mapping, &columns, config, &tool, to, &at("run")]);
+    replayed(&[&log, mapping, &columns, config, &tool, to, &at("run")]);
     at("run")
 }
 
@@ -85,9 +89,9 @@ fn events(of: &Path) -> Vec<AlarmEvent> {
 fn a_replay_repeats_where_the_tool_drills() {
     let folder = tempfile::tempdir().unwrap();
     let first = run(folder.path(), &planned(3.145, 5.5), 24);
-    let [replay, to] = ["replay", "--out"].map(Path::new);
+    let to = Path::new("--out");
     let second = folder.path().join("again");
-    succeeds(&[replay, &first, to, &second]);
+    replayed(&[&first, to, &second]);
     let (run, again) = (messages(&first), messages(&second));
     assert!(run.len() >= 15, "{} messages", run.len());
     assert!(run == again, "other messages");
@@ -122,9 +126,9 @@ fn a_replay_repeats_where_the_tool_drills() {
 fn a_plan_that_the_guide_cannot_drill_has_an_alarm() {
     let folder = tempfile::tempdir().unwrap();
     let first = run(folder.path(), &planned(2.0, 3.0), 24);
-    let [replay, to] = ["replay", "--out"].map(Path::new);
+    let to = Path::new("--out");
     let second = folder.path().join("again");
-    succeeds(&[replay, &first, to, &second]);
+    replayed(&[&first, to, &second]);
     let [event] = &events(&first)[..] else {
         panic!("{:?}", events(&first))
     };

@@ -22,3 +22,4 @@ mod measured;
 mod posterior;
 mod report;
 mod shapes;
+mod surveys;

@@ -101,7 +101,7 @@ fn capture(path: &Path, timed: bool) {
             Quantity::RotarySpeed => Some(4.0 + 0.1 * second as f64),
             Quantity::WeightOnBit => Some(5e3),
             Quantity::Measured(MeasuredKind::SurfaceTorque) => Some(torque(second)),
-            Quantity::Measured(_) => None,
+            Quantity::Measured(_) | Quantity::Survey(_) => None,
         });
         let frame = frame.unwrap();
         match &mut writer {

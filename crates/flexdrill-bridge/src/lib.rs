@@ -20,4 +20,4 @@ pub mod quantity;
 pub mod wits;
 
 pub use figures::{Figure, TwinFigures};
-pub use quantity::Quantity;
+pub use quantity::{Quantity, SurveyKind};

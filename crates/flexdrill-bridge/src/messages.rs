@@ -2,10 +2,10 @@
 
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{RigInputs, RigMeasured};
+use flexdrill_messages::{RigInputs, RigMeasured, RigSurvey};
 use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 
-use crate::Quantity;
+use crate::{Quantity, SurveyKind};
 
 /// The inputs among the values (SI) of a rig; `None` where there is none.
 pub fn rig_inputs(
@@ -40,4 +40,25 @@ pub fn rig_measured(
         }
     }
     (!message.is_empty()).then_some(message)
+}
+
+/// The survey among the values (SI) of a rig; `None` without a depth or an inclination.
+pub fn rig_survey(
+    value: impl Fn(Quantity) -> Option<f64>,
+    header: Header,
+    quality: u8,
+    source: &str,
+) -> Option<RigSurvey> {
+    let of = |kind| value(Quantity::Survey(kind));
+    Some(RigSurvey {
+        header,
+        measured_depth: of(SurveyKind::Depth)?,
+        inclination: of(SurveyKind::Inclination)?,
+        azimuth: of(SurveyKind::Azimuth).unwrap_or(f64::NAN),
+        // No rig sends them.
+        inclination_deviation: f64::NAN,
+        azimuth_deviation: f64::NAN,
+        quality,
+        source: source.to_owned(),
+    })
 }

@@ -6,6 +6,48 @@ use flexdrill_config::checker::Checker;
 use flexdrill_core::inputs::{Dimension, InputKind, MeasuredKind, Unit};
 use serde::{Deserialize, Serialize};
 
+/// A value of a survey.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SurveyKind {
+    /// Measured depth.
+    Depth,
+    /// Inclination.
+    Inclination,
+    /// Azimuth, corrected to the north of the plan.
+    Azimuth,
+}
+
+impl SurveyKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Depth, Self::Inclination, Self::Azimuth];
+
+    /// Largest angle of either sign (rad): the twin's own bounds are narrower.
+    const TURN: f64 = std::f64::consts::TAU;
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Depth => "survey_depth",
+            Self::Inclination => "survey_inclination",
+            Self::Azimuth => "survey_azimuth",
+        }
+    }
+
+    const fn dimension(self) -> Dimension {
+        match self {
+            Self::Depth => Dimension::Length,
+            Self::Inclination | Self::Azimuth => Dimension::Angle,
+        }
+    }
+
+    const fn plausible(self) -> [f64; 2] {
+        match self {
+            Self::Depth => MeasuredKind::BitDepth.plausible(),
+            Self::Inclination => [0.0, std::f64::consts::PI],
+            Self::Azimuth => [-Self::TURN, Self::TURN],
+        }
+    }
+}
+
 /// A quantity of the rig by its name. Rate of penetration and standpipe pressure are both measured and an input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -16,6 +58,8 @@ pub enum Quantity {
     WeightOnBit,
     /// A measured quantity.
     Measured(MeasuredKind),
+    /// A value of a survey of the hole.
+    Survey(SurveyKind),
 }
 
 /// A name that belongs to no quantity.
@@ -37,6 +81,7 @@ impl Quantity {
         [Self::RotarySpeed, Self::WeightOnBit]
             .into_iter()
             .chain(MeasuredKind::ALL.into_iter().map(Self::Measured))
+            .chain(SurveyKind::ALL.into_iter().map(Self::Survey))
     }
 
     /// The name in mappings.
@@ -45,6 +90,7 @@ impl Quantity {
             Self::RotarySpeed => InputKind::RotarySpeed.name(),
             Self::WeightOnBit => InputKind::WeightOnBit.name(),
             Self::Measured(kind) => kind.name(),
+            Self::Survey(kind) => kind.name(),
         }
     }
 
@@ -54,6 +100,7 @@ impl Quantity {
             Self::RotarySpeed => Dimension::RotarySpeed,
             Self::WeightOnBit => Dimension::Force,
             Self::Measured(kind) => kind.dimension(),
+            Self::Survey(kind) => kind.dimension(),
         }
     }
 
@@ -64,7 +111,7 @@ impl Quantity {
             Self::WeightOnBit => Some(InputKind::WeightOnBit),
             Self::Measured(MeasuredKind::RateOfPenetration) => Some(InputKind::RateOfPenetration),
             Self::Measured(MeasuredKind::StandpipePressure) => Some(InputKind::StandpipePressure),
-            Self::Measured(_) => None,
+            Self::Measured(_) | Self::Survey(_) => None,
         }
     }
 
@@ -75,6 +122,7 @@ impl Quantity {
             // The largest rigs put 500 kN on a bit.
             Self::WeightOnBit => [-1e6, 1e6],
             Self::Measured(kind) => kind.plausible(),
+            Self::Survey(kind) => kind.plausible(),
         }
     }
 }

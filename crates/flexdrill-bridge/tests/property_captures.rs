@@ -34,7 +34,7 @@ fn capture() -> Vec<u8> {
         let value = |quantity: Quantity| match quantity {
             Quantity::RotarySpeed => Some(6.0 + second as f64),
             Quantity::WeightOnBit => Some(25e3),
-            Quantity::Measured(MeasuredKind::AxialShock | MeasuredKind::LateralShock) => None,
+            Quantity::Survey(_) | Quantity::Measured(MeasuredKind::AxialShock | MeasuredKind::LateralShock) => None,
             Quantity::Measured(_) => Some(1.5),
         };
         bytes.extend(

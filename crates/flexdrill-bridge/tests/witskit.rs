@@ -81,7 +81,7 @@ fn sent(quantity: Quantity) -> Option<f64> {
         Quantity::Measured(MeasuredKind::StandpipePressure) => Some(12.5e6),
         Quantity::Measured(MeasuredKind::DownholeWeightOnBit) => Some(17e3),
         Quantity::Measured(MeasuredKind::DownholeTorque) => Some(640.0),
-        Quantity::Measured(_) => None,
+        Quantity::Measured(_) | Quantity::Survey(_) => None,
     }
 }
 
@@ -98,7 +98,7 @@ fn description(quantity: Quantity) -> &'static str {
         Quantity::Measured(MeasuredKind::StandpipePressure) => "Standpipe Pressure (avg)",
         Quantity::Measured(MeasuredKind::DownholeWeightOnBit) => "Downhole Wt-on-Bit (avg)",
         Quantity::Measured(MeasuredKind::DownholeTorque) => "Downhole Torque (avg)",
-        Quantity::Measured(_) => "",
+        Quantity::Measured(_) | Quantity::Survey(_) => "",
     }
 }
 

@@ -178,10 +178,13 @@ const HOLE_AHEAD: [&str; 4] = [
     "axis",
 ];
 
-/// Removes the keys of the bit that act on the hole ahead and not on the motion, and the plan.
+/// Keys of the well that only the hole ahead reads: the plan, and what surveys count from.
+const OF_THE_HOLE: [&str; 3] = ["plan", "drilled_from", "kick_off_depth"];
+
+/// Removes the keys of bit and well that act on the hole ahead and not on the motion.
 fn leave_out_hole_ahead(sections: &mut Map<String, Value>) {
     if let Some(well) = sections.get_mut("well").and_then(Value::as_object_mut) {
-        well.remove("plan");
+        well.retain(|key, _| !OF_THE_HOLE.contains(&key.as_str()));
     }
     if let Some(bit) = sections.get_mut("tool").and_then(|tool| tool.get_mut("bit"))
         && let Some(bit) = bit.as_object_mut()
@@ -281,6 +284,7 @@ mod tests {
         let planned = {
             let mut schema = (*config).clone();
             schema.well.plan = Some(serde_json::from_str(r#"{"file": "plan.csv"}"#).unwrap());
+            (schema.well.drilled_from, schema.well.kick_off_depth) = (Some(1.0), 2000.0);
             Config::from_schema("planned", schema).unwrap()
         };
         assert_eq!(planned.motion_hash(), hash);

@@ -12,6 +12,7 @@ const INCLINATION: Bound = Bound::within(0.0, 180.0);
 const HOLE: Bound = Bound::above(0.0, 2.0);
 const LENGTH: Bound = Bound::above(0.0, 1000.0);
 const RADIUS: Bound = Bound::within(0.5, 10_000.0);
+const DEPTH: Bound = Bound::within(0.0, 20_000.0);
 const BUILD: Bound = Bound::above(0.0, 180.0);
 
 /// The bore: its centre line from the kick-off down and its diameter. The tool fills it from end to end.
@@ -30,6 +31,21 @@ pub struct Well {
     /// The planned hole. Nothing of it acts on a run. Default none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<WellPlan>,
+    /// Measured depth from the kick-off (m) from which on this tool has drilled: surveys above it say nothing of the tool.
+    /// Nothing of it acts on a run. Default where the arc above the bit begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = DEPTH.in_schema())]
+    pub drilled_from: Option<f64>,
+    /// Measured depth of the kick-off (m) as the rig counts it: surveys of the rig lie deeper by it than the model counts.
+    /// Nothing of it acts on a run. Default 0.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(transform = DEPTH.in_schema())]
+    pub kick_off_depth: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(depth: &f64) -> bool {
+    *depth == 0.0
 }
 
 /// One section of the well path.
@@ -147,6 +163,24 @@ impl Well {
         if let Some(plan) = &self.plan {
             let hole = self.length();
             c.below("plan", |c| plan.check(c, hole));
+        }
+        c.number(
+            "kick_off_depth",
+            self.kick_off_depth,
+            DEPTH,
+            "m",
+            "no well is deeper than 20 km; give the rig's measured depth where well.sections begins",
+        );
+        if let Some(from) = self.drilled_from {
+            let bit = self.length();
+            c.require(
+                (0.0..bit).contains(&from) || !bit.is_finite(),
+                "drilled_from",
+                from,
+                "m",
+                format!("at least 0 m, the kick-off, and less than {bit:.3} m, the bit"),
+                "it is a depth of the hole above the bit, counted from the kick-off",
+            );
         }
     }
 

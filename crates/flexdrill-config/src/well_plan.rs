@@ -5,14 +5,15 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker, number};
 use super::section::section;
+use super::{Config, ConfigError};
 
 /// A target narrower than a centimetre is less than any survey knows, and one wider than a hundred metres is none.
 const TARGET: Bound = Bound::within(0.01, 100.0);
 /// Longer plans stand in a file.
 const STATIONS: Bound = Bound::within(2.0, 1000.0);
 
-/// The planned hole: `stations`, or the `file` of a table. `flexdrill ahead` compares with it what the tool drills, and
-/// `flexdrill check` says whether the guide can drill it. Between two stations the hole is an arc (minimum curvature).
+/// The planned hole: `stations`, or the `file` of a table. `flexdrill ahead` and a live twin compare with it what the tool
+/// drills, and `flexdrill check` says whether the guide can drill it. Between two stations the hole is an arc (minimum curvature).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WellPlan {
@@ -21,7 +22,8 @@ pub struct WellPlan {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stations: Vec<PlannedStation>,
     /// Table of the stations (CSV) with the columns `measured_depth_m`, `inclination_deg` and `azimuth_deg`, in place of
-    /// `stations`. A relative path is relative to the folder of the configuration. Default none.
+    /// `stations`. A relative path is relative to the folder of the configuration. A recording has its stations. Default
+    /// none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Radius around the plan (m) within which the bit is on plan. Default 0.5.
@@ -40,6 +42,21 @@ section! {
         inclination_deg: f64, within(0.0, 180.0), "deg", "0 is straight down, 180 straight up";
         /// Azimuth, clockwise seen from above. Required.
         azimuth_deg: f64, within(-360.0, 360.0), "deg", "one turn";
+    }
+}
+
+impl Config {
+    /// A copy whose plan has these stations in place of `well.plan.file`, so that a recording of it needs no file.
+    ///
+    /// # Errors
+    /// When the stations do not make sense; they are named `origin`.
+    pub fn with_planned(&self, origin: &str, stations: Vec<PlannedStation>) -> Result<Self, ConfigError> {
+        let mut schema = self.schema.clone();
+        if let Some(plan) = &mut schema.well.plan {
+            plan.file = None;
+            plan.stations = stations;
+        }
+        Self::from_schema(origin, schema)
     }
 }
 

@@ -4,12 +4,16 @@
 //! - [`tool`]: guide, bit and hole of a configuration; [`loads`]: its loads.
 //! - [`unknowns`]: what is not known, and plausible tools drawn from it.
 //! - [`plan`]: a planned hole and the distance to it.
+//! - [`surveys`]: surveys of the hole; [`learnt`]: what they correct. [`table`]: tables of both.
 //! - [`to_plan`]: the next metres against a plan, and the weight that brings the hole back; [`weights`]: those to choose from.
 //! - [`range`]: what the guide drills in a long arc, and what with no bit; [`words`]: the same in words.
 
+pub mod learnt;
 pub mod loads;
 pub mod plan;
 pub mod range;
+pub mod surveys;
+pub mod table;
 pub mod to_plan;
 pub mod tool;
 pub mod unknowns;
@@ -18,6 +22,7 @@ pub mod words;
 
 use flexdrill_hole::{HoleError, Propagation, RIPPLE_THRESHOLD, Steady};
 
+pub use learnt::Learnt;
 pub use plan::Plan;
 pub use tool::{Drilling, Refusal, SPACING};
 

@@ -5,13 +5,16 @@ use std::f64::consts::PI;
 use flexdrill_config::PlannedStation;
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
+use super::table::{self, COLUMNS, Kind, TableError};
 use super::tool::Drilling;
 use super::{Station, USUAL_LENGTH, across};
 
-/// Columns of a table.
-pub const COLUMNS: [&str; 3] = ["measured_depth_m", "inclination_deg", "azimuth_deg"];
-/// Most rows: a survey per metre of the deepest well has less.
-const MOST_ROWS: usize = 20_000;
+/// Tables of a plan.
+const TABLE: Kind = Kind {
+    what: "the plan",
+    least: 2,
+    give: "the stations of the plan around the bit",
+};
 /// Distance of two points of the plan (m).
 const STEP: f64 = 0.02;
 
@@ -39,47 +42,6 @@ impl From<&PlannedStation> for Row {
 /// Why a plan is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
-    /// The header lacks a column.
-    #[error(
-        "{file}:1: no column {column}: must have the columns measured_depth_m, inclination_deg and azimuth_deg; name them \
-         in the first line"
-    )]
-    Column {
-        /// The table.
-        file: String,
-        /// What is missing.
-        column: &'static str,
-    },
-    /// A value that is none, or out of its bounds.
-    #[error("{file}:{line}: {column} = {value}: must be {bound}; correct the line or remove it")]
-    Value {
-        /// The table.
-        file: String,
-        /// Line, from 1.
-        line: u64,
-        /// Column.
-        column: &'static str,
-        /// As in the file.
-        value: String,
-        /// What is allowed.
-        bound: String,
-    },
-    /// It is no table.
-    #[error("{file}: {reason}: must be a table with a header, separated by commas; export the plan as CSV")]
-    Table {
-        /// The file.
-        file: String,
-        /// What the reader says.
-        reason: String,
-    },
-    /// Too few or too many rows.
-    #[error("{file}: {rows} rows: must be 2 to {MOST_ROWS}: give the stations of the plan around the bit")]
-    Rows {
-        /// The table.
-        file: String,
-        /// Rows found.
-        rows: usize,
-    },
     /// It does not begin on the hole as configured.
     #[error(
         "{file}: measured_depth_m of the first row = {depth} m: must be 0 to {bit:.3} m, the bit: depths count from the \
@@ -133,74 +95,24 @@ pub struct Distance {
 /// The rows of a table.
 ///
 /// # Errors
-/// [`PlanError`] with file, line, column, value and bound.
-pub fn read(file: &str, text: &str) -> Result<Vec<Row>, PlanError> {
-    let table = |error: csv::Error| PlanError::Table {
-        file: file.to_owned(),
-        reason: error.to_string(),
-    };
-    // Programs export columns in any order, with more of them, and with comments.
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let header = reader.headers().map_err(table)?.clone();
-    let mut places = [0; COLUMNS.len()];
-    for (place, column) in places.iter_mut().zip(COLUMNS) {
-        let at = header
-            .iter()
-            .position(|name| name.trim_start_matches('\u{feff}') == column);
-        *place = at.ok_or_else(|| PlanError::Column {
-            file: file.to_owned(),
-            column,
-        })?;
-    }
-    let mut rows: Vec<Row> = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(table)?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |index: usize, low: f64, high: f64, bound: String| {
-            let text = record.get(places[index]).unwrap_or_default();
-            match text.parse::<f64>() {
-                // NaN fails both comparisons.
-                Ok(value) if value >= low && value <= high => Ok(value),
-                _ => Err(PlanError::Value {
-                    file: file.to_owned(),
-                    line,
-                    column: COLUMNS[index],
-                    value: text.to_owned(),
-                    bound,
-                }),
-            }
-        };
+/// [`TableError`] with file, line, column, value and bound.
+pub fn read(file: &str, text: &str) -> Result<Vec<Row>, TableError> {
+    table::read(file, text, TABLE, |cells, before: Option<&Row>| {
         // A depth that falls would turn the plan back on itself, and an equal one has no curvature.
-        let (least, bound) = match rows.last() {
+        let (least, bound) = match before {
             Some(before) => (
                 before.depth.next_up(),
                 format!("above {} m, the row before", before.depth),
             ),
             None => (-1e5, "a depth in metres, counted from the kick-off".to_owned()),
         };
-        let depth = number(0, least, 1e5, bound)?;
-        let inclination = number(1, 0.0, 180.0, "0 to 180 deg".to_owned())?;
-        let azimuth = number(2, -360.0, 360.0, "-360 to 360 deg".to_owned())?;
-        rows.push(Row {
-            depth,
-            inclination: deg_to_rad(inclination),
-            azimuth: deg_to_rad(azimuth),
-        });
-        // Reading ends one row beyond the limit, which is then refused.
-        if rows.len() > MOST_ROWS {
-            break;
-        }
-    }
-    if !(2..=MOST_ROWS).contains(&rows.len()) {
-        return Err(PlanError::Rows {
-            file: file.to_owned(),
-            rows: rows.len(),
-        });
-    }
-    Ok(rows)
+        let [depth, _, azimuth] = COLUMNS;
+        Ok(Row {
+            depth: cells.number(depth, least..=1e5, bound)?,
+            inclination: deg_to_rad(cells.inclination_deg()?),
+            azimuth: deg_to_rad(cells.number(azimuth, -360.0..=360.0, "-360 to 360 deg")?),
+        })
+    })
 }
 
 /// Checks that rows begin on the hole above a bit at a depth (m), and end a metre below it.

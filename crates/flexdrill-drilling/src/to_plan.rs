@@ -166,13 +166,16 @@ pub struct Ranges<'a> {
     pub members: &'a [Result<Track, String>],
     /// Where they are at each station.
     pub spread: &'a [Spread],
+    /// What surveys correct in the track of the tool as configured under another weight: taken to be the same.
+    pub corrected: &'a dyn Fn(Track) -> Track,
 }
 
 /// The stations of a plan, turned so that it lies in the plane of the hole at a bit at this depth (m).
 fn rows(planned: &WellPlan, bit: f64) -> Result<Vec<Row>, String> {
-    // A live twin opens no file: its folder is not part of a configuration that a recording repeats.
+    // Programs that run a configuration put the stations in the place of the table. No file is opened here: its folder is not
+    // part of a configuration.
     if planned.file.is_some() {
-        return Err("well.plan.file is not read here: give the stations near the bit as well.plan.stations".to_owned());
+        return Err("well.plan.file was not read: give the stations near the bit as well.plan.stations".to_owned());
     }
     let rows: Vec<Row> = planned.stations.iter().map(Row::from).collect();
     covers("well.plan.stations", &rows, bit).map_err(|error| error.to_string())?;
@@ -191,6 +194,7 @@ pub fn compare(
         nominal,
         members,
         spread,
+        corrected,
     }: &Ranges<'_>,
     present: Option<f64>,
     stop: &AtomicBool,
@@ -230,7 +234,7 @@ pub fn compare(
                 return None;
             }
             let drilling = Drilling::of(config, kn_to_n(kilonewton), 0.0).ok()?;
-            let track = drill(&drilling, cone.last).ok()?;
+            let track = corrected(drill(&drilling, cone.last).ok()?);
             Some((cone.off(&track), curvature(&track)))
         };
         best(tried, COARSE, under, |(off, _)| *off)

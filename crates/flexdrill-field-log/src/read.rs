@@ -8,6 +8,7 @@ use crate::hookload::weigh;
 use crate::mapping::{Mapping, WeightOnBitColumn};
 use crate::report::{Issues, Report, Summary, TorqueSummary};
 use crate::spikes::{remove_spikes, report_frozen};
+use crate::surveys::without_repetitions;
 use crate::table::{Numbering, Row, read_table};
 use crate::{FieldLogError, InputSequence, MeasuredSequence, Range, RowTime, Tare, TimedInput};
 use flexdrill_core::inputs::InputKind;
@@ -120,6 +121,11 @@ pub fn read_bytes(
             .measured
             .push(time, numbering.swap(row.number), table.measured_of(row));
     }
+    let surveys = part.iter().filter_map(|row| {
+        let values = *table.surveys.get(&row.number)?;
+        Some((row.time - part[0].time, numbering.swap(row.number), values))
+    });
+    sequence.surveys = without_repetitions(surveys);
     Ok((sequence, report))
 }
 
@@ -286,6 +292,7 @@ fn sequence(rows: &[Row], mapping: &Mapping, numbering: Numbering) -> InputSeque
             .map(|row| row.own_time)
             .filter(|start| format.has_dates() && *start >= 0.0),
         measured: MeasuredSequence::default(),
+        surveys: Vec::new(),
         duration: rows.last().map_or(0.0, |row| row.time - begin),
     }
 }

@@ -1,6 +1,6 @@
 //! The timed inputs of a log.
 
-use crate::MeasuredSequence;
+use crate::{MeasuredSequence, SurveyRow};
 use flexdrill_core::inputs::InputKind;
 
 /// One sample, as the input's topic would carry it.
@@ -35,6 +35,8 @@ pub struct InputSequence {
     pub inputs: Vec<TimedInput>,
     /// What the log measures besides.
     pub measured: MeasuredSequence,
+    /// Surveys of the hole.
+    pub surveys: Vec<SurveyRow>,
     /// The time of each row.
     pub rows: Vec<RowTime>,
     /// The instant of the first row that was read (s since 1970, UTC), where the log has dates.

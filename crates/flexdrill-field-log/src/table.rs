@@ -1,6 +1,7 @@
 //! The rows of the CSV file, as numbers.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use crate::judge::{Direction, Evidence, Wrong, judge};
 use crate::layout::{LONGEST_LINE, Layout};
@@ -8,6 +9,7 @@ use crate::mapping::{Decimal, Mapping, Notation, WeightOnBitColumn};
 use crate::measured::{self, Shared, Source};
 use crate::parts::{TimeAxis, Timed, order};
 use crate::report::{IssueKind, Issues};
+use crate::surveys::{self, SurveyIndices};
 use crate::time_suggestion::{fitting, is_clock, is_date};
 use crate::{Condition, FieldLogError, TimeFormat};
 use flexdrill_core::inputs::{InputKind, MeasuredKind, Unit};
@@ -50,6 +52,7 @@ struct ColumnIndices {
     rate: Option<usize>,
     pressure: Option<usize>,
     measured: Vec<(MeasuredKind, Source)>,
+    surveys: Option<SurveyIndices>,
 }
 
 /// The rows of a log.
@@ -64,6 +67,8 @@ pub(crate) struct Table {
     pub(crate) measured_kinds: Vec<MeasuredKind>,
     /// One per row and measured quantity (SI), NaN where the row has none.
     pub(crate) measured: Vec<f64>,
+    /// Surveys by the number of their row.
+    pub(crate) surveys: BTreeMap<u64, surveys::Values>,
     /// How the numbers of the rows are those of an editor.
     pub(crate) numbering: Numbering,
     /// What was found in the log and not in the mapping, for the report.
@@ -175,7 +180,7 @@ pub(crate) fn read_table(
     let missing: Vec<f64> = mapping.missing.iter().copied().chain(layout.missing).collect();
     let mut rows = Vec::with_capacity(timed.len());
     let mut of_file = times.readable.iter();
-    let mut measured = Vec::new();
+    let (mut measured, mut surveys) = (Vec::new(), BTreeMap::new());
     for Timed { number, time } in timed {
         // Both lists are in the same order, so one pass over it suffices.
         let Some((own, line)) = of_file.find(|(row, _)| row.number == number) else {
@@ -189,6 +194,8 @@ pub(crate) fn read_table(
             notation: mapping.notation(),
             missing: &missing,
         };
+        let survey = columns.surveys.and_then(|of| of.values(|index| values.rare(index)));
+        surveys.extend(survey.map(|survey| (number, survey)));
         let row = columns.row(&values, timed, rows.len(), mapping, issues, &mut measured);
         rows.push(Row {
             // The time that the log itself gives is kept next to the ordered one, because texts quote it.
@@ -202,6 +209,7 @@ pub(crate) fn read_table(
         written: times.written,
         measured_kinds: columns.measured.iter().map(|(kind, _)| *kind).collect(),
         measured,
+        surveys,
         numbering,
         notes,
     })
@@ -524,6 +532,7 @@ impl ColumnIndices {
             drilling,
             off_bottom,
             measured: measured::sources(mapping, find)?,
+            surveys: SurveyIndices::find(mapping, find)?,
         })
     }
 
@@ -621,6 +630,13 @@ struct Values<'a> {
 }
 
 impl Values<'_> {
+    /// The number of a field that most rows do not have: any other text is none.
+    fn rare(&self, index: usize) -> Option<f64> {
+        let value = self.notation.parse(text(self.record, index)?)?;
+        let is_missing = self.missing.contains(&value) || MISSING_CODES.contains(&value);
+        (!is_missing && value.abs() <= LARGEST).then_some(value)
+    }
+
     /// The number of a field. Each problem is reported by its kind, with the column and the row.
     fn value(&self, index: usize, column: &str, issues: &mut Issues) -> Option<f64> {
         let number = self.number;

@@ -2,9 +2,9 @@
 
 use super::{
     Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, Forecast, HoleAhead,
-    JointDeflections, Message, Reactions, Residuals, RigInputs, RigMeasured, SafeWindow, SessionInfo, Transfer,
-    TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs, tf2_msgs,
-    visualization_msgs,
+    JointDeflections, Message, Reactions, Residuals, RigInputs, RigMeasured, RigSurvey, SafeWindow, SessionInfo,
+    Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
+    tf2_msgs, visualization_msgs,
 };
 
 /// Quality of service of a topic, in the terms that DDS matches on. History is always keep-last.
@@ -112,6 +112,8 @@ pub const STANDPIPE_PRESSURE: TopicInfo = TopicInfo::new(
 pub const RIG_INPUTS: TopicInfo = TopicInfo::new("rig/inputs", RigInputs::INFO, Cadence::Received, BEST_EFFORT);
 /// Received: what the rig measures besides the inputs. It drives nothing.
 pub const RIG_MEASURED: TopicInfo = TopicInfo::new("rig/measured", RigMeasured::INFO, Cadence::Received, BEST_EFFORT);
+/// Received: surveys of the hole. They correct where the tool drills next, and drive nothing. A lost one does not come again.
+pub const RIG_SURVEY: TopicInfo = TopicInfo::new("rig/survey", RigSurvey::INFO, Cadence::Received, reliable(100));
 /// Input: the rig's clock, with `use_sim_time` only.
 pub const CLOCK: TopicInfo = TopicInfo::new("/clock", rosgraph_msgs::Clock::INFO, Cadence::Received, BEST_EFFORT);
 /// Output: per joint.
@@ -204,13 +206,14 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 29] = [
+pub const ALL: [TopicInfo; 30] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
     STANDPIPE_PRESSURE,
     RIG_INPUTS,
     RIG_MEASURED,
+    RIG_SURVEY,
     CLOCK,
     JOINT_DEFLECTIONS,
     CONTACT_FORCES,

@@ -78,6 +78,9 @@ impl RigBridge {
                 self.health.published[1] += 1;
             }
         }
+        if let Some(survey) = self.collector.survey_due(now) {
+            self.node.publish(Outgoing::Survey, &survey);
+        }
     }
 
     fn on(&mut self, event: RigEvent) {

@@ -143,7 +143,7 @@ fn run_wits(args: &WitsArgs, ros_args: &[String]) -> anyhow::Result<()> {
         let node = ros.node(sends, receives, Some(service))?;
         say!(
             "wits {name} to {}, domain {}; Ctrl-C ends it",
-            node.topics()[..2].join(", "),
+            node.topics()[..3].join(", "),
             ros.network.domain_id
         );
         let node_name = ros.identity.full_name();

@@ -216,7 +216,7 @@ mod with_opcua {
         say!(
             "opcua from {} to {}, {} nodes, domain {}; Ctrl-C ends it",
             printable(url),
-            node.topics()[..2].join(", "),
+            node.topics()[..3].join(", "),
             mapping.nodes.len(),
             ros.network.domain_id
         );

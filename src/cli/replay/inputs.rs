@@ -34,6 +34,7 @@ pub(super) fn replay(
     let Samples {
         inputs: samples,
         measured,
+        surveys,
         ..
     } = samples;
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
@@ -51,7 +52,11 @@ pub(super) fn replay(
     let mut player = Player::new(
         config,
         first.time,
-        FromRig { inputs, measured },
+        FromRig {
+            inputs,
+            measured,
+            surveys,
+        },
         out,
         |topic: &TopicInfo| {
             if topic.name.starts_with('/') {

@@ -17,10 +17,12 @@ use crate::ensemble::{Ensemble, Generation, Pace, Running};
 use crate::field_log::LogRows;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::residuals::{self, Samples};
+use crate::rig_inputs::Surveys;
 use crate::session::Session;
 use flexdrill_config::{Config, Members, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
+use flexdrill_hole::Survey;
 use flexdrill_outputs::{ParameterChange, schedule};
 use flexdrill_realtime::monotonic;
 use flexdrill_uncertainty::Posterior;
@@ -78,6 +80,7 @@ impl Player {
     ) -> anyhow::Result<Self> {
         from_rig.measured.retain(|sample| sample.time >= start);
         from_rig.inputs.retain(|(time, _)| *time >= start);
+        from_rig.surveys.retain(|sample| sample.time >= start);
         let mut rows = LogRows::default();
         let inputs = from_rig.inputs.iter();
         inputs.for_each(|(time, message)| rows.push(*time, &message.source));
@@ -85,6 +88,7 @@ impl Player {
         let given = [
             (!from_rig.measured.is_empty()).then_some(&topics::RIG_MEASURED),
             (!from_rig.inputs.is_empty()).then_some(&topics::RIG_INPUTS),
+            (!from_rig.surveys.is_empty()).then_some(&topics::RIG_SURVEY),
         ];
         let topics: Vec<_> = replayed().chain(given.into_iter().flatten()).collect();
         let recorded: Vec<Topic> = topics
@@ -98,7 +102,8 @@ impl Player {
         let run = Run::new(simulation, schedule(&config, &config.outputs.rates));
         let initial_rates = config.outputs.rates;
         let config = Arc::new(config);
-        let mut sink = BagSink::new(recorder, topics, from_rig, Tally::of_log(LogPlace { rows, start }));
+        let tally = Tally::of_log(LogPlace { rows, start });
+        let mut sink = BagSink::new(recorder, topics, from_rig, Surveys::new(&config), tally);
         let mut session = Session::new(Arc::clone(&config), AlarmBook::fresh(config, start));
         session.begin(start, &mut sink)?;
         Ok(Self {
@@ -150,6 +155,12 @@ impl Player {
     /// instead of with the measured values.
     pub(super) fn compare_with(&mut self, samples: impl IntoIterator<Item = (i64, Samples)>) {
         self.sink.compare_with(samples);
+    }
+
+    /// Takes the surveys that a recorded run knew from these instants on (ns since 1970), the oldest first, instead of those that
+    /// the rig sent.
+    pub(super) fn survey_with(&mut self, surveys: impl IntoIterator<Item = (i64, Arc<[Survey]>)>) {
+        self.sink.survey_with(surveys);
     }
 
     /// The parameters that are to follow the rig from now on, as changes; none where none moves. A recorded run has them

@@ -14,15 +14,18 @@ use super::player::{Player, asks_for_members};
 use crate::bag::{self, Bag, BagError, Gap, Gaps, PartFault};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
-use crate::cli::source::{FromRig, MeasuredSample};
+use crate::cli::source::{FromRig, MeasuredSample, SurveySample};
+use crate::drilling::live::surveys_of;
 use crate::ensemble::Generation;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{
-    AppliedInputs, Bands, JointDeflections, Message, Residuals, RigInputs, RigMeasured, SessionInfo, TwinStatus,
+    AppliedInputs, Bands, HoleAhead, JointDeflections, Message, Residuals, RigInputs, RigMeasured, RigSurvey,
+    SessionInfo, TwinStatus,
 };
 use crate::residuals::Samples;
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
+use flexdrill_hole::Survey;
 use flexdrill_outputs::{ParameterChange, run_inputs};
 use flexdrill_text::printable;
 use flexdrill_uncertainty::Posterior;
@@ -44,6 +47,8 @@ pub(super) struct Script {
     from_rig: FromRig,
     /// What the rig had measured when it was compared with the twin, by stamp.
     samples: Vec<(i64, Samples)>,
+    /// The surveys that were known at an instant (ns since 1970), from there on until others were, in the order of time.
+    surveys: Vec<(i64, Arc<[Survey]>)>,
     /// Plausible tools that ran with it, by the instant at which they began (ns since 1970), in the order of time.
     ensembles: Vec<(i64, Generation)>,
     /// Names of the recorded topics by relative name.
@@ -73,6 +78,8 @@ impl Script {
             JointDeflections::ROS_TYPE,
             RigInputs::ROS_TYPE,
             RigMeasured::ROS_TYPE,
+            RigSurvey::ROS_TYPE,
+            HoleAhead::ROS_TYPE,
             Residuals::ROS_TYPE,
             Bands::ROS_TYPE,
         ];
@@ -98,6 +105,7 @@ impl Script {
         let (mut damaged, mut from_rig, mut samples) = (Vec::new(), FromRig::default(), Vec::new());
         let (mut status_step, mut newest_stamp) = (0, None);
         let mut ensembles: Vec<(i64, Generation)> = Vec::new();
+        let mut surveys: Vec<(i64, Arc<[Survey]>)> = Vec::new();
         for message in bag.by_ref() {
             let message = match message {
                 // The sequence numbers of the messages around a damaged part show the loss.
@@ -126,6 +134,21 @@ impl Script {
                     time: message.log_time,
                     message: message.decode()?,
                 }),
+                RigSurvey::ROS_TYPE => from_rig.surveys.push(SurveySample {
+                    time: message.log_time,
+                    message: message.decode()?,
+                }),
+                HoleAhead::ROS_TYPE => {
+                    // Twins that knew no surveys did not list them.
+                    let Ok(hole) = message.decode::<HoleAhead>() else {
+                        continue;
+                    };
+                    let known = surveys_of(&hole);
+                    let before = surveys.last().map_or(&[] as &[Survey], |(_, known)| known);
+                    if *before != *known {
+                        surveys.push((hole.header.stamp.to_nanoseconds(), known.into()));
+                    }
+                }
                 TwinStatus::ROS_TYPE => {
                     status_step = message.decode::<TwinStatus>()?.step_count;
                 }
@@ -170,6 +193,7 @@ impl Script {
             applied,
             from_rig,
             samples,
+            surveys,
             ensembles,
             names,
             last_step,
@@ -255,6 +279,11 @@ impl Script {
                 exactness.departures.push(format!(
                     "the recording has a gap in what the rig measured ({gap}): the comparison with the twin differs from there on"
                 ));
+            } else if gap.topic.ros_type == HoleAhead::ROS_TYPE && !self.surveys.is_empty() {
+                exactness.departures.push(format!(
+                    "the recording has a gap in the hole ahead ({gap}), which says when a survey was used: the hole ahead may differ \
+                     there"
+                ));
             } else {
                 exactness.notes.push(format!("the recording has a gap ({gap})"));
             }
@@ -313,6 +342,7 @@ impl Script {
         let mut player = Player::new(config, base.start, self.from_rig.clone(), out, |topic| self.name(topic))?;
         player.end_by_signal()?;
         player.compare_with(self.samples.iter().copied());
+        player.survey_with(self.surveys.iter().cloned());
         let ensembles = self.ensembles.iter().map(|(begun, generation)| Generation {
             begun: ((begun - base.start) as f64 * 1e-9 / time_step).round().max(0.0) as u64,
             ..generation.clone()

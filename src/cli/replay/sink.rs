@@ -1,16 +1,18 @@
 //! The bag of a replay, as the host of its session.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use super::summary::Tally;
 use crate::bag::{BagError, Recorder};
 use crate::cli::output::tell;
-use crate::cli::source::{FromRig, MeasuredSample};
+use crate::cli::source::{FromRig, MeasuredSample, SurveySample};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, RigInputs, to_cdr};
 use crate::residuals::{Comparison, RigComparison, Samples};
-use crate::rig_inputs::Measured;
+use crate::rig_inputs::{Measured, Surveys};
 use crate::session::Host;
+use flexdrill_hole::Survey;
 use flexdrill_outputs::Encoded;
 use flexdrill_text::fixed;
 
@@ -34,13 +36,24 @@ enum Rig {
     Recorded(VecDeque<(i64, Samples)>),
 }
 
+/// The surveys of the hole.
+enum Hole {
+    /// As a node keeps them.
+    Received(Box<Surveys>),
+    /// Those that a recorded run knew, and the later ones by the instants from which on it knew them (ns since 1970).
+    Recorded(Arc<[Survey]>, VecDeque<(i64, Arc<[Survey]>)>),
+}
+
 /// A bag that records a session, what the rig gave, and what of it follows the rig.
 pub(super) struct BagSink {
     recorder: Recorder,
     topics: Vec<&'static TopicInfo>,
     rig: Rig,
+    hole: Hole,
     /// What the rig measured, not yet in the bag, the newest first.
     measured: Vec<MeasuredSample>,
+    /// Its surveys, not yet in the bag, the newest first.
+    surveys: Vec<SurveySample>,
     /// The inputs as the rig or the log gave them, not yet in the bag, the newest first.
     received: Vec<(i64, RigInputs)>,
     /// Values of what follows the rig, in force and to be, since they were taken last.
@@ -51,19 +64,30 @@ pub(super) struct BagSink {
 
 impl BagSink {
     /// A bag with these topics, in this order, for a run with what came `from_rig` since its start, in the order of time.
-    pub(super) fn new(recorder: Recorder, topics: Vec<&'static TopicInfo>, from_rig: FromRig, tally: Tally) -> Self {
+    /// Its surveys are judged by those of `hole`.
+    pub(super) fn new(
+        recorder: Recorder,
+        topics: Vec<&'static TopicInfo>,
+        from_rig: FromRig,
+        hole: Surveys,
+        tally: Tally,
+    ) -> Self {
         let FromRig {
             inputs: mut received,
             mut measured,
+            mut surveys,
         } = from_rig;
-        // Both lists are reversed, so that the next message is taken from the end without moving the others.
+        // The lists are reversed, so that the next message is taken from the end without moving the others.
         measured.reverse();
         received.reverse();
+        surveys.reverse();
         Self {
             recorder,
             topics,
             rig: Rig::Received(Box::default()),
+            hole: Hole::Received(Box::new(hole)),
             measured,
+            surveys,
             received,
             moved: None,
             tally,
@@ -74,6 +98,12 @@ impl BagSink {
     /// instead of with the measured values.
     pub(super) fn compare_with(&mut self, samples: impl IntoIterator<Item = (i64, Samples)>) {
         self.rig = Rig::Recorded(samples.into_iter().collect());
+    }
+
+    /// Takes the surveys that a recorded run knew from these instants on (ns since 1970), the oldest first, instead of those that
+    /// the rig sent.
+    pub(super) fn survey_with(&mut self, surveys: impl IntoIterator<Item = (i64, Arc<[Survey]>)>) {
+        self.hole = Hole::Recorded(Arc::default(), surveys.into_iter().collect());
     }
 
     /// Records what the rig sent up to an instant (ns since 1970), and keeps what it measured for the comparison. `start` is
@@ -105,6 +135,33 @@ impl BagSink {
                 cdr: &to_cdr(&sample.message)?,
             })?;
         }
+        self.record_surveys(until, start, max_skew)
+    }
+
+    /// Records the surveys that the rig sent up to an instant (ns since 1970), and keeps them for the hole ahead. `start` and
+    /// `max_skew` as above.
+    ///
+    /// # Errors
+    /// When the bag cannot be written.
+    fn record_surveys(&mut self, until: i64, start: i64, max_skew: f64) -> Result<(), WriteError> {
+        while let Some(sample) = self.surveys.pop_if(|sample| sample.time <= until) {
+            if let Hole::Received(known) = &mut self.hole {
+                let accepted = known.accept(&sample.message, sample.time, max_skew);
+                let [_, refused, ..] = known.counts();
+                match accepted {
+                    Err(why) if refused <= REFUSALS_SHOWN => {
+                        let since_start = sample.time.saturating_sub(start) as f64 * 1e-9;
+                        tell!("at {} s: {why}", fixed(since_start, 2));
+                    }
+                    _ => {}
+                }
+            }
+            self.send(Encoded {
+                topic: &topics::RIG_SURVEY,
+                stamp: sample.time,
+                cdr: &to_cdr(&sample.message)?,
+            })?;
+        }
         Ok(())
     }
 
@@ -114,6 +171,12 @@ impl BagSink {
             let [_, refused, ..] = measured.counts();
             if refused > REFUSALS_SHOWN {
                 tell!("{refused} messages of measured values were refused in total");
+            }
+        }
+        if let Hole::Received(known) = &self.hole {
+            let [_, refused, ..] = known.counts();
+            if refused > REFUSALS_SHOWN {
+                tell!("{refused} surveys were refused in total");
             }
         }
         (self.recorder, self.tally)
@@ -138,6 +201,18 @@ impl Host for BagSink {
                     samples.pop_front();
                 }
                 samples.pop_front_if(|(at, _)| *at == stamp).map(|(_, samples)| samples)
+            }
+        }
+    }
+
+    fn surveys(&mut self, stamp: i64) -> Arc<[Survey]> {
+        match &mut self.hole {
+            Hole::Received(known) => known.known(),
+            Hole::Recorded(known, later) => {
+                while let Some((_, next)) = later.pop_front_if(|(from, _)| *from <= stamp) {
+                    *known = next;
+                }
+                Arc::clone(known)
             }
         }
     }

@@ -10,10 +10,11 @@ use tokio::task::JoinSet;
 
 use super::Batch;
 use crate::cli::output::say;
-use flexdrill_bridge::Quantity;
 use flexdrill_bridge::lines::{self, LineState, Place, Seats, Times};
 use flexdrill_bridge::wits::{Mapping, RigFrames};
+use flexdrill_bridge::{Quantity, SurveyKind};
 use flexdrill_core::inputs::InputKind;
+use flexdrill_messages::RigSurvey;
 use flexdrill_outputs::MeasuredValues as _;
 use flexdrill_text::printable;
 
@@ -86,10 +87,13 @@ impl WitsLine {
         let input = |kind: InputKind| batch.inputs[kind.index()].map(|value| kind.to_si(value));
         let measured = |kind| batch.measured.values().find_map(|message| message.value(kind));
         let values = |quantity: Quantity| match quantity {
+            Quantity::Survey(kind) => batch.surveys.last().and_then(|survey| surveyed(survey, kind)),
             Quantity::Measured(kind) => measured(kind).or_else(|| input(quantity.input()?)),
             _ => input(quantity.input()?),
         };
-        let samples = batch.inputs.iter().flatten().count() + batch.measured.len();
+        // A frame has one record of surveys: the newest.
+        let surveys = batch.surveys.len().min(1);
+        let samples = batch.inputs.iter().flatten().count() + batch.measured.len() + surveys;
         let Some(frame) = self.frames.frame(now, values) else {
             return 0;
         };
@@ -125,4 +129,14 @@ async fn tell(mut events: mpsc::Receiver<LineState>, connections: Arc<AtomicU64>
             LineState::Asked { .. } | LineState::Bytes { .. } => {}
         }
     }
+}
+
+/// A value of a survey (SI), if it has it.
+fn surveyed(survey: &RigSurvey, kind: SurveyKind) -> Option<f64> {
+    let value = match kind {
+        SurveyKind::Depth => survey.measured_depth,
+        SurveyKind::Inclination => survey.inclination,
+        SurveyKind::Azimuth => survey.azimuth,
+    };
+    (!value.is_nan()).then_some(value)
 }

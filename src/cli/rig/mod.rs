@@ -18,8 +18,8 @@ use super::source::{self, MeasuredSample, Sample, Samples};
 use super::{WrongUse, numbers, signals};
 use crate::cli::output::say;
 use crate::dds::network::Network;
-use crate::messages::RigMeasured;
 use crate::messages::builtin_interfaces::Time;
+use crate::messages::{RigMeasured, RigSurvey};
 use crate::node::demonstration_rig::{RIG_NODE_NAME, RigNode};
 use crate::ros::args::RosArgs;
 use crate::ros::logging;
@@ -123,8 +123,10 @@ fn topics(args: &RigArgs, ros_args: &RosArgs, samples: &Samples) -> anyhow::Resu
     let sent = |kind: &InputKind| samples.inputs.iter().any(|sample| sample.kind == *kind);
     let kinds = InputKind::ALL.into_iter().filter(sent).map(InputKind::index);
     let measured = (!samples.measured.is_empty()).then_some(InputKind::COUNT);
+    let surveys = (!samples.surveys.is_empty()).then_some(InputKind::COUNT + 1);
     let names: Vec<&str> = kinds
         .chain(measured)
+        .chain(surveys)
         .map(|index| node.topics()[index].as_str())
         .collect();
     let place = format!("{}, domain {}", names.join(", "), network.domain_id);
@@ -145,6 +147,8 @@ struct Batch<'a> {
     inputs: [Option<f64>; InputKind::COUNT],
     /// The newest of each source.
     measured: BTreeMap<&'a str, &'a RigMeasured>,
+    /// None may be left out: a survey does not come again.
+    surveys: Vec<&'a RigSurvey>,
     /// Values for which a newer one was due at the same time.
     left_out: u64,
 }
@@ -177,6 +181,11 @@ impl Destination {
                     let mut message = (*message).clone();
                     message.header.stamp = Time::from_nanoseconds(now);
                     sent += u64::from(node.publish_measured(&message));
+                }
+                for message in &batch.surveys {
+                    let mut message = (*message).clone();
+                    message.header.stamp = Time::from_nanoseconds(now);
+                    sent += u64::from(node.publish_survey(&message));
                 }
                 sent
             }
@@ -214,12 +223,14 @@ async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
     let mut reported = began;
     let mut newest: [Option<f64>; InputKind::COUNT] = [None; InputKind::COUNT];
     let (mut inputs, mut measured) = (samples.inputs.iter().peekable(), samples.measured.iter().peekable());
+    let mut surveys = samples.surveys.iter().peekable();
     let (mut sent, mut left_out) = (0_u64, 0_u64);
     // Deadlines are absolute from `began`: a late send does not shift all later ones.
     loop {
         let next = [
             inputs.peek().map(|sample| sample.time),
             measured.peek().map(|sample| sample.time),
+            surveys.peek().map(|sample| sample.time),
         ];
         let Some(next) = next.into_iter().flatten().min() else {
             break;
@@ -235,6 +246,9 @@ async fn play_once(to: &mut Destination, samples: &Samples, rate: f64) {
         }
         while let Some(sample) = measured.next_if(|sample| after(sample.time) <= now) {
             batch.measured(sample);
+        }
+        while let Some(sample) = surveys.next_if(|sample| after(sample.time) <= now) {
+            batch.surveys.push(&sample.message);
         }
         sent += to.send(&batch);
         left_out += batch.left_out;

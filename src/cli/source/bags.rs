@@ -4,11 +4,11 @@ use std::path::Path;
 
 use anyhow::{anyhow, ensure};
 
-use super::{MeasuredSample, Sample, Samples};
+use super::{MeasuredSample, Sample, Samples, SurveySample};
 use crate::bag::{self, BagError};
 use crate::cli::output::tell;
 use crate::messages::std_msgs::Float64;
-use crate::messages::{Message, RigInputs, RigMeasured, topics};
+use crate::messages::{Message, RigInputs, RigMeasured, RigSurvey, topics};
 use crate::rig_inputs::stamped;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_text::printable;
@@ -16,6 +16,7 @@ use flexdrill_text::printable;
 /// Where the topics follow on those of the plain inputs.
 const STAMPED: usize = InputKind::COUNT;
 const MEASURED: usize = InputKind::COUNT + 1;
+const SURVEYS: usize = InputKind::COUNT + 2;
 
 /// The inputs of a message with a stamp that arrived at `time`; the configuration sets the allowed skew.
 pub(super) fn of_message(message: &RigInputs, time: i64) -> impl Iterator<Item = Sample> {
@@ -61,6 +62,7 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
     };
     let stamped = named(topics::RIG_INPUTS.name, RigInputs::ROS_TYPE);
     let measured = named(topics::RIG_MEASURED.name, RigMeasured::ROS_TYPE);
+    let surveys = named(topics::RIG_SURVEY.name, RigSurvey::ROS_TYPE);
     let plain = InputKind::ALL.map(|kind| named(kind.topic(), Float64::ROS_TYPE));
     for error in unfit {
         // An input that cannot be read is not one that the rig did not send: the model would assume a value for it.
@@ -82,13 +84,14 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
         )));
     }
     let [speed, weight, advance, pressure] = plain;
-    let names: [Option<String>; InputKind::COUNT + 2] = [speed, weight, advance, pressure, stamped, measured];
+    let names: [Option<String>; InputKind::COUNT + 3] = [speed, weight, advance, pressure, stamped, measured, surveys];
     // A topic counts by name and type: another program may use the name for another type.
     let role = |name: &str, ros_type: &str| {
         names.iter().enumerate().position(|(index, known)| {
             let wanted = match index {
                 STAMPED => RigInputs::ROS_TYPE,
                 MEASURED => RigMeasured::ROS_TYPE,
+                SURVEYS => RigSurvey::ROS_TYPE,
                 _ => Float64::ROS_TYPE,
             };
             known.as_deref() == Some(name) && wanted == ros_type
@@ -101,6 +104,10 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Samples> {
         let time = message.log_time;
         match role(&message.topic.name, &message.topic.ros_type) {
             Some(MEASURED) => samples.measured.push(MeasuredSample {
+                time,
+                message: message.decode()?,
+            }),
+            Some(SURVEYS) => samples.surveys.push(SurveySample {
                 time,
                 message: message.decode()?,
             }),

@@ -20,7 +20,7 @@ use crate::cli::output::{tell, tell_text};
 use crate::field_log::{self, InputSequence, Mapping, Position};
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
-use crate::messages::{RigInputs, RigMeasured};
+use crate::messages::{RigInputs, RigMeasured, RigSurvey};
 use flexdrill_core::inputs::{InputKind, Stamp};
 use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
 
@@ -55,11 +55,20 @@ pub(super) struct MeasuredSample {
     pub(super) message: RigMeasured,
 }
 
+/// A survey of the hole.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SurveySample {
+    /// ns since 1970; of a field log without dates, since its first row.
+    pub(super) time: i64,
+    pub(super) message: RigSurvey,
+}
+
 /// What a source has, each part in the order of time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Samples {
     pub(super) inputs: Vec<Sample>,
     pub(super) measured: Vec<MeasuredSample>,
+    pub(super) surveys: Vec<SurveySample>,
     /// The rows of a field log by their times, as sources of messages: see [`crate::field_log::row_source`].
     pub(super) rows: Vec<(i64, String)>,
 }
@@ -70,6 +79,7 @@ pub(super) struct FromRig {
     /// The inputs (time in ns since 1970).
     pub(super) inputs: Vec<(i64, RigInputs)>,
     pub(super) measured: Vec<MeasuredSample>,
+    pub(super) surveys: Vec<SurveySample>,
 }
 
 impl Samples {
@@ -98,6 +108,7 @@ impl Samples {
     fn sorted(mut self) -> Self {
         self.inputs.sort_by_key(|sample| sample.time);
         self.measured.sort_by_key(|sample| sample.time);
+        self.surveys.sort_by_key(|sample| sample.time);
         self
     }
 }
@@ -199,6 +210,9 @@ impl SourceArgs {
         samples
             .measured
             .retain(|sample| (from..=to).contains(&seconds(sample.time)));
+        samples
+            .surveys
+            .retain(|sample| (from..=to).contains(&seconds(sample.time)));
         if samples.inputs.is_empty() {
             bail!(
                 "{}: no sample between --from {from} s and --to {to} s; it is {all:.1} s long",
@@ -270,9 +284,26 @@ impl SourceArgs {
                 message,
             }
         });
+        let surveys = sequence.surveys.iter().map(|row| SurveySample {
+            time: nanoseconds(row.time),
+            message: RigSurvey {
+                header: Header {
+                    stamp: Time::from_nanoseconds(nanoseconds(row.time)),
+                    ..Header::default()
+                },
+                measured_depth: row.measured_depth,
+                inclination: row.inclination,
+                azimuth: row.azimuth,
+                inclination_deviation: f64::NAN,
+                azimuth_deviation: f64::NAN,
+                quality: RigSurvey::GOOD,
+                source: "field log".to_owned(),
+            },
+        });
         let samples = Samples {
             inputs: inputs.collect(),
             measured: measured.collect(),
+            surveys: surveys.collect(),
             rows: rows.collect(),
         };
         Ok(samples.sorted())

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::bags::of_message;
-use super::{MeasuredSample, Samples};
+use super::{MeasuredSample, Samples, SurveySample};
 use crate::cli::output::tell;
 use crate::messages::builtin_interfaces::Time;
 use flexdrill_bridge::wits::capture::{CaptureError, CaptureReader};
@@ -103,14 +103,19 @@ impl Taken {
         if self.timed {
             self.sources.sort(connection, arrived, &mut reading);
         }
-        if reading.inputs.is_none() && reading.measured.is_none() {
+        if reading.inputs.is_none() && reading.measured.is_none() && reading.survey.is_none() {
             return;
         }
         let Some(time) = self.time(&reading, arrived) else {
             self.without_time += 1;
             return;
         };
-        let Reading { inputs, measured, .. } = *reading;
+        let Reading {
+            inputs,
+            measured,
+            survey,
+            ..
+        } = *reading;
         let stamp = |given: Time| {
             if self.timed {
                 given
@@ -125,6 +130,10 @@ impl Taken {
         if let Some(mut message) = measured {
             message.header.stamp = stamp(message.header.stamp);
             self.samples.measured.push(MeasuredSample { time, message });
+        }
+        if let Some(mut message) = survey {
+            message.header.stamp = stamp(message.header.stamp);
+            self.samples.surveys.push(SurveySample { time, message });
         }
     }
 

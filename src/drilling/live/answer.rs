@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use flexdrill_config::{BitAxis, Config, FreeBend, Section};
 use flexdrill_core::units::{deg_to_rad, n_to_kn, rad_to_deg};
-use flexdrill_hole::{at_rest, bounds, steady};
+use flexdrill_hole::{Survey, at_rest, bounds, steady};
 
+use super::surveyed::{Surveyed, learn};
 use crate::drilling::to_plan::{Ranges, ToPlan, compare};
 use crate::drilling::unknowns;
 use crate::drilling::{
@@ -16,6 +17,9 @@ use crate::drilling::{
 pub const METRES: f64 = 5.0;
 /// Plausible tools: a range needs 19, and some may have no result.
 pub const MEMBERS: usize = 24;
+
+/// Holes that are drawn from what surveys say: the ends of a band scatter by 7 % of its half.
+const HOLES: usize = 300;
 
 /// A number with 5 and 95 % of the plausible tools.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +53,8 @@ pub struct Ahead {
     pub members: [u32; 2],
     /// The plan of the configuration against it, or why it is not compared; none without a plan.
     pub plan: Option<Result<ToPlan, String>>,
+    /// What surveys say, or why none is used; none without surveys.
+    pub surveyed: Option<Result<Surveyed, String>>,
 }
 
 /// Why nothing can be said for a configuration, whatever the load; none where something can.
@@ -95,12 +101,31 @@ fn ranged(nominal: &[Station], members: &[Result<Track, String>], of: impl Fn(&[
     })
 }
 
-/// Computes the next metres at a weight at the bit (N), with the draws of a seed. With `searches`, a hole that leaves its plan
-/// has the weight that brings it back. The same arguments give the same bits.
+/// What is asked of the next metres.
+#[derive(Debug, Clone, Copy)]
+pub struct Question<'a> {
+    /// Weight at the bit (N).
+    pub weight: f64,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// Whether a hole that leaves its plan has the weight that brings it back.
+    pub searches: bool,
+    /// Surveys of the hole above the bit.
+    pub surveys: &'a [Survey],
+}
+
+/// Computes the next metres, with what surveys correct. The same arguments give the same bits.
 ///
 /// # Errors
-/// Why there is no answer, in words; also where `stop` was set.
-pub fn compute(config: &Config, weight: f64, seed: u64, searches: bool, stop: &AtomicBool) -> Result<Ahead, String> {
+/// Why there is no answer, in words; also where `stop` was set. Surveys that cannot be used leave the answer as it is without
+/// them.
+pub fn compute(config: &Config, question: Question<'_>, stop: &AtomicBool) -> Result<Ahead, String> {
+    let Question {
+        weight,
+        seed,
+        searches,
+        surveys,
+    } = question;
     let in_words = |error: &dyn std::fmt::Display| format!("the next metres cannot be computed: {error}");
     let drilling = Drilling::of(config, weight, 0.0).map_err(|error| in_words(&error))?;
     let rest = at_rest(&drilling.guide, weight, &drilling.hole).map_err(|error| in_words(&error))?;
@@ -110,8 +135,15 @@ pub fn compute(config: &Config, weight: f64, seed: u64, searches: bool, stop: &A
     let long = steady(&drilling.guide, &drilling.law, sine).map_err(|error| in_words(&error))?;
     let any_bit = bounds(&drilling.guide, weight, sine).map_err(|error| in_words(&error))?;
     let stations = (METRES / SPACING) as usize;
-    let track = drill(&drilling, stations).map_err(|error| in_words(&error))?;
-    let tools = unknowns::members(config, weight, 0.0, MEMBERS, seed).map_err(|error| in_words(&error))?;
+    let mut track = drill(&drilling, stations).map_err(|error| in_words(&error))?;
+    let surveyed = learn(config, &drilling, surveys);
+    let learnt = surveyed.as_ref().and_then(|surveyed| surveyed.as_ref().ok());
+    // Where the curvature was measured, plausible tools say nothing more of it.
+    let tools = if learnt.is_some_and(|(learnt, _)| learnt.corrects_curvature()) {
+        Vec::new()
+    } else {
+        unknowns::members(config, weight, 0.0, MEMBERS, seed).map_err(|error| in_words(&error))?
+    };
     let mut members = Vec::with_capacity(MEMBERS);
     for tool in tools {
         // A node that ends does not wait for tools that are of no use any more.
@@ -120,6 +152,17 @@ pub fn compute(config: &Config, weight: f64, seed: u64, searches: bool, stop: &A
         }
         members.push(tool.and_then(|tool| drill(&tool, stations).map_err(|error| error.to_string())));
     }
+    if let Some((learnt, _)) = learnt {
+        members = learnt
+            .plausible(&track, &members, HOLES, seed)
+            .map_err(|error| in_words(&error))?;
+        track = learnt.corrected(&track);
+    }
+    // Under another weight the tool is taken to differ by as much from the one as configured.
+    let corrected = |track: Track| match learnt {
+        Some((learnt, _)) => learnt.corrected(&track),
+        None => track,
+    };
     // The ranges are of the next metre, as a driller asks for it.
     let rates = [
         ranged(&track, &members, |track| build(track, NEXT_METRE)),
@@ -132,8 +175,10 @@ pub fn compute(config: &Config, weight: f64, seed: u64, searches: bool, stop: &A
         nominal: &track,
         members: &members,
         spread: &spread,
+        corrected: &corrected,
     };
     let plan = compare(config, &drilling, &ranged_hole, searches.then_some(weight), stop);
+    let surveyed = surveyed.map(|surveyed| surveyed.map(|(learnt, plane)| Surveyed::of(&learnt, plane, &track)));
     let rates = match rates {
         [Some(build), Some(walk), Some(curvature)] => Some([build, walk, curvature]),
         _ => None,
@@ -146,8 +191,9 @@ pub fn compute(config: &Config, weight: f64, seed: u64, searches: bool, stop: &A
         spread,
         track,
         plan,
+        surveyed,
         rates,
-        members: [known, MEMBERS - known].map(|count| u32::try_from(count).unwrap_or(u32::MAX)),
+        members: [known, members.len() - known].map(|count| u32::try_from(count).unwrap_or(u32::MAX)),
     })
 }
 

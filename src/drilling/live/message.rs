@@ -2,9 +2,11 @@
 
 use super::Draft;
 use super::answer::{Ahead, Ranged};
+use super::surveyed::Surveyed;
 use crate::drilling::SPACING;
 use crate::drilling::to_plan::{At, ToPlan};
 use flexdrill_core::units::kn_to_n;
+use flexdrill_hole::Survey;
 use flexdrill_messages::HoleAhead;
 
 /// What stands where nothing is known.
@@ -23,6 +25,17 @@ fn radius(curvature: f64) -> f64 {
     }
 }
 
+/// What stands where no survey is used.
+const NOT_SURVEYED: Surveyed = Surveyed {
+    used: [0; 2],
+    last: f64::NAN,
+    drilled_from: f64::NAN,
+    plane: None,
+    inclination: [f64::NAN; 2],
+    azimuth: [f64::NAN; 2],
+    build: [f64::NAN; 2],
+};
+
 /// The message without header and instant of the answer.
 pub fn message(draft: &Draft, ahead: Result<&Ahead, &str>) -> HoleAhead {
     let mut out = means(draft);
@@ -31,6 +44,14 @@ pub fn message(draft: &Draft, ahead: Result<&Ahead, &str>) -> HoleAhead {
         Ok(ahead) => {
             out.side_force_low_at_rest = ahead.side_force_low;
             [out.members, out.failed] = ahead.members;
+            match &ahead.surveyed {
+                Some(Ok(surveyed)) => {
+                    out.surveys_because = surveyed.far_off(draft.inclination).unwrap_or_default();
+                    surveys(surveyed, &mut out);
+                }
+                Some(Err(why)) => out.surveys_because.clone_from(why),
+                None => {}
+            }
             let side_force = [out.side_force_low, out.side_force_low_error];
             ahead.doubt(out.weight_on_bit, side_force)
         }
@@ -45,11 +66,12 @@ pub fn message(draft: &Draft, ahead: Result<&Ahead, &str>) -> HoleAhead {
 /// What is known without an answer. All that says where the tool drills is NaN or empty.
 fn means(draft: &Draft) -> HoleAhead {
     let Draft {
-        means,
+        ref means,
         weight_that_cuts,
         turn: [turn_right, turn_low],
         measured_depth,
         inclination,
+        surveys: ref known,
         ..
     } = *draft;
     // A 0 where nothing is known would be read as a number.
@@ -67,7 +89,6 @@ fn means(draft: &Draft) -> HoleAhead {
         free_length: unknown,
         radius_any_bit_low: unknown,
         radius_any_bit_high: unknown,
-        since_survey: unknown,
         plan_target: unknown,
         plan_build_rate: unknown,
         plan_off: unknown,
@@ -87,10 +108,52 @@ fn means(draft: &Draft) -> HoleAhead {
         tilt_right: means.tilt[0],
         weight_on_bit: means.weight,
         torque: means.torque,
+        survey_depths: known.iter().map(|survey| survey.depth).collect(),
+        survey_inclinations: known.iter().map(|survey| survey.inclination).collect(),
+        survey_inclination_deviations: known.iter().map(|survey| survey.inclination_deviation).collect(),
+        survey_azimuths: known.iter().map(|survey| azimuth(survey)[0]).collect(),
+        survey_azimuth_deviations: known.iter().map(|survey| azimuth(survey)[1]).collect(),
         ..HoleAhead::default()
     };
     rates(&mut out, [RATES; 3]);
+    surveys(&NOT_SURVEYED, &mut out);
     out
+}
+
+/// Azimuth and standard deviation of a survey (rad); NaN without one.
+fn azimuth(survey: &Survey) -> [f64; 2] {
+    survey.azimuth.unwrap_or([f64::NAN; 2])
+}
+
+/// The surveys that a message has.
+pub fn surveys_of(message: &HoleAhead) -> Vec<Survey> {
+    let of = |index: usize| {
+        // Lists of a message that is no message of this program may differ in length.
+        let at = |list: &[f64]| list.get(index).copied();
+        let azimuth = at(&message.survey_azimuths)?;
+        Some(Survey {
+            depth: at(&message.survey_depths)?,
+            inclination: at(&message.survey_inclinations)?,
+            inclination_deviation: at(&message.survey_inclination_deviations)?,
+            azimuth: if azimuth.is_nan() {
+                None
+            } else {
+                Some([azimuth, at(&message.survey_azimuth_deviations)?])
+            },
+        })
+    };
+    (0..message.survey_depths.len()).filter_map(of).collect()
+}
+
+/// What surveys say.
+fn surveys(surveyed: &Surveyed, out: &mut HoleAhead) {
+    [out.surveys_used, out.surveys_learnt] = surveyed.used;
+    out.since_survey = out.measured_depth - surveyed.last;
+    [out.surveyed_inclination, out.surveyed_inclination_deviation] = surveyed.inclination;
+    [out.surveyed_azimuth, out.surveyed_azimuth_deviation] = surveyed.azimuth;
+    [out.surveyed_build, out.surveyed_build_deviation] = surveyed.build;
+    out.plane_azimuth = surveyed.plane.unwrap_or(f64::NAN);
+    out.drilled_from = surveyed.drilled_from;
 }
 
 /// Build rate, walk rate and curvature.

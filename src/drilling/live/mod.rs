@@ -2,8 +2,8 @@
 //!
 //! Once per second of model time a message has the means of what the bit does across the hole (`means`). Where they can say
 //! where the tool drills (`answer`), the next metres are computed on another thread (`worker`) for the weight of an instant,
-//! and used [`DELAY`] of model time later, until the weight has moved. Which answer a message has is a function of the
-//! frames alone: where it is not there in time, the message and those behind it wait. A replay gives the same messages.
+//! and used [`DELAY`] of model time later, until the weight has moved or a survey has come. Which answer a message has is a function of the
+//! frames and surveys alone: where it is not there in time, the message and those behind it wait. A replay gives the same messages.
 //! All of it reads the twin and acts on nothing.
 
 mod answer;
@@ -11,6 +11,9 @@ mod means;
 mod message;
 #[cfg(test)]
 mod plan_tests;
+#[cfg(test)]
+mod survey_tests;
+mod surveyed;
 #[cfg(test)]
 mod tests;
 mod worker;
@@ -21,6 +24,7 @@ use std::sync::Arc;
 use flexdrill_config::Config;
 use flexdrill_core::twin::Frame;
 use flexdrill_core::units::n_to_kn;
+use flexdrill_hole::Survey;
 use flexdrill_messages::HoleAhead;
 
 use self::answer::standing;
@@ -28,8 +32,9 @@ use self::means::Window;
 use self::worker::{Asked, Found, Worker};
 use crate::drilling::tool;
 
-pub use answer::{Ahead, compute, refusal, side_force_doubt};
+pub use answer::{Ahead, Question, compute, refusal, side_force_doubt};
 pub use means::Means;
+pub use message::surveys_of;
 
 /// Model time after which an answer is used (s): several times what it takes.
 pub const DELAY: f64 = 5.0;
@@ -61,15 +66,18 @@ struct Draft {
     turn: [f64; 2],
     measured_depth: f64,
     inclination: f64,
+    /// Surveys that are known.
+    surveys: Arc<[Survey]>,
     /// Ticks of the means whose answer it has, or why it has none.
     answer: Result<u64, String>,
 }
 
-/// A weight for which an answer was asked.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A weight for which an answer was asked, with the surveys that were known.
+#[derive(Debug, Clone, PartialEq)]
 struct Request {
     ticks: u64,
     weight: f64,
+    surveys: Arc<[Survey]>,
 }
 
 /// A message that is ready.
@@ -92,6 +100,8 @@ pub struct LiveHole {
     /// Ticks of [`DELAY`].
     delay: u64,
     window: Window,
+    /// Surveys that are known.
+    surveys: Arc<[Survey]>,
     /// Tenths since the last message.
     tenths: u32,
     /// Answers that messages may have, the newest last, and the one that follows.
@@ -115,6 +125,7 @@ impl LiveHole {
             delay: (DELAY / config.solver.time_step).round() as u64,
             config: Arc::clone(config),
             window: Window::default(),
+            surveys: Arc::default(),
             tenths: 0,
             current: VecDeque::new(),
             next: None,
@@ -139,14 +150,15 @@ impl LiveHole {
         self.config = Arc::clone(config);
     }
 
-    /// The motion begins again.
+    /// The motion begins again, in the same hole: its surveys remain.
     pub fn reset(&mut self) {
         self.window.clear();
         self.tenths = 0;
     }
 
-    /// Takes a frame at which the alarms are judged, ten times per second: every second one becomes a message.
-    pub fn observe(&mut self, frame: &Frame) {
+    /// Takes a frame at which the alarms are judged, ten times per second: once a second it becomes a message, for which
+    /// `surveys` gives those that are known.
+    pub fn observe(&mut self, frame: &Frame, surveys: impl FnOnce() -> Arc<[Survey]>) {
         let snapshot = &frame.snapshot;
         self.window.push(snapshot.steering);
         if snapshot.steering.duration <= 0.0 {
@@ -158,6 +170,7 @@ impl LiveHole {
         }
         self.tenths = 0;
         let Some(means) = self.window.means() else { return };
+        self.surveys = surveys();
         let answer = self.answer_for(&means, frame.ticks);
         let law = tool::bit(&self.config, means.weight).ok();
         let turn = law.map(|law| law.turn(means.tilt.into(), means.side_force.into()));
@@ -169,11 +182,12 @@ impl LiveHole {
             turn: turn.map_or([f64::NAN; 2], Into::into),
             measured_depth: last(&snapshot.contacts.measured_depth),
             inclination: last(&snapshot.contacts.inclination),
+            surveys: Arc::clone(&self.surveys),
             answer,
         });
     }
 
-    /// The answer that means at these ticks have. Asks for another one where the weight has moved.
+    /// The answer that means at these ticks have. Asks for another one where the weight has moved or the surveys are others.
     fn answer_for(&mut self, means: &Means, ticks: u64) -> Result<u64, String> {
         if let Some(next) = self.next.take_if(|next| next.ticks + self.delay <= ticks) {
             self.current.push_back(next);
@@ -191,24 +205,37 @@ impl LiveHole {
         // One answer at a time is computed: a weight that changes all the time asks once per delay.
         let weight = means.weight;
         let off = |request: &Request| (weight - request.weight).abs() / request.weight;
-        let nearest = self.current.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
-        if self.next.is_none() && nearest.is_none_or(|request| off(&request) > MOVED) {
-            self.next = Some(Request { ticks, weight });
-            self.ask(ticks, weight);
-        }
+        // An answer for this weight counts before one with the newest surveys, which follows.
+        let surveys = &self.surveys;
+        let fresh = |request: &Request| request.surveys == *surveys;
+        let rank = |request: &&Request| (off(request) > OTHER, !fresh(request));
+        let best = self
+            .current
+            .iter()
+            .min_by(|a, b| rank(a).cmp(&rank(b)).then(off(a).total_cmp(&off(b))));
+        let asks = self.next.is_none() && best.is_none_or(|request| off(request) > MOVED || !fresh(request));
         // An answer for another weight would look like one for this.
-        match nearest {
+        let answer = match best {
             None => Err(format!(
                 "the next metres are being computed: they follow within {DELAY:.0} s"
             )),
-            Some(other) if off(&other) > OTHER => Err(format!(
+            Some(other) if off(other) > OTHER => Err(format!(
                 "the weight has changed from {:.2} to {:.2} kN: the next metres for it follow within {:.0} s",
                 n_to_kn(other.weight),
                 n_to_kn(weight),
                 2.0 * DELAY
             )),
             Some(request) => Ok(request.ticks),
+        };
+        if asks {
+            self.next = Some(Request {
+                ticks,
+                weight,
+                surveys: Arc::clone(surveys),
+            });
+            self.ask(ticks, weight);
         }
+        answer
     }
 
     fn ask(&mut self, ticks: u64, weight: f64) {
@@ -224,6 +251,7 @@ impl LiveHole {
             worker.ask(Asked {
                 ticks,
                 weight,
+                surveys: Arc::clone(&self.surveys),
                 config: Arc::clone(&self.config),
             });
         }

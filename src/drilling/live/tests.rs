@@ -46,6 +46,7 @@ pub(super) struct Twin {
     pub(super) hole: LiveHole,
     frame: Frame,
     tenth: u64,
+    pub(super) surveys: Arc<[Survey]>,
     pub(super) found: Vec<Ready>,
 }
 
@@ -58,6 +59,7 @@ impl Twin {
             hole: LiveHole::new(config),
             frame,
             tenth: (0.1 / config.solver.time_step).round() as u64,
+            surveys: Arc::default(),
             found: Vec::new(),
         }
     }
@@ -72,7 +74,7 @@ impl Twin {
             steering.rotary_speed = tenth.turns * (1.0 + 1e-9) * TAU;
             (steering.weight_on_bit, steering.torque) = (tenth.weight, 92.4);
             (steering.side_force, steering.tilt) = ([28.9, tenth.side_force], [0.0, -13.9e-3]);
-            self.hole.observe(&self.frame);
+            self.hole.observe(&self.frame, || Arc::clone(&self.surveys));
             self.found.extend(std::iter::from_fn(|| self.hole.take(wait)));
         }
     }

@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
-use super::answer::{Ahead, compute};
+use super::answer::{Ahead, Question, compute};
 use flexdrill_config::Config;
+use flexdrill_hole::Survey;
 
 /// What is to be computed.
 pub struct Asked {
@@ -14,6 +15,8 @@ pub struct Asked {
     pub ticks: u64,
     /// Weight at the bit (N).
     pub weight: f64,
+    /// Surveys of the hole.
+    pub surveys: Arc<[Survey]>,
     /// The tool in its hole.
     pub config: Arc<Config>,
 }
@@ -51,8 +54,15 @@ impl Worker {
                 if idle {
                     flexdrill_realtime::priority::idle();
                 }
-                for Asked { ticks, weight, config } in asked {
-                    let ahead = compute(&config, weight, seed, true, &stopped);
+                for asked in asked {
+                    let Asked { ticks, weight, .. } = asked;
+                    let question = Question {
+                        weight,
+                        seed,
+                        searches: true,
+                        surveys: &asked.surveys,
+                    };
+                    let ahead = compute(&asked.config, question, &stopped);
                     if stopped.load(Ordering::Relaxed) || finds.send(Found { ticks, ahead }).is_err() {
                         return;
                     }

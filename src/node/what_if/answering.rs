@@ -12,6 +12,7 @@ use crate::ensemble::Forking;
 use crate::node::advisor::Advisor;
 use crate::node::control::Control;
 use crate::node::forecast::{Busy, Forecasts, Issued};
+use crate::node::inputs::RigInputs;
 use crate::node::set_point::SharedSetPoint;
 use crate::node::states::SavedRun;
 use crate::node::turns::{self, Turn, Turns};
@@ -48,6 +49,8 @@ pub struct Answering {
     pub control: Arc<Control>,
     /// Where the run is in time.
     pub gauges: Arc<Gauges>,
+    /// Who has the surveys of the hole.
+    pub inputs: RigInputs,
     /// Who asks for advice on alarms.
     pub advisor: Arc<Advisor>,
     /// Where forecasts go; none where they are off.
@@ -179,7 +182,7 @@ impl Answering {
         let rows = rubbing.map(|start| look_ahead(&start, &of_friction, threads, &begun.stop, |_| end()));
         answer.stopped |= rows.iter().any(|row| row.stopped);
         // By statics: a second per weight, once the members have ended.
-        let holes = holes(&config, &goal.candidates, &begun.stop);
+        let holes = holes(&config, &goal.candidates, &self.inputs.surveys(), &begun.stop);
         let candidates = answer.candidates.iter().zip(&holes).enumerate();
         let answers = candidates
             .map(|(index, (of, hole))| {

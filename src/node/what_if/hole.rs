@@ -4,38 +4,46 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::ahead::Candidate;
 use crate::drilling::SPACING;
-use crate::drilling::live::{Ahead, compute, refusal, seed};
+use crate::drilling::live::{Ahead, Question, compute, refusal, seed};
 use flexdrill_config::Config;
 use flexdrill_core::units::kn_to_n;
+use flexdrill_hole::Survey;
 use flexdrill_messages::WhatIfAnswer;
 
 /// The hole under a weight, or why it is not known.
 pub(super) type Hole = Result<Ahead, String>;
 
-/// The hole under the weight of each candidate: one answer per weight, in the order of the candidates. The same goal in the same
-/// configuration has the same answer, which is that of `twin/hole_ahead` at that weight.
-pub(super) fn holes(config: &Config, candidates: &[Candidate], stop: &AtomicBool) -> Vec<Hole> {
+/// The hole under the weight of each candidate, with the surveys that are known: one answer per weight, in the order of the
+/// candidates. The same goal in the same configuration with the same surveys has the same answer, which is that of
+/// `twin/hole_ahead` at that weight.
+pub(super) fn holes(config: &Config, candidates: &[Candidate], surveys: &[Survey], stop: &AtomicBool) -> Vec<Hole> {
     let mut known: Vec<(f64, Hole)> = Vec::new();
     let mut of = |candidate: &Candidate| {
         let weight = candidate.weight_on_bit;
         if let Some((_, hole)) = known.iter().find(|(of, _)| *of == weight) {
             return hole.clone();
         }
-        let hole = under(config, kn_to_n(weight), stop);
+        let hole = under(config, kn_to_n(weight), surveys, stop);
         known.push((weight, hole.clone()));
         hole
     };
     candidates.iter().map(&mut of).collect()
 }
 
-fn under(config: &Config, weight: f64, stop: &AtomicBool) -> Hole {
+fn under(config: &Config, weight: f64, surveys: &[Survey], stop: &AtomicBool) -> Hole {
     if let Some(why) = refusal(config) {
         return Err(why);
     }
     if weight <= 0.0 {
         return Err("the bit is off bottom".to_owned());
     }
-    let hole = compute(config, weight, seed(config), false, stop);
+    let question = Question {
+        weight,
+        seed: seed(config),
+        searches: false,
+        surveys,
+    };
+    let hole = compute(config, question, stop);
     // What was cut short is not the hole's fault.
     if stop.load(Ordering::Relaxed) {
         return Err("cancelled".to_owned());
@@ -121,7 +129,7 @@ environment: {gravity: 9.81, buoyancy_factor: 0.86}
     #[test]
     fn a_goal_that_is_cancelled_has_no_hole() {
         let candidates = [10.0, 12.0, 10.0].map(candidate);
-        let stopped = holes(&config(AS_IT_IS), &candidates, &AtomicBool::new(true));
+        let stopped = holes(&config(AS_IT_IS), &candidates, &[], &AtomicBool::new(true));
         assert_eq!(stopped.len(), 3);
         assert!(
             stopped
@@ -134,7 +142,7 @@ environment: {gravity: 9.81, buoyancy_factor: 0.86}
 
     #[test]
     fn off_bottom_the_hole_is_not_known() {
-        let found = holes(&config(AS_IT_IS), &[candidate(0.0)], &AtomicBool::new(false));
+        let found = holes(&config(AS_IT_IS), &[candidate(0.0)], &[], &AtomicBool::new(false));
         assert!(found[0].as_ref().is_err_and(|why| why.contains("off bottom")));
     }
 
@@ -143,7 +151,7 @@ environment: {gravity: 9.81, buoyancy_factor: 0.86}
     #[test]
     fn each_weight_has_its_radius_and_its_distance_to_the_plan() {
         let candidates = [5.0, 10.0, 15.0, 10.0].map(candidate);
-        let found = holes(&config(AS_IT_IS), &candidates, &AtomicBool::new(false));
+        let found = holes(&config(AS_IT_IS), &candidates, &[], &AtomicBool::new(false));
         let answers: Vec<WhatIfAnswer> = found
             .iter()
             .map(|hole| with_hole(WhatIfAnswer::default(), hole))
@@ -190,7 +198,7 @@ environment: {gravity: 9.81, buoyancy_factor: 0.86}
             ),
         ];
         for (change, words) in cases {
-            let found = holes(&config(change), &[candidate(10.0)], &AtomicBool::new(false));
+            let found = holes(&config(change), &[candidate(10.0)], &[], &AtomicBool::new(false));
             let answer = with_hole(WhatIfAnswer::default(), &found[0]);
             assert!(
                 !answer.hole_known && answer.hole_because.contains(words),

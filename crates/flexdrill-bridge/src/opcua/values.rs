@@ -7,7 +7,7 @@ use ::opcua::types::{StatusCode, Variant};
 use flexdrill_core::inputs::Unit;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{RigInputs, RigMeasured};
+use flexdrill_messages::{RigInputs, RigMeasured, RigSurvey};
 
 use super::mapping::{NodeMapping, StampSource};
 use crate::{Quantity, messages};
@@ -15,6 +15,10 @@ use crate::{Quantity, messages};
 /// A source timestamp further from the time of arrival (ns) is not used: the server keeps that of the last change, or its
 /// clock is wrong.
 const STAMP_TOLERANCE: i64 = 10_000_000_000;
+
+/// Depth, inclination and azimuth of a survey are nodes of their own, which change one after the other: a survey is one whose
+/// nodes have not changed for so long (ns).
+const SETTLED: i64 = 2_000_000_000;
 
 /// A value as it came.
 #[derive(Debug, Clone)]
@@ -120,6 +124,8 @@ struct Held {
     value: f64,
     quality: u8,
     stamp: i64,
+    /// When it came (ns since 1970).
+    arrived: i64,
     /// Stamp of the newest message with it.
     sent: i64,
     /// When that was sent.
@@ -204,6 +210,7 @@ impl Collector {
             value,
             quality,
             stamp,
+            arrived: raw.arrived,
             // The last stamp that was sent is kept, because stamps of a quantity must not fall back.
             sent: before.map_or(i64::MIN, |held| held.sent),
             sent_at: i64::MIN,
@@ -262,6 +269,10 @@ impl Collector {
         let mut groups: BTreeMap<(i64, u8), BTreeMap<Quantity, f64>> = BTreeMap::new();
         for (item, held) in self.items.iter().zip(&mut self.held) {
             let Some(held) = held else { continue };
+            // A survey is of the time when it was made, and is not repeated.
+            if matches!(item.quantity, Quantity::Survey(_)) {
+                continue;
+            }
             let stamp = if held.fresh {
                 held.stamp
             } else if alive && now.saturating_sub(held.sent_at) >= self.repeat {
@@ -291,6 +302,34 @@ impl Collector {
                 )
             })
             .collect()
+    }
+}
+
+impl Collector {
+    /// The survey that is due at `now` (ns since 1970): one whose nodes have changed and then settled.
+    pub fn survey_due(&mut self, now: i64) -> Option<RigSurvey> {
+        let nodes = self.items.iter().zip(&mut self.held);
+        let mut nodes: Vec<(Quantity, &mut Held)> = nodes
+            .filter_map(|(item, held)| Some((item.quantity, held.as_mut()?)))
+            .filter(|(quantity, _)| matches!(quantity, Quantity::Survey(_)))
+            .collect();
+        let is_fresh = nodes.iter().any(|(_, held)| held.fresh);
+        let settled = nodes
+            .iter()
+            .all(|(_, held)| now.saturating_sub(held.arrived) >= SETTLED);
+        if !(is_fresh && settled) {
+            return None;
+        }
+        let stamp = nodes.iter().map(|(_, held)| held.stamp).max()?;
+        // One doubtful value makes a doubtful survey.
+        let quality = nodes.iter().map(|(_, held)| held.quality).max()?;
+        nodes.iter_mut().for_each(|(_, held)| held.fresh = false);
+        let header = Header {
+            stamp: Time::from_nanoseconds(stamp),
+            ..Header::default()
+        };
+        let value = |quantity: Quantity| nodes.iter().find(|(of, _)| *of == quantity).map(|(_, held)| held.value);
+        messages::rig_survey(value, header, quality, &self.source)
     }
 }
 
@@ -366,6 +405,36 @@ mod tests {
         assert_eq!(inputs.header.stamp.to_nanoseconds(), AT + 2 * SECOND + 1);
         collector.forget();
         assert!(collector.due(AT + 9 * SECOND, true).is_empty());
+    }
+
+    #[test]
+    fn a_survey_waits_for_its_nodes_and_is_sent_once() {
+        let text = "nodes:\n  \"ns=2;s=a\": {quantity: survey_depth, unit: m}\n  \"ns=2;s=b\": {quantity: survey_inclination, \
+                    unit: deg}\n  \"ns=2;s=c\": {quantity: survey_azimuth, unit: deg}\n";
+        let mut collector = Collector::new(&NodeMapping::from_text("site.yaml", text).unwrap(), "rig:4840");
+        let good = StatusCode::Good;
+        collector.take(&raw(0, 2004.5, good, AT, AT)).unwrap();
+        assert_eq!(collector.survey_due(AT + 9 * SECOND), None, "no inclination");
+        collector.take(&raw(0, 2004.5, good, AT, AT)).unwrap();
+        collector.take(&raw(1, 57.3, good, AT + SECOND, AT + SECOND)).unwrap();
+        collector.take(&raw(2, 15.5, good, AT, AT)).unwrap();
+        // The inclination has changed a second after the depth: another node may follow.
+        assert_eq!(collector.survey_due(AT + 2 * SECOND), None);
+        let survey = collector.survey_due(AT + 3 * SECOND).unwrap();
+        assert_eq!((survey.measured_depth, survey.quality), (2004.5, RigSurvey::GOOD));
+        assert!((survey.inclination - 57.3_f64.to_radians()).abs() < 1e-12);
+        assert_eq!(survey.header.stamp.to_nanoseconds(), AT + SECOND);
+        // Neither it nor its values come again, whatever the time of repetition.
+        assert_eq!(collector.survey_due(AT + 99 * SECOND), None);
+        assert!(collector.due(AT + 99 * SECOND, true).is_empty());
+        let uncertain = StatusCode::UncertainLastUsableValue;
+        collector
+            .take(&raw(1, 57.4, uncertain, AT + 100 * SECOND, AT + 100 * SECOND))
+            .unwrap();
+        assert_eq!(
+            collector.survey_due(AT + 102 * SECOND).unwrap().quality,
+            RigSurvey::SUSPECT
+        );
     }
 
     #[test]

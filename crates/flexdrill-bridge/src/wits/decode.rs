@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header as RosHeader;
-use flexdrill_messages::{RigInputs, RigMeasured};
+use flexdrill_messages::{RigInputs, RigMeasured, RigSurvey};
 
 use super::frame::RawFrame;
 use super::header::{Header, LAST_HEADER_ITEM};
@@ -57,6 +57,8 @@ pub struct Reading {
     pub inputs: Option<RigInputs>,
     /// Values for `rig/measured`, if it has any.
     pub measured: Option<RigMeasured>,
+    /// A survey for `rig/survey`, if it has one.
+    pub survey: Option<RigSurvey>,
     /// What became of it.
     pub outcome: FrameUse,
     /// Items that mean "no value".
@@ -227,7 +229,8 @@ impl Decoder {
         let source = self.source(&records);
         Reading {
             inputs: rig_inputs(&draft, header.clone(), &source),
-            measured: rig_measured(&draft, header, &source),
+            measured: rig_measured(&draft, header.clone(), &source),
+            survey: rig_survey(&draft, header, &source),
             records,
             outcome,
             nulls: draft.nulls,
@@ -422,7 +425,12 @@ fn rig_measured(draft: &Draft, header: RosHeader, source: &str) -> Option<RigMea
     messages::rig_measured(|quantity| draft.value(quantity), header, quality(doubtful), source)
 }
 
-/// The codes of both messages are the same.
+fn rig_survey(draft: &Draft, header: RosHeader, source: &str) -> Option<RigSurvey> {
+    let doubtful = draft.disputed || draft.any_fallback(|quantity| matches!(quantity, Quantity::Survey(_)));
+    messages::rig_survey(|quantity| draft.value(quantity), header, quality(doubtful), source)
+}
+
+/// The codes of all messages are the same.
 const fn quality(doubtful: bool) -> u8 {
     if doubtful { RigInputs::SUSPECT } else { RigInputs::GOOD }
 }
@@ -485,6 +493,28 @@ mod tests {
         assert!((inputs.rate_of_penetration_m_per_h - 18.288).abs() < 1e-9);
         assert_eq!(inputs.header.stamp.to_nanoseconds(), 1_700_000_000_000_000_000);
         assert!((reading.measured.unwrap().surface_torque - 2711.636).abs() < 1e-3);
+    }
+
+    /// Record 7 of the specification: 08 is the depth of the survey, 13 its inclination, 15 its azimuth after correction; 14 is
+    /// the azimuth before it.
+    #[test]
+    fn the_record_of_surveys_is_a_survey() {
+        let survey = decode("", "0708 2004.5\n0711 2010\n0713 57.3\n0714 12\n0715 15.5")
+            .survey
+            .unwrap();
+        assert_eq!((survey.measured_depth, survey.quality), (2004.5, RigSurvey::GOOD));
+        assert!((survey.inclination - 57.3_f64.to_radians()).abs() < 1e-12);
+        assert!((survey.azimuth - 15.5_f64.to_radians()).abs() < 1e-12);
+        assert!(survey.inclination_deviation.is_nan());
+        assert_eq!(survey.header.stamp.to_nanoseconds(), ARRIVED);
+        // Nothing of it is an input or a measured value.
+        let reading = decode("units: field\n", "0708 1000\n0713 57.3\n0715 -9999");
+        assert_eq!((&reading.inputs, &reading.measured), (&None, &None));
+        let survey = reading.survey.unwrap();
+        assert!((survey.measured_depth - 304.8).abs() < 1e-9 && survey.azimuth.is_nan());
+        assert_eq!(decode("", "0708 2004.5\n0715 15.5").survey, None, "no inclination");
+        let wrong = decode("", "0708 2004.5\n0713 190");
+        assert!(wrong.survey.is_none() && wrong.faults[0].to_string().contains("0713: out of range"));
     }
 
     #[test]

@@ -16,7 +16,7 @@ use super::header::LAST_HEADER_ITEM;
 use super::item::ItemCode;
 use crate::lines::Ask;
 use crate::quantity::check_unit_and_range;
-use crate::{Figure, Quantity};
+use crate::{Figure, Quantity, SurveyKind};
 
 /// The units of the items that a mapping does not name.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -177,10 +177,11 @@ fn two() -> u8 {
 const REQUIRED: &[&str] = &["write.items"];
 
 /// The default items: number, quantity, units (metric, field), whether it is a fallback.
-const DEFAULTS: [(u8, u8, Quantity, [Unit; 2], bool); 14] = {
-    use Quantity::{Measured, RotarySpeed, WeightOnBit};
+const DEFAULTS: [(u8, u8, Quantity, [Unit; 2], bool); 17] = {
+    use Quantity::{Measured, RotarySpeed, Survey, WeightOnBit};
     const DEPTH: [Unit; 2] = [Unit::Metre, Unit::Foot];
     const FORCE: [Unit; 2] = [Unit::Kilodecanewton, Unit::Kilopound];
+    const ANGLE: [Unit; 2] = [Unit::Degree, Unit::Degree];
     const TORQUE: [Unit; 2] = [Unit::KilonewtonMetre, Unit::KilofootPound];
     [
         (1, 8, Measured(MeasuredKind::BitDepth), DEPTH, false),
@@ -206,6 +207,10 @@ const DEFAULTS: [(u8, u8, Quantity, [Unit; 2], bool); 14] = {
             [Unit::Kilopascal, Unit::Psi],
             false,
         ),
+        (7, 8, Survey(SurveyKind::Depth), DEPTH, false),
+        (7, 13, Survey(SurveyKind::Inclination), ANGLE, false),
+        // Item 14 is the azimuth before it is corrected to a north.
+        (7, 15, Survey(SurveyKind::Azimuth), ANGLE, false),
         (9, 15, Measured(MeasuredKind::DownholeWeightOnBit), FORCE, false),
         (9, 17, Measured(MeasuredKind::DownholeTorque), TORQUE, false),
         // Some sources repeat the depth of the bit in the record of the tool in the hole.

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use flexdrill_core::inputs::InputKind;
-use flexdrill_messages::RigInputs;
+use flexdrill_messages::{RigInputs, RigSurvey};
 use flexdrill_outputs::MeasuredValues as _;
 
 use super::Reading;
-use crate::Quantity;
+use crate::{Quantity, SurveyKind};
 
 /// After so long without a value of it, another connection may serve a quantity (ns). Rigs send every second, slow ones
 /// every few seconds; the twin's inputs are stale by then.
@@ -72,6 +72,9 @@ impl Sources {
         }
         reading.measured.take_if(|measured| measured.is_empty());
         reading
+            .survey
+            .take_if(|survey| survey.measured_depth.is_nan() || survey.inclination.is_nan());
+        reading
             .inputs
             .take_if(|inputs| !InputKind::ALL.into_iter().any(|kind| !field(inputs, kind).is_nan()));
         if let Some(inputs) = reading.inputs.as_mut().filter(|_| self.is_disputed(arrived)) {
@@ -100,6 +103,14 @@ fn field(inputs: &mut RigInputs, kind: InputKind) -> &mut f64 {
     }
 }
 
+fn surveyed(survey: &mut RigSurvey, kind: SurveyKind) -> &mut f64 {
+    match kind {
+        SurveyKind::Depth => &mut survey.measured_depth,
+        SurveyKind::Inclination => &mut survey.inclination,
+        SurveyKind::Azimuth => &mut survey.azimuth,
+    }
+}
+
 fn is_given(reading: &mut Reading, quantity: Quantity) -> bool {
     let of_inputs = quantity
         .input()
@@ -109,7 +120,11 @@ fn is_given(reading: &mut Reading, quantity: Quantity) -> bool {
         (Quantity::Measured(kind), Some(measured)) => measured.value(kind).is_some(),
         _ => false,
     };
-    of_inputs || of_measured
+    let of_survey = match (quantity, &mut reading.survey) {
+        (Quantity::Survey(kind), Some(survey)) => !surveyed(survey, kind).is_nan(),
+        _ => false,
+    };
+    of_inputs || of_measured || of_survey
 }
 
 fn leave_out(reading: &mut Reading, quantity: Quantity) {
@@ -118,6 +133,9 @@ fn leave_out(reading: &mut Reading, quantity: Quantity) {
     }
     if let (Quantity::Measured(kind), Some(measured)) = (quantity, &mut reading.measured) {
         measured.set(kind, f64::NAN);
+    }
+    if let (Quantity::Survey(kind), Some(survey)) = (quantity, &mut reading.survey) {
+        *surveyed(survey, kind) = f64::NAN;
     }
 }
 

@@ -181,7 +181,7 @@ mod tests {
                 Quantity::WeightOnBit => Some(25e3),
                 Quantity::Measured(MeasuredKind::HookLoad) => Some(412_345.0),
                 Quantity::Measured(MeasuredKind::DownholeTorque) => Some(1234.5),
-                Quantity::Measured(_) => None,
+                Quantity::Measured(_) | Quantity::Survey(_) => None,
             };
             let mut decoder = Decoder::new(&mapping, "rig");
             for expected in [Sequence::First, Sequence::Next] {

@@ -1042,7 +1042,7 @@ export interface HoleAhead {
   /** Plausible tools that were computed, and those without a result. What the latter drill is unknown. */
   members: number;
   failed: number;
-  /** Surveys that the answer rests on. No survey is used yet. */
+  /** Surveys (rig/survey) that the answer rests on: those of the hole that this tool has drilled. */
   surveys_used: number;
   /** How far the bit is beyond the last of them (m); NaN without any. */
   since_survey: number;
@@ -1089,6 +1089,44 @@ export interface HoleAhead {
    * the plan over 5 m is outside kf -+ sqrt(2 p c/EI).
    */
   plan_no_guide: boolean;
+  /** Surveys of those used that correct the curvature too, not the direction alone. */
+  surveys_learnt: number;
+  /**
+   * Direction of the hole at the bit by the surveys, with standard deviations (rad): inclination, and azimuth as azimuth is
+   * counted. NaN without a survey that is used.
+   */
+  surveyed_inclination: number;
+  surveyed_inclination_deviation: number;
+  surveyed_azimuth: number;
+  surveyed_azimuth_deviation: number;
+  /**
+   * How much more the tool builds than as configured, by the surveys, with its standard deviation (rad/m). NaN where none
+   * corrects the curvature.
+   */
+  surveyed_build: number;
+  surveyed_build_deviation: number;
+  /**
+   * Azimuth of the plane of the configured hole (rad), clockwise from the north of plan and surveys: that of the plan at the bit,
+   * or else of the surveys; NaN where neither has one.
+   */
+  plane_azimuth: number;
+  /** Measured depth from which on this tool has drilled (m); NaN without surveys. */
+  drilled_from: number;
+  /** Why surveys are not used, where that is so; empty otherwise. */
+  surveys_because: string;
+  /**
+   * Every survey that is known when the means end, in the order of arrival; a new answer rests on them some seconds later.
+   * Measured depth from the kick-off (m).
+   */
+  survey_depths: Float64Array;
+  /** Inclination (rad). */
+  survey_inclinations: Float64Array;
+  /** Its standard deviation (rad). */
+  survey_inclination_deviations: Float64Array;
+  /** Azimuth (rad), clockwise from north; NaN of a tool that measures inclinations alone. */
+  survey_azimuths: Float64Array;
+  /** Its standard deviation (rad); NaN without an azimuth. */
+  survey_azimuth_deviations: Float64Array;
 }
 /** Reads a `flexdrill/msg/HoleAhead`. */
 export function decodeHoleAhead(reader: CdrReader): HoleAhead {
@@ -1161,6 +1199,21 @@ export function decodeHoleAhead(reader: CdrReader): HoleAhead {
     plan_weight: reader.float64(),
     plan_no_weight: reader.bool(),
     plan_no_guide: reader.bool(),
+    surveys_learnt: reader.uint32(),
+    surveyed_inclination: reader.float64(),
+    surveyed_inclination_deviation: reader.float64(),
+    surveyed_azimuth: reader.float64(),
+    surveyed_azimuth_deviation: reader.float64(),
+    surveyed_build: reader.float64(),
+    surveyed_build_deviation: reader.float64(),
+    plane_azimuth: reader.float64(),
+    drilled_from: reader.float64(),
+    surveys_because: reader.string(),
+    survey_depths: reader.float64Array(reader.length()),
+    survey_inclinations: reader.float64Array(reader.length()),
+    survey_inclination_deviations: reader.float64Array(reader.length()),
+    survey_azimuths: reader.float64Array(reader.length()),
+    survey_azimuth_deviations: reader.float64Array(reader.length()),
   };
 }
 
@@ -1538,6 +1591,60 @@ export function decodeRigMeasured(reader: CdrReader): RigMeasured {
     quality: reader.uint8(),
     source: reader.string(),
     given: reader.uint32(),
+  };
+}
+
+/**
+ * A survey: the direction of the hole at a measured depth. Late by metres is normal: the tool that measures sits above the
+ * bit. The twin corrects by surveys where the tool drills next (twin/hole_ahead), and never drives the model by them. Topic
+ * rig/survey.
+ */
+export interface RigSurvey {
+  /**
+   * Stamp: time of the measurement, on the rig's clock; of two surveys of one source at the same depth the newer one counts.
+   * Frame: not used.
+   */
+  header: Header;
+  /** Measured depth of the survey, from the rig's own zero (m); well.kick_off_depth is that of the kick-off. */
+  measured_depth: number;
+  /** Inclination of the hole (rad): 0 is straight down. */
+  inclination: number;
+  /**
+   * Azimuth of the hole (rad), clockwise seen from above, from the same north as the plan; NaN of a tool that measures
+   * inclinations alone.
+   */
+  azimuth: number;
+  /** Standard deviation of the inclination (rad). NaN or 0 is the usual one, 0.2 deg. */
+  inclination_deviation: number;
+  /**
+   * Standard deviation of the azimuth (rad). NaN or 0 is the usual one of a magnetic tool: 5 deg down to 10 m below the
+   * kick-off, 1 deg below. A gyro has 0.5 deg.
+   */
+  azimuth_deviation: number;
+  /** Quality of all values: GOOD, SUSPECT or BAD. */
+  quality: number;
+  /** Sensor or program of origin, for displays; may be empty. */
+  source: string;
+}
+export const RigSurvey = {
+  /** The source considers the values correct. */
+  GOOD: 0,
+  /** The source has doubts; the twin does not use the survey, and the recording keeps it. */
+  SUSPECT: 1,
+  /** The values are wrong or not measured. */
+  BAD: 2,
+} as const;
+/** Reads a `flexdrill/msg/RigSurvey`. */
+export function decodeRigSurvey(reader: CdrReader): RigSurvey {
+  return {
+    header: decodeHeader(reader),
+    measured_depth: reader.float64(),
+    inclination: reader.float64(),
+    azimuth: reader.float64(),
+    inclination_deviation: reader.float64(),
+    azimuth_deviation: reader.float64(),
+    quality: reader.uint8(),
+    source: reader.string(),
   };
 }
 
@@ -2630,6 +2737,7 @@ export const DECODERS = {
   "flexdrill/msg/Residuals": decodeResiduals,
   "flexdrill/msg/RigInputs": decodeRigInputs,
   "flexdrill/msg/RigMeasured": decodeRigMeasured,
+  "flexdrill/msg/RigSurvey": decodeRigSurvey,
   "flexdrill/msg/SafeWindow": decodeSafeWindow,
   "flexdrill/msg/SessionInfo": decodeSessionInfo,
   "flexdrill/msg/Transfer": decodeTransfer,

@@ -34,7 +34,7 @@ function along({ stations }: Plan, depth: number): Point {
 }
 
 /** The place of the hole as configured at a measured depth (m). */
-function onHole({ stations }: Tool, depth: number): Point | null {
+export function onHole({ stations }: Tool, depth: number): Point | null {
   const after = stations.findIndex((station) => station.measured_depth >= depth);
   const below = stations[after];
   const above = stations[Math.max(after - 1, 0)];

@@ -6,7 +6,7 @@ import type { Plan, Session, Tool } from "../src/api";
 import type { HoleAhead } from "../src/messages";
 import { distance, laid, type Point } from "../src/plan";
 import { Store } from "../src/store/store";
-import { details, drawing, drilledOf, needs, summary, toPlan, withheld } from "../src/views/hole";
+import { details, drawing, drilledOf, needs, summary, surveyed, toPlan, withheld } from "../src/views/hole";
 
 const RADIUS = 3.2;
 const radians = (angle: number) => (angle * Math.PI) / 180;
@@ -107,6 +107,22 @@ test("a straight or dropping hole has no largest radius, and a range that is not
   assert.equal(first(unknown), "Radius 3.57 m over the next metre");
   const nan = new Float64Array(21).fill(NaN);
   assert.match(summary(hole({ inclinations_low: nan, inclinations_high: nan }), "si"), /inclination 73\.7°\.$/);
+});
+
+test("surveys are named with what they correct, and drawn on the hole near the bit", () => {
+  const corrected = hole({ surveys_used: 2, since_survey: 0.25, surveys_learnt: 1, members: 300 });
+  assert.match(details(corrected, "si"), /90 % of 300 holes that are as likely as the surveys say\. 2 surveys used/);
+  const off = details(hole({ surveys_because: "no survey lies below 3.03 m" }), "si");
+  assert.match(off, /No survey is used\. Surveys: no survey lies below 3\.03 m\.$/);
+  // On a quarter circle of 3.2 m: the survey 1 m above the bit, and none that is 2 m above it.
+  const store = { session: { tool: tool(RADIUS * radians(90), null) } } as unknown as Store;
+  const bit = 3.0;
+  const depths = Float64Array.from([bit - 1, bit - 2]);
+  const [place, ...more] = surveyed(store, hole({ measured_depths: Float64Array.of(bit), survey_depths: depths }));
+  assert.equal(more.length, 0);
+  // Stations are 50 mm apart: their chords are within 0.1 mm of the circle.
+  assert.ok(Math.abs(place[2] - RADIUS * Math.sin((bit - 1) / RADIUS)) < 2e-4, `${place}`);
+  assert.deepEqual(surveyed(store, hole()), []);
 });
 
 test("what is not known is said with its reason", () => {

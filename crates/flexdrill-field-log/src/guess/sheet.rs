@@ -237,6 +237,7 @@ fn draft(begin: Option<Begin>) -> Mapping {
             rate_of_penetration: None,
             standpipe_pressure: None,
             measured: std::collections::BTreeMap::new(),
+            surveys: None,
         },
         quality: Quality::default(),
     }

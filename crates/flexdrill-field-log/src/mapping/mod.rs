@@ -16,7 +16,7 @@ use crate::{Condition, TimeFormat};
 use flexdrill_config::ConfigError;
 use flexdrill_config::checker::{Bound, Checker};
 use flexdrill_config::reading;
-use flexdrill_core::inputs::{MeasuredKind, Unit};
+use flexdrill_core::inputs::{Dimension, MeasuredKind, Unit};
 
 /// The meaning of a log's columns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -77,6 +77,22 @@ pub struct Columns {
     /// are measured quantities too, unless this list has them. Default none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub measured: BTreeMap<MeasuredKind, MeasuredColumn>,
+    /// Surveys of the hole: rows with a depth and an inclination have one. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surveys: Option<SurveyColumns>,
+}
+
+/// Surveys of the hole.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurveyColumns {
+    /// Measured depth of the survey, from the rig's own zero. Required.
+    pub measured_depth: MeasuredColumn,
+    /// Inclination. Required.
+    pub inclination: MeasuredColumn,
+    /// Azimuth. Default none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub azimuth: Option<MeasuredColumn>,
 }
 
 /// A measured quantity.
@@ -384,6 +400,8 @@ impl Mapping {
         names.extend(columns.rate_of_penetration.iter().map(|rate| &*rate.column));
         names.extend(columns.standpipe_pressure.iter().map(|pressure| &*pressure.column));
         names.extend(columns.measured.values().map(|measured| &*measured.column));
+        let surveys = columns.surveys.iter().flat_map(SurveyColumns::columns);
+        names.extend(surveys.map(|(_, column)| &*column.column));
         names
     }
 
@@ -418,6 +436,8 @@ impl Mapping {
                 .values()
                 .map(|measured| (&*measured.column, measured.unit)),
         );
+        let surveys = columns.surveys.iter().flat_map(SurveyColumns::columns);
+        units.extend(surveys.map(|(_, column)| (&*column.column, column.unit)));
         units
     }
 
@@ -476,20 +496,33 @@ impl Mapping {
             });
             c.below("measured", |c| {
                 for (kind, column) in &self.columns.measured {
-                    c.below(kind.name(), |c| {
-                        c.require(
-                            column.unit.dimension() == kind.dimension(),
-                            "unit",
-                            column.unit.name(),
-                            "",
-                            format!("one of {}", kind.dimension().units()),
-                            "the unit belongs to another quantity",
-                        );
-                    });
+                    c.below(kind.name(), |c| column.check(c, kind.dimension()));
+                }
+            });
+            c.below("surveys", |c| {
+                for (key, column) in self.columns.surveys.iter().flat_map(SurveyColumns::columns) {
+                    let dimension = match key {
+                        "measured_depth" => Dimension::Length,
+                        _ => Dimension::Angle,
+                    };
+                    c.below(key, |c| column.check(c, dimension));
                 }
             });
         });
         c.below("quality", |c| self.quality.check(c));
+    }
+}
+
+impl MeasuredColumn {
+    fn check(&self, c: &mut Checker, dimension: Dimension) {
+        c.require(
+            self.unit.dimension() == dimension,
+            "unit",
+            self.unit.name(),
+            "",
+            format!("one of {}", dimension.units()),
+            "the unit belongs to another quantity",
+        );
     }
 }
 

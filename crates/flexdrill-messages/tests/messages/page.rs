@@ -9,7 +9,7 @@ use std::path::Path;
 use flexdrill_messages::{
     Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, FigureBand,
     Forecast, ForecastBand, HoleAhead, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs,
-    RigMeasured, SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState,
+    RigMeasured, RigSurvey, SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState,
     WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
@@ -175,6 +175,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<Residual>(&mut maker),
         reference::<Residuals>(&mut maker),
         reference::<HoleAhead>(&mut maker),
+        reference::<RigSurvey>(&mut maker),
     ];
     let fresh = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(REFERENCE);

@@ -3,7 +3,7 @@
 import type { Plan } from "../api";
 import { fit, h, setText, show } from "../dom";
 import type { HoleAhead } from "../messages";
-import { distance, laid, type Point } from "../plan";
+import { distance, laid, onHole, type Point } from "../plan";
 import type { Store } from "../store/store";
 import { stamp } from "../store/topics";
 import { channels } from "../theme";
@@ -92,12 +92,17 @@ export function details(hole: HoleAhead, units: System): string {
     );
   }
   const failed = hole.failed > 0 ? `; ${hole.failed} more have no result` : "";
-  said.push(`In brackets and in grey: 90 % of ${counted(hole.members, "plausible tool")}${failed}.`);
+  const range =
+    hole.surveys_learnt > 0
+      ? `${counted(hole.members, "hole")} that are as likely as the surveys say`
+      : counted(hole.members, "plausible tool");
+  said.push(`In brackets and in grey: 90 % of ${range}${failed}.`);
   said.push(
     hole.surveys_used > 0
       ? `${counted(hole.surveys_used, "survey")} used, the last ${withUnit(hole.since_survey, "depth", units)} above the bit.`
       : "No survey is used.",
   );
+  if (hole.surveys_because) said.push(`Surveys: ${hole.surveys_because.replace(/\.$/, "")}.`);
   return said.join(" ");
 }
 
@@ -174,6 +179,8 @@ export interface Drawing {
   plan: Place[];
   /** Both edges of the target around the plan. */
   target: [Place[], Place[]];
+  /** Where surveys were made. */
+  surveys: Place[];
 }
 
 /** A line beside another one, at a distance (m) to its left. */
@@ -193,6 +200,7 @@ export function drawing(
   plan: readonly Point[],
   target: number,
   of: "side" | "above",
+  surveys: readonly Point[] = [],
 ): Drawing {
   const view = ([x, y, z]: Point): Place => (of === "side" ? [x, z] : [x, y]);
   const edge = (sign: number) =>
@@ -212,6 +220,7 @@ export function drawing(
     cone: [...edge(1), ...edge(-1).reverse()],
     plan: planned,
     target: planned.length > 1 ? [offset(planned, target), offset(planned, -target)] : [[], []],
+    surveys: surveys.map(view),
   };
 }
 
@@ -220,6 +229,15 @@ export function drilledOf(store: Store, bit: number): Point[] {
   const stations = store.session?.tool?.stations ?? [];
   const near = stations.filter(({ measured_depth: depth }) => depth >= bit - ABOVE && depth <= bit + 0.01);
   return near.flatMap(({ position }) => (position ? [position] : []));
+}
+
+/** The places of the surveys near the bit, on the hole as configured. */
+export function surveyed(store: Store, hole: HoleAhead): Point[] {
+  const { tool } = store.session ?? {};
+  const bit = hole.measured_depths[0];
+  // A twin of an older version lists none.
+  const near = Array.from(hole.survey_depths ?? []).filter((depth) => depth >= bit - ABOVE);
+  return tool ? near.flatMap((depth) => [onHole(tool, depth)].filter((place) => place !== null)) : [];
 }
 
 /** Why nothing is drawn now; null where a known hole is of the present. */
@@ -298,6 +316,8 @@ class Picture {
     line(drawing.plan, palette.ink, 1.5, [7, 5]);
     line(drawing.hole, palette.muted, 4);
     line(drawing.path, palette.trace, 2.5);
+    pencil.fillStyle = palette.limit;
+    for (const [x, y] of drawing.surveys) pencil.fillRect(across.to(x) - 3, down.to(y) - 3, 6, 6);
     // The bit.
     const bit = drawing.path[0];
     if (bit) {
@@ -399,6 +419,7 @@ export class HoleView implements View {
   private readonly pictures: [Picture, Picture];
   private readonly target = h("span", {}, "⋯ target");
   private readonly plan = h("span", {}, "- - plan");
+  private readonly surveys = h("span", {}, "■ surveys");
   private readonly pace = new Pace(INTERVAL);
 
   constructor(private readonly context: Context) {
@@ -413,7 +434,8 @@ export class HoleView implements View {
         h("span", {}, "● bit"),
         h("span", {}, "━ hole as configured"),
         h("span", {}, "— ahead"),
-        h("span", {}, h("i", { class: "key cone" }), " 90 % of the plausible tools"),
+        this.surveys,
+        h("span", {}, h("i", { class: "key cone" }), " 90 % of what is plausible"),
         this.plan,
         this.target,
       ),
@@ -460,8 +482,10 @@ export class HoleView implements View {
     setText(this.rest, details(hole, settings.units));
     const key = `${hole.header.stamp.sec} ${hole.header.stamp.nanosec} ${hole.members} ${context.revision}`;
     const drilled = drilledOf(store, bit);
-    this.pictures[0].draw(drawing(hole, drilled, plan, target, "side"), key);
-    this.pictures[1].draw(drawing(hole, drilled, plan, target, "above"), key);
+    const surveys = surveyed(store, hole);
+    show(this.surveys, surveys.length > 0);
+    this.pictures[0].draw(drawing(hole, drilled, plan, target, "side", surveys), key);
+    this.pictures[1].draw(drawing(hole, drilled, plan, target, "above", surveys), key);
   }
 
   /** When and under which weight the bit was as the message says. */

@@ -185,6 +185,16 @@ impl PortBuilder {
         })
     }
 
+    /// Adds a topic to read of which no sample may be lost on the way. Publishers that are best effort do not match.
+    pub fn reliable_subscription(&mut self, topic: &str, dds_type: &str) -> Arc<Inbox<Sample>> {
+        self.read(ReaderPlan {
+            topic: topic.to_owned(),
+            dds_type: dds_type.to_owned(),
+            latched: false,
+            reliable: true,
+        })
+    }
+
     fn read(&mut self, plan: ReaderPlan) -> Arc<Inbox<Sample>> {
         self.plan.readers.push(plan);
         let inbox = Arc::new(Inbox::new(SAMPLES));

@@ -18,8 +18,6 @@ use super::{Drilling, SPACING, Station, Track, across};
 const START: f64 = 1.0 * std::f64::consts::PI / 180.0;
 /// Longest piece of the filter (m): the weight across the hole changes little over it.
 const PIECE: f64 = 0.25;
-/// Holes that are drawn from what the surveys say: the ends of a band scatter by 4 % of its half.
-const HOLES: usize = 1000;
 /// 90 % of a normal distribution are within so many standard deviations.
 pub const NINETY: f64 = 1.644_853_626_951;
 
@@ -58,6 +56,11 @@ pub fn arc_begins(config: &Config) -> f64 {
         .map(flexdrill_config::Section::length)
         .sum();
     (config.well.length() - arcs).max(0.0)
+}
+
+/// Measured depth from which on this tool has drilled (m): as configured, or else where the arcs that end at the bit begin.
+pub fn drilled_from(config: &Config) -> f64 {
+    config.well.drilled_from.unwrap_or_else(|| arc_begins(config))
 }
 
 impl Learnt {
@@ -124,6 +127,11 @@ impl Learnt {
         self.surveys.iter().filter(|survey| survey.depth >= self.since)
     }
 
+    /// Standard deviation of the azimuth of the plane of the build (rad): 0 where a plan has it.
+    pub const fn plane_deviation(&self) -> f64 {
+        self.plane_deviation
+    }
+
     /// What a survey corrects.
     pub fn corrects(&self, survey: &Survey) -> &'static str {
         match survey.depth - self.since {
@@ -160,8 +168,8 @@ impl Learnt {
         })
     }
 
-    /// The plausible holes ahead: drawn from the filter around the tool as configured, or, where surveys correct the direction
-    /// alone, the plausible tools from the surveyed direction on.
+    /// The plausible holes ahead: so many `holes` drawn from the filter around the tool as configured, or, where surveys correct
+    /// the direction alone, the plausible tools from the surveyed direction on.
     ///
     /// # Errors
     /// [`HoleError`] never, with stations at a distance.
@@ -169,6 +177,7 @@ impl Learnt {
         &self,
         nominal: &[Station],
         tools: &[Result<Track, String>],
+        holes: usize,
         seed: u64,
     ) -> Result<Vec<Result<Track, String>>, HoleError> {
         let unit = Distribution::Normal {
@@ -190,7 +199,7 @@ impl Learnt {
         };
         if self.corrects_curvature() {
             let steps = nominal.len().saturating_sub(1);
-            return (0..HOLES).map(|_| drawn(nominal, steps).map(Ok)).collect();
+            return (0..holes).map(|_| drawn(nominal, steps).map(Ok)).collect();
         }
         let from_surveyed = |tool: &Result<Track, String>| match tool {
             Ok(track) => drawn(track, 0).map(Ok),
