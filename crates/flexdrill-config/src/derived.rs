@@ -1,7 +1,7 @@
 //! Quantities derived from a configuration.
 
-use super::Config;
 use super::pipe::MadePiece;
+use super::{Config, Section};
 use std::f64::consts::PI;
 
 use flexdrill_core::tool::{JointKind, SectionProperties};
@@ -94,7 +94,7 @@ impl Config {
             for section in &self.well.sections {
                 let end = begin + section.length();
                 if begin < lower && (has_passed || end > upper) {
-                    bent(section.curvature());
+                    section.curvature_range().into_iter().for_each(&mut bent);
                 }
                 begin = end;
             }
@@ -110,7 +110,7 @@ impl Config {
         let guide = &self.tool.guide;
         let mut bends = self.guide_bends(true);
         if bends.is_empty() {
-            let sections = self.well.sections.iter().map(|section| section.curvature());
+            let sections = self.well.sections.iter().flat_map(Section::curvature_range);
             let tightest = sections.clone().fold(0.0, f64::max);
             bends.extend(sections.chain([0.0]).map(|path| (path - tightest).abs()));
         }

@@ -24,7 +24,7 @@ impl Config {
             .well
             .sections
             .iter()
-            .map_while(|s| begin_of(s, &mut left))
+            .flat_map(|s| begin_of(s, &mut left))
             .collect();
         if left > SHORTEST {
             schema.well.sections.push(Section::Straight { length: left });
@@ -34,20 +34,30 @@ impl Config {
 }
 
 /// The start of a section that fits into the length `left` (m), which is reduced by it.
-fn begin_of(section: &Section, left: &mut f64) -> Option<Section> {
-    if *left <= SHORTEST {
-        return None;
-    }
+fn begin_of(section: &Section, left: &mut f64) -> Vec<Section> {
     let length = section.length().min(*left);
     *left -= length;
-    Some(match *section {
-        Section::Straight { .. } => Section::Straight { length },
-        whole @ Section::Arc { .. } if length == section.length() => whole,
-        Section::Arc { radius, .. } => Section::Arc {
-            radius,
-            build_angle_deg: rad_to_deg(length / radius),
-        },
-    })
+    section.between(0.0, length)
+}
+
+impl Section {
+    /// The part of it between two lengths from its top (m); hole as drilled that is cut within a point has several. Nothing
+    /// where rounding alone is left.
+    pub fn between(&self, top: f64, bottom: f64) -> Vec<Self> {
+        let length = bottom - top;
+        if length <= SHORTEST {
+            return Vec::new();
+        }
+        match self {
+            Self::Straight { .. } => vec![Self::Straight { length }],
+            Self::Arc { .. } if length == self.length() => vec![self.clone()],
+            Self::Arc { radius, .. } => vec![Self::Arc {
+                radius: *radius,
+                build_angle_deg: rad_to_deg(length / radius),
+            }],
+            Self::Drilled(drilled) => drilled.between(top, bottom).into_iter().map(Self::Drilled).collect(),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ fn inclination(config: &Config, depth: f64) -> f64 {
     let mut rest = depth;
     for section in &config.well.sections {
         let length = section.length().min(rest);
-        at += section.curvature() * length;
+        at += section.turn(length);
         rest -= length;
     }
     at

@@ -47,6 +47,13 @@ pub struct Station {
     pub position: [f64; 3],
 }
 
+impl Station {
+    /// Direction of the hole (of length 1): along azimuth 0, to the right of it, down.
+    pub fn direction(&self) -> [f64; 3] {
+        plan::tangent(self.inclination, self.azimuth)
+    }
+}
+
 /// The stations of a tool, from the bit on.
 pub type Track = Vec<Station>;
 
@@ -209,13 +216,9 @@ pub fn curvature(track: &[Station]) -> f64 {
     let ends = (track.first(), track.get(NEXT_METRE));
     let (Some(from), Some(to)) = ends else { return f64::NAN };
     // Components of the later direction across the earlier one, and along it.
-    let direction = |at: &Station| {
-        let ((sine, cosine), (east, north)) = (libm::sincos(at.inclination), libm::sincos(at.azimuth));
-        [sine * north, sine * east, cosine]
-    };
     let dot = |a: [f64; 3], b: [f64; 3]| a.into_iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let [high, right] = across(from).map(|unit| dot(unit, direction(to)));
-    libm::atan2(high.hypot(right), dot(direction(from), direction(to))) / (NEXT_METRE as f64 * SPACING)
+    let [high, right] = across(from).map(|unit| dot(unit, to.direction()));
+    libm::atan2(high.hypot(right), dot(from.direction(), to.direction())) / (NEXT_METRE as f64 * SPACING)
 }
 
 #[cfg(test)]

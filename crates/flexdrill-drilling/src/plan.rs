@@ -141,7 +141,7 @@ pub fn covers(file: &str, rows: &[Row], bit: f64) -> Result<(), PlanError> {
 }
 
 /// Unit vector of a direction.
-fn tangent(inclination: f64, azimuth: f64) -> [f64; 3] {
+pub(crate) fn tangent(inclination: f64, azimuth: f64) -> [f64; 3] {
     let ((sine, cosine), (east, north)) = (libm::sincos(inclination), libm::sincos(azimuth));
     [sine * north, sine * east, cosine]
 }

@@ -1,7 +1,7 @@
 //! What the guide of a configuration drills in a long arc, and which arcs it drills with no bit: what `flexdrill check`
 //! says before a run.
 
-use flexdrill_config::{BitAxis, Config, FreeBend};
+use flexdrill_config::{BitAxis, Config, FreeBend, Section};
 use flexdrill_core::units::kn_to_n;
 use flexdrill_hole::{Bounds, bounds, steady};
 
@@ -86,7 +86,9 @@ impl Range {
 
     /// Arcs of the hole and a plan (its rows) that this guide cannot drill. What lies above the bit of the plan is drilled.
     pub fn excluded(&self, config: &Config, rows: Option<&[plan::Row]>) -> Vec<Excluded> {
-        let arcs = config.well.sections.iter().filter(|section| section.curvature() != 0.0);
+        // Hole as drilled is there, whichever tool has drilled it.
+        let arcs = config.well.sections.iter();
+        let arcs = arcs.filter(|section| matches!(section, Section::Arc { .. }));
         let mut excluded: Vec<Excluded> = arcs
             .filter(|arc| self.excludes(arc.curvature()))
             .map(|arc| Excluded::Arc(1.0 / arc.curvature()))

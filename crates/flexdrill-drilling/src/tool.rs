@@ -1,9 +1,10 @@
 //! The guide, the bit and the hole of a configuration, as [`flexdrill_hole`] takes them.
 
-use flexdrill_config::{BitAxis, Config, Law, Section};
-use flexdrill_core::tool::{HoleInterval, SectionProperties};
+use flexdrill_config::{BitAxis, Config, Drilled, Law, Section};
+use flexdrill_core::tool::{Course, HoleInterval, SectionProperties};
 use flexdrill_core::units::{deg_to_rad, n_to_kn};
 use flexdrill_hole::{BitLaw, Gravity, Guide, Hole, HoleError};
+use nalgebra::Vector3;
 
 use super::loads::{bit_torque, weights};
 
@@ -96,7 +97,7 @@ pub fn wear_flats(config: &Config) -> f64 {
     }
 }
 
-/// Curvature of the hole at the bit (1/m).
+/// Curvature of the hole at the bit (1/m); of hole as drilled the mean.
 pub fn curvature_at_bit(config: &Config) -> f64 {
     config.well.sections.last().map_or(0.0, Section::curvature)
 }
@@ -150,6 +151,28 @@ pub fn bit(config: &Config, weight: f64) -> Result<BitLaw, Refusal> {
     })
 }
 
+/// Chords of at most `longest` (m) through hole as drilled below a course, whose points lie at other distances.
+fn chords_of(mut course: Course, drilled: &Drilled, longest: f64) -> Vec<Vector3<f64>> {
+    let count = (drilled.length() / longest - 1e-9).ceil().max(1.0);
+    let length = drilled.length() / count;
+    let (mut before, mut points) = (course.position, drilled.points.iter().peekable());
+    let (mut whole, mut chords) = (0.0, Vec::with_capacity(count as usize));
+    for end in (1..=count as u32).map(|index| f64::from(index) * length) {
+        // Points above the end of the chord, then the part of one that it ends in.
+        while let Some(curvatures) = points.next_if(|_| whole + drilled.spacing <= end) {
+            course.advance(drilled.spacing, *curvatures);
+            whole += drilled.spacing;
+        }
+        let mut at = course;
+        if let Some(curvatures) = points.peek() {
+            at.advance(end - whole, **curvatures);
+        }
+        chords.push(at.position - before);
+        before = at.position;
+    }
+    chords
+}
+
 impl Drilling {
     /// The tool of a configuration at the end of its hole, under a weight at the bit (N). The hole lies in a vertical plane at
     /// an azimuth (rad).
@@ -161,14 +184,18 @@ impl Drilling {
         let (guide, law) = (guide(config, weight), bit(config, weight)?);
         let chords = (SPACING / chord(&guide)).ceil();
         let chord = SPACING / chords;
-        let mut hole = Hole::begin(deg_to_rad(config.well.start_inclination_deg), azimuth)?;
+        let start = deg_to_rad(config.well.start_inclination_deg);
+        let (mut hole, mut course) = (Hole::begin(start, azimuth)?, Course::begin(start, azimuth));
         for section in &config.well.sections {
-            hole = match *section {
-                Section::Straight { length } => hole.straight(length, chord)?,
+            let above = course;
+            section.extend(&mut course);
+            hole = match section {
+                Section::Straight { length } => hole.straight(*length, chord)?,
                 Section::Arc {
                     radius,
                     build_angle_deg,
-                } => hole.arc(radius, deg_to_rad(build_angle_deg), chord)?,
+                } => hole.arc(*radius, deg_to_rad(*build_angle_deg), chord)?,
+                Section::Drilled(drilled) => hole.through(chords_of(above, drilled, chord))?,
             };
         }
         Ok(Self {

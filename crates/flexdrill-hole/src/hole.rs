@@ -122,6 +122,19 @@ impl Hole {
         Ok(self)
     }
 
+    /// Adds chords of another description of the hole (m, world).
+    ///
+    /// # Errors
+    /// [`ValidationError`] for a chord that has no length.
+    pub fn through(mut self, chords: impl IntoIterator<Item = Vector3<f64>>) -> Result<Self, ValidationError> {
+        for chord in chords {
+            let length = chord.norm();
+            Bound::Positive.check("hole.chord", length, "m")?;
+            self.extend(chord / length, length);
+        }
+        Ok(self)
+    }
+
     /// Points of the axis (m), from the start to the bit.
     pub fn points(&self) -> &[Vector3<f64>] {
         &self.points

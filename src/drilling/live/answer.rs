@@ -77,7 +77,7 @@ pub fn refusal(config: &Config) -> Option<String> {
 /// Length of the arc above the bit (m).
 fn arc_above_the_bit(config: &Config) -> f64 {
     let sections = config.well.sections.iter().rev();
-    let arc = sections.take_while(|section| matches!(section, Section::Arc { .. }));
+    let arc = sections.take_while(|section| section.curvature() != 0.0);
     arc.map(Section::length).sum()
 }
 

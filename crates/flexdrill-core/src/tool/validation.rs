@@ -213,11 +213,24 @@ impl WellDescription {
         }
         for (index, section) in self.sections.iter().enumerate() {
             let field = |name: &str| format!("well.sections[{index}].{name}");
-            match *section {
-                WellSection::Straight { length } => Bound::Positive.check(&field("length"), length, "m")?,
+            match section {
+                WellSection::Straight { length } => Bound::Positive.check(&field("length"), *length, "m")?,
                 WellSection::Arc { radius, angle } => {
-                    Bound::Positive.check(&field("radius"), radius, "m")?;
-                    Bound::Positive.check(&field("angle"), angle, "rad")?;
+                    Bound::Positive.check(&field("radius"), *radius, "m")?;
+                    Bound::Positive.check(&field("angle"), *angle, "rad")?;
+                }
+                WellSection::Drilled { spacing, build, .. } => {
+                    Bound::Positive.check(&field("spacing"), *spacing, "m")?;
+                    if build.is_empty() {
+                        return Err(ValidationError::Length {
+                            field: field("build"),
+                            got: 0,
+                            expected: "at least 1".to_owned(),
+                        });
+                    }
+                    for (point, build) in build.iter().enumerate() {
+                        Bound::Finite.check(&field(&format!("build[{point}]")), *build, "1/m")?;
+                    }
                 }
             }
         }

@@ -1,5 +1,10 @@
-//! The bore's centre line as straight and arc sections in the vertical X-Z plane (`X` horizontal in the direction of
-//! build, `Y` horizontal, `Z` down).
+//! The bore's centre line as straight sections, arcs and hole as drilled in the vertical X-Z plane (`X` horizontal in the
+//! direction of build, `Y` horizontal, `Z` down).
+//!
+//! All of it is arcs: a straight section is one without curvature, and hole as drilled one per point. Position,
+//! inclination and curvature at any depth are those of its arc, exact up to rounding. Frames of the hole have y along `Y`
+//! and are therefore free of twist; z is the low side, because the inclination stays within 0 and 180 deg.
+//! [`Course`](super::Course) has holes that leave the plane.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,21 +35,19 @@ impl WellPath {
         let mut inclination = description.start_inclination;
         let mut origin = Vector3::zeros();
         for (section, interval) in description.sections.iter().zip(description.intervals()) {
-            let (length, curvature) = match *section {
-                WellSection::Straight { length } => (length, 0.0),
-                WellSection::Arc { radius, angle } => (radius * angle, 1.0 / radius),
-            };
-            let piece = Piece {
-                start,
-                inclination,
-                curvature,
-                origin,
-                interval,
-            };
-            origin = piece.position(length);
-            inclination += curvature * length;
-            start += length;
-            pieces.push(piece);
+            section.arcs(|length, curvature| {
+                let piece = Piece {
+                    start,
+                    inclination,
+                    curvature,
+                    origin,
+                    interval,
+                };
+                origin = piece.position(length);
+                inclination += curvature * length;
+                start += length;
+                pieces.push(piece);
+            });
         }
         Self { pieces, length: start }
     }
@@ -103,6 +106,10 @@ impl WellDescription {
                 before_arc = false;
                 HoleInterval::Arc
             }
+            WellSection::Drilled { interval, .. } => {
+                before_arc &= *interval == HoleInterval::BeforeArc;
+                *interval
+            }
             WellSection::Straight { .. } if before_arc => HoleInterval::BeforeArc,
             WellSection::Straight { .. } => HoleInterval::AfterArc,
         })
@@ -115,11 +122,23 @@ impl WellDescription {
 
     /// Sum of the angles by which the hole turns (rad): what friction is multiplied by along it.
     pub fn turn(&self) -> f64 {
-        let turn = |section: &WellSection| match *section {
+        let turn = |section: &WellSection| match section {
             WellSection::Straight { .. } => 0.0,
-            WellSection::Arc { angle, .. } => angle,
+            WellSection::Arc { angle, .. } => *angle,
+            WellSection::Drilled { spacing, build, .. } => build.iter().map(|build| build.abs() * spacing).sum(),
         };
         self.sections.iter().map(turn).sum()
+    }
+}
+
+impl WellSection {
+    /// Calls `each` with length (m) and curvature (1/m) of each of its arcs, from the top down.
+    fn arcs(&self, mut each: impl FnMut(f64, f64)) {
+        match self {
+            Self::Straight { length } => each(*length, 0.0),
+            Self::Arc { radius, angle } => each(radius * angle, 1.0 / radius),
+            Self::Drilled { spacing, build, .. } => build.iter().for_each(|&curvature| each(*spacing, curvature)),
+        }
     }
 }
 
@@ -132,7 +151,8 @@ impl Piece {
     }
 }
 
-fn sinc(x: f64) -> f64 {
+/// sin(x)/x, the chord of an arc over its length where `x` is half of the angle turned.
+pub(super) fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-8 { 1.0 } else { libm::sin(x) / x }
 }
 
@@ -176,18 +196,32 @@ mod tests {
     #[test]
     fn a_straight_section_belongs_to_the_interval_before_or_after_the_arcs() {
         use HoleInterval::{AfterArc, Arc, BeforeArc};
-        let (straight, arc) = (WellSection::Straight { length: 2.0 }, |radius| WellSection::Arc {
-            radius,
-            angle: 0.5,
-        });
+        let (straight, arc) = (
+            || WellSection::Straight { length: 2.0 },
+            |radius| WellSection::Arc { radius, angle: 0.5 },
+        );
+        let drilled = |interval| WellSection::Drilled {
+            spacing: 0.02,
+            build: vec![0.3],
+            interval,
+        };
         let well = |sections| WellDescription {
             start_inclination: 0.0,
             sections,
         };
-        let whole = well(vec![straight, arc(4.0), straight, arc(8.0), straight]);
+        let whole = well(vec![straight(), arc(4.0), straight(), arc(8.0), straight()]);
         let intervals: Vec<_> = whole.intervals().collect();
         assert_eq!(intervals, [BeforeArc, Arc, AfterArc, Arc, AfterArc]);
-        let level = well(vec![straight, straight]);
+        let of_drilled = well(vec![
+            drilled(BeforeArc),
+            straight(),
+            drilled(Arc),
+            straight(),
+            drilled(AfterArc),
+        ]);
+        let intervals: Vec<_> = of_drilled.intervals().collect();
+        assert_eq!(intervals, [BeforeArc, BeforeArc, Arc, AfterArc, AfterArc]);
+        let level = well(vec![straight(), straight()]);
         assert!(level.has(BeforeArc) && !level.has(Arc) && !level.has(AfterArc));
         let path = WellPath::new(&whole);
         assert_eq!(

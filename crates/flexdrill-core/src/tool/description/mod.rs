@@ -28,11 +28,11 @@ pub struct WellDescription {
 /// A part of the hole with friction of its own: the formation, the casing and the cuttings differ from one to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum HoleInterval {
-    /// Straight sections before the first arc; all of a hole without arcs.
+    /// Straight sections before the first arc; all of a hole without arcs. Hole as drilled where it says so.
     BeforeArc,
-    /// Arcs.
+    /// Arcs, and hole as drilled where it says so.
     Arc,
-    /// Straight sections after the first arc, those between two arcs too.
+    /// Straight sections after the first arc, those between two arcs too. Hole as drilled where it says so.
     AfterArc,
 }
 
@@ -79,7 +79,7 @@ impl Default for WallFrictionFactors {
 }
 
 /// One section of the well path.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum WellSection {
     /// Straight over `length` (m).
@@ -93,6 +93,15 @@ pub enum WellSection {
         radius: f64,
         /// Change of inclination (rad).
         angle: f64,
+    },
+    /// Hole as drilled: arcs of equal length that follow each other, each with its curvature.
+    Drilled {
+        /// Length of each arc (m).
+        spacing: f64,
+        /// Change of inclination per metre of each arc (1/m), below 0 where the hole drops.
+        build: Vec<f64>,
+        /// The interval of the hole that it belongs to: as drilled it is neither straight nor an arc.
+        interval: HoleInterval,
     },
 }
 
