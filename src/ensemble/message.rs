@@ -55,7 +55,10 @@ impl Ensemble {
 }
 
 /// Figures whose factors the profiles of both layers have: the largest force of all stations is the same quantity.
-const OF_PROFILES: [&str; 2] = ["contact_forces/max_pipe_guide_force", "contact_forces/max_guide_wall_force"];
+const OF_PROFILES: [&str; 2] = [
+    "contact_forces/max_pipe_guide_force",
+    "contact_forces/max_guide_wall_force",
+];
 
 /// The factors on the bands of a configuration, by [`OverTools::known`]: 1 where it states none.
 ///
@@ -66,7 +69,9 @@ pub fn band_factors(config: &Config) -> Result<Vec<f64>, UncertaintyError> {
     let mut factors = vec![1.0; known.len()];
     for of in config.ensemble.iter().flat_map(|stated| &stated.band_factors) {
         let Some(index) = known.iter().position(|known| known.name == of.figure) else {
-            let nearest = known.iter().min_by_key(|known| strsim::levenshtein(&known.name, &of.figure));
+            let nearest = known
+                .iter()
+                .min_by_key(|known| strsim::levenshtein(&known.name, &of.figure));
             return Err(UncertaintyError::Figure {
                 figure: of.figure.clone(),
                 nearest: nearest.map_or_else(String::new, |known| known.name.clone()),

@@ -26,8 +26,8 @@ mod trust;
 
 pub use engine::{Ensemble, Found, Generation, Told};
 pub use evidence::Compared;
-pub use message::band_factors;
 pub use fork::{Fork, Forks};
+pub use message::band_factors;
 pub use place::Threads;
 pub use posterior::named_by;
 pub use running::{Forking, Pace, Running};

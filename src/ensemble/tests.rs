@@ -603,10 +603,14 @@ fn a_band_is_wider_by_the_factor_of_its_figure() {
         assert_eq!(*factor, wanted, "{}", before.name);
         if before.p50.is_finite() {
             let widened = |end: f64| before.p50 + wanted * (end - before.p50);
-            assert!(close(after.p5, widened(before.p5)) && close(after.p95, widened(before.p95)), "{after:?}");
+            assert!(
+                close(after.p5, widened(before.p5)) && close(after.p95, widened(before.p95)),
+                "{after:?}"
+            );
         }
     }
-    let half = |bands: &Bands, station: usize| bands.pipe_guide_force_p95[station] - bands.pipe_guide_force_p50[station];
+    let half =
+        |bands: &Bands, station: usize| bands.pipe_guide_force_p95[station] - bands.pipe_guide_force_p50[station];
     for station in 0..plain.measured_depth.len() {
         assert!(close(half(&wide, station), 2.0 * half(&plain, station)), "{station}");
     }

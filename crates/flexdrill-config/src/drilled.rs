@@ -96,7 +96,7 @@ impl Drilled {
     }
 
     /// The parts within two lengths from its top (m): whole points, and where an end is within a point a piece of one.
-    pub(crate) fn between(&self, top: f64, bottom: f64) -> Vec<Self> {
+    pub fn between(&self, top: f64, bottom: f64) -> Vec<Self> {
         let mut parts: Vec<Self> = Vec::new();
         for (index, point) in self.points.iter().enumerate() {
             let start = self.spacing * index as f64;

@@ -152,7 +152,9 @@ impl Ensemble {
             for (index, of) in self.band_factors.iter().enumerate() {
                 c.below(index, |c| {
                     of.check_numbers(c);
-                    let before = self.band_factors[..index].iter().any(|before| before.figure == of.figure);
+                    let before = self.band_factors[..index]
+                        .iter()
+                        .any(|before| before.figure == of.figure);
                     c.require(
                         !before,
                         "figure",

@@ -173,6 +173,32 @@ fn chords_of(mut course: Course, drilled: &Drilled, longest: f64) -> Vec<Vector3
     chords
 }
 
+/// The hole of sections from the top down, in chords of a length (m), from an inclination and an azimuth (rad) on.
+///
+/// # Errors
+/// When a section has no length, or a hole is turned too far.
+pub fn hole<'a>(
+    start: f64,
+    azimuth: f64,
+    sections: impl IntoIterator<Item = &'a Section>,
+    chord: f64,
+) -> Result<Hole, HoleError> {
+    let (mut hole, mut course) = (Hole::begin(start, azimuth)?, Course::begin(start, azimuth));
+    for section in sections {
+        let above = course;
+        section.extend(&mut course);
+        hole = match section {
+            Section::Straight { length } => hole.straight(*length, chord)?,
+            Section::Arc {
+                radius,
+                build_angle_deg,
+            } => hole.arc(*radius, deg_to_rad(*build_angle_deg), chord)?,
+            Section::Drilled(drilled) => hole.through(chords_of(above, drilled, chord))?,
+        };
+    }
+    Ok(hole)
+}
+
 impl Drilling {
     /// The tool of a configuration at the end of its hole, under a weight at the bit (N). The hole lies in a vertical plane at
     /// an azimuth (rad).
@@ -183,21 +209,8 @@ impl Drilling {
         check(config)?;
         let (guide, law) = (guide(config, weight), bit(config, weight)?);
         let chords = (SPACING / chord(&guide)).ceil();
-        let chord = SPACING / chords;
         let start = deg_to_rad(config.well.start_inclination_deg);
-        let (mut hole, mut course) = (Hole::begin(start, azimuth)?, Course::begin(start, azimuth));
-        for section in &config.well.sections {
-            let above = course;
-            section.extend(&mut course);
-            hole = match section {
-                Section::Straight { length } => hole.straight(*length, chord)?,
-                Section::Arc {
-                    radius,
-                    build_angle_deg,
-                } => hole.arc(*radius, deg_to_rad(*build_angle_deg), chord)?,
-                Section::Drilled(drilled) => hole.through(chords_of(above, drilled, chord))?,
-            };
-        }
+        let hole = hole(start, azimuth, &config.well.sections, SPACING / chords)?;
         Ok(Self {
             guide,
             law,

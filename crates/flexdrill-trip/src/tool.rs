@@ -3,8 +3,8 @@
 use flexdrill_config::{Config, FreeBend, Section};
 use flexdrill_core::tool::{HoleInterval, ToolDescription, WellPath};
 use flexdrill_drilling::loads::weights;
-use flexdrill_drilling::tool::{chord, curvature_at_bit, guide};
-use flexdrill_hole::{Guide, Hole, HoleError, Sense, Sliding, sliding};
+use flexdrill_drilling::tool::{chord, curvature_at_bit, guide, hole};
+use flexdrill_hole::{Guide, HoleError, Sense, Sliding, sliding};
 
 use crate::soft_string::{Load, Motion, Piece};
 
@@ -35,28 +35,37 @@ pub fn pieces(
     friction: impl Fn(HoleInterval) -> f64,
     radius: f64,
 ) -> Vec<Piece> {
-    let (mut inclination, mut has_arc) = (start_inclination, false);
-    let piece = |section: &Section| {
-        let (length, curvature) = (section.length(), section.curvature());
+    let (mut inclination, mut before_arc) = (start_inclination, true);
+    let mut pieces = Vec::new();
+    for section in sections {
         let interval = match section {
             Section::Arc { .. } => HoleInterval::Arc,
-            Section::Straight { .. } if has_arc => HoleInterval::AfterArc,
-            Section::Straight { .. } => HoleInterval::BeforeArc,
+            Section::Straight { .. } if before_arc => HoleInterval::BeforeArc,
+            Section::Straight { .. } => HoleInterval::AfterArc,
+            Section::Drilled(drilled) => drilled.interval.into(),
         };
-        has_arc |= interval == HoleInterval::Arc;
-        let piece = Piece {
-            length,
-            inclination,
-            curvature,
-            along,
-            across,
-            friction: friction(interval),
-            radius,
+        before_arc &= interval == HoleInterval::BeforeArc;
+        let mut add = |length: f64, curvature: f64| {
+            pieces.push(Piece {
+                length,
+                inclination,
+                curvature,
+                along,
+                across,
+                friction: friction(interval),
+                radius,
+            });
+            inclination += curvature * length;
         };
-        inclination += curvature * length;
-        piece
-    };
-    sections.iter().map(piece).collect()
+        match section {
+            Section::Straight { .. } | Section::Arc { .. } => add(section.length(), section.curvature()),
+            Section::Drilled(drilled) => drilled
+                .points
+                .iter()
+                .for_each(|[build, _]| add(drilled.spacing, *build)),
+        }
+    }
+    pieces
 }
 
 /// Largest radius at which the pipe touches the guide (m).
@@ -88,16 +97,17 @@ fn hole_of(sections: &[Section], above: f64, depth: f64) -> Vec<Section> {
         if left < SHORTEST {
             break;
         }
-        hole.push(match *section {
-            Section::Straight { .. } => Section::Straight { length: left },
+        match section {
+            Section::Straight { .. } => hole.push(Section::Straight { length: left }),
             Section::Arc {
                 radius,
                 build_angle_deg,
-            } => Section::Arc {
-                radius,
+            } => hole.push(Section::Arc {
+                radius: *radius,
                 build_angle_deg: build_angle_deg * (left / section.length()),
-            },
-        });
+            }),
+            Section::Drilled(drilled) => hole.extend(drilled.between(0.0, left).into_iter().map(Section::Drilled)),
+        }
         begins += section.length();
     }
     hole
@@ -150,13 +160,8 @@ impl Tool {
     /// When the statics of the guide have no solution.
     pub fn slides(&self, depth: f64, tension: f64, sense: Sense) -> Result<(Vec<f64>, Sliding), HoleError> {
         let chord = chord(&self.guide);
-        let mut hole = Hole::begin(self.start, 0.0)?;
-        for section in hole_of(&self.sections, self.guide.length - depth, depth) {
-            hole = match section {
-                Section::Straight { length } => hole.straight(length, chord)?,
-                Section::Arc { radius, .. } => hole.arc(radius, section.length() / radius, chord)?,
-            };
-        }
+        let sections = hole_of(&self.sections, self.guide.length - depth, depth);
+        let hole = hole(self.start, 0.0, &sections, chord)?;
         let slides = sliding(&self.guide, tension, &hole, sense)?;
         let mut depths = vec![depth];
         let chords = hole.points().windows(2).rev().take(slides.tensions.len() - 1);

@@ -55,7 +55,7 @@ fn kind(quantity: Quantity) -> Option<Kind> {
         Quantity::Measured(MeasuredKind::HookLoad) => Some(Kind::HookLoad),
         Quantity::Measured(MeasuredKind::SurfaceTorque) => Some(Kind::Torque),
         Quantity::Measured(MeasuredKind::StandpipePressure) => Some(Kind::Pressure),
-        Quantity::Measured(_) => None,
+        Quantity::Measured(_) | Quantity::Survey(_) => None,
     }
 }
 
