@@ -257,8 +257,8 @@ pub fn bounds(guide: &Guide, weight: f64, sine_of_inclination: f64) -> Result<Bo
     })
 }
 
-/// The steering resistance eta W_a (N) with which a guide of one curvature drills its free curvature: W + sqrt(3 EI p/(2 c)). Above it the
-/// hole is more curved than the guide as made.
+/// The steering resistance eta W_a (N) with which a guide of one curvature drills its free curvature: W + sqrt(3 EI p/(2 c)).
+/// Above it the hole is more curved than the guide as made.
 ///
 /// # Errors
 /// [`HoleError::Invalid`] for numbers out of bounds.

@@ -58,7 +58,7 @@ fn pieces_that_are_alike_are_one_guide_to_the_bit() {
 }
 
 /// Force (N) and tilt (mrad) of a second program for a guide that was made as the hole is, an arc below a vertical hole, at
-/// 10 kN. Its figures are rounded to 0.04 % at worst; chords of 40 mm differ from its own by some 0.1 %.
+/// 10 kN. The bar is that of the same program for a guide of one curvature in statics.rs.
 #[test]
 fn a_guide_made_as_the_hole_is() {
     for (factor, degrees, force, tilt) in [
