@@ -364,13 +364,13 @@ impl Ensemble {
         while let Some((ticks, compared)) = self.compared.pop_front_if(|(ticks, _)| *ticks <= to) {
             let errors = self.errors;
             self.newest = Some(compared);
-            let anew = self.trust.measured(&compared, |quantity| errors.sample(quantity)[0]);
+            let restarted = self.trust.measured(&compared, |quantity| errors.sample(quantity)[0]);
             self.members(|member| {
                 let computed = predicted(member.snapshot());
                 member.windows.add(&errors, &compared, &computed);
                 // A tool that begins moves until it has settled, whatever the rig does.
                 if ticks > settled {
-                    member.windows.follow(compared.step, &computed, &anew);
+                    member.windows.follow(compared.step, &computed, &restarted);
                 }
             });
             for quantity in RigQuantity::ALL {

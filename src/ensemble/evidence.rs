@@ -187,13 +187,13 @@ impl Windows {
         self.newest[quantity as usize]
     }
 
-    /// Takes a second in which the member computes `computed`, steady or not, for how its readings move. `anew` has the
+    /// Takes a second in which the member computes `computed`, steady or not, for how its readings move. `restarted` has the
     /// sensors that have begun to show another value.
     pub(super) fn follow(
         &mut self,
         step: f64,
         computed: &[f64; RigQuantity::COUNT],
-        anew: &[bool; RigQuantity::COUNT],
+        restarted: &[bool; RigQuantity::COUNT],
     ) {
         for (index, slow) in self.slow.iter_mut().enumerate() {
             let reading = self.factors[index] * computed[index];
@@ -205,7 +205,7 @@ impl Windows {
                 range: [reading; 2],
             });
             let mean = mean + (step / SLOW).min(1.0) * (reading - mean);
-            let range = match anew[index] {
+            let range = match restarted[index] {
                 true => [mean; 2],
                 false => [range[0].min(mean), range[1].max(mean)],
             };

@@ -613,6 +613,18 @@ export interface Bands {
   any_alarm: number;
   any_alarm_lower: number;
   any_alarm_upper: number;
+  /**
+   * Sensors of the rig that the plausible tools are not weighed by, as in `uncertainty.sensors` (surface_torque, hook_load); empty
+   * where all are believed. The alarms of the twin do not depend on it.
+   */
+  distrusted: string[];
+  /** Why, in words, for each of them. */
+  distrusted_why: string[];
+  /**
+   * Factors by which the bands of `bands` are wider than those of the members (ensemble.band_factors), in their order: 1 where none
+   * is stated; empty without bands. The profiles have those of the largest force of their layer.
+   */
+  band_factors: Float64Array;
 }
 /** Reads a `flexdrill/msg/Bands`. */
 export function decodeBands(reader: CdrReader): Bands {
@@ -637,6 +649,9 @@ export function decodeBands(reader: CdrReader): Bands {
     any_alarm: reader.float64(),
     any_alarm_lower: reader.float64(),
     any_alarm_upper: reader.float64(),
+    distrusted: reader.many(reader.length(), () => reader.string()),
+    distrusted_why: reader.many(reader.length(), () => reader.string()),
+    band_factors: reader.float64Array(reader.length()),
   };
 }
 
