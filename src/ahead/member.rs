@@ -3,9 +3,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::early::Early;
 use super::goal::Ends;
-use super::measured::{Measured, hazard};
+use super::measured::Measured;
 use super::set_point::Wavering;
+use super::tally::{Tally, damage};
 use super::trace::Trace;
 use crate::alarms::{AlarmBook, AlarmId, AlarmSet};
 use crate::session::Session;
@@ -14,8 +16,6 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::{QualityLevel, Run, RunInputs, Snapshot};
-use flexdrill_core::units::rad_per_s_to_rpm;
-use flexdrill_motion::{BIT, Hold, KICK_OFF, SURFACE};
 
 /// Largest lateral velocity (m/s) by which members differ at the beginning. It is a ten-thousandth of the velocities that
 /// the pipe has in drilling, and no instrument in a well resolves it; a turn later the places of the pipe differ by
@@ -376,124 +376,5 @@ impl<'a> Watched<'a> {
     }
 }
 
-/// When a member ends before its horizon.
-struct Early {
-    /// The alarms that are to end.
-    alarms: AlarmSet,
-    /// Time for which they must stay away (s).
-    lasting: f64,
-    /// Least looks of the member.
-    least: u64,
-    /// The alarm without whose end the rest says nothing.
-    leading: AlarmId,
-    /// Looks from which on a condition that is met keeps its alarm for the rest of the time that alarms have to end.
-    hopeless: u64,
-    /// Model time from which on the condition of none of the alarms was met (s); none while one is.
-    over: Option<f64>,
-}
-
-impl Early {
-    /// Takes a look. An alarm outlasts its condition by the hold-off of the analysis, in which the motion has ended already.
-    fn follow(&mut self, snapshot: &Snapshot, book: &AlarmBook) {
-        let ended = self.alarms.iter().map(|id| match (book.active(id), hazard(id)) {
-            (None, _) => Some(f64::NEG_INFINITY),
-            (Some(_), Some(kind)) => match snapshot.hazards.of(kind).hold {
-                Hold::Ended { at } => Some(at),
-                Hold::Met | Hold::Less { .. } => None,
-            },
-            (Some(_), None) => None,
-        });
-        let ended = ended.collect::<Option<Vec<f64>>>();
-        self.over = ended.map(|ended| {
-            let last = ended.into_iter().fold(f64::NEG_INFINITY, f64::max);
-            // Where all alarms have ended, they did between two looks.
-            let last = if last.is_finite() { last } else { snapshot.time };
-            self.over.unwrap_or(last)
-        });
-    }
-
-    /// The priority of the leading alarm, where it stands and its condition is met.
-    fn is_met(&self, snapshot: &Snapshot, book: &AlarmBook) -> Option<Priority> {
-        let hold = snapshot.hazards.of(hazard(self.leading)?).hold;
-        book.active(self.leading).filter(|_| hold == Hold::Met)
-    }
-}
-
 /// Time (s) within which an alarm caused by the earlier motion stands: the longest on-delay of an alarm of the motion.
 const SETTLING: f64 = 5.0;
-
-/// Damage of the joint that has aged most.
-fn damage(snapshot: &Snapshot) -> f64 {
-    let ageing = &snapshot.ageing;
-    let damages = ageing.stop_damage.iter().zip(&ageing.bending_damage);
-    damages.map(|(stop, bending)| stop.max(*bending)).fold(0.0, f64::max)
-}
-
-/// Sums and maxima over the looks of a member.
-#[derive(Default)]
-struct Tally {
-    ripple: Mean,
-    cycles: Mean,
-    torque: Mean,
-    weight: Mean,
-    forces: [f64; 2],
-    stop: f64,
-}
-
-#[derive(Default)]
-struct Mean {
-    sum: f64,
-    count: f64,
-}
-
-impl Mean {
-    fn add(&mut self, value: f64) {
-        if value.is_finite() {
-            self.sum += value;
-            self.count += 1.0;
-        }
-    }
-
-    fn value(&self) -> f64 {
-        self.sum / self.count
-    }
-}
-
-impl Tally {
-    fn add(&mut self, snapshot: &Snapshot) {
-        let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        self.ripple.add(snapshot.bit.stick_slip_index);
-        let turns_per_hour = 60.0 * rad_per_s_to_rpm(snapshot.applied.rotary_speed).abs();
-        self.cycles.add(most(&snapshot.whirl.bending_cycles) * turns_per_hour);
-        let layers = [&snapshot.contacts.pipe_guide, &snapshot.contacts.guide_wall];
-        for (force, layer) in self.forces.iter_mut().zip(layers) {
-            *force = force.max(most(&layer.normal_peak));
-        }
-        self.stop = self.stop.max(most(&snapshot.joints.stop_moment));
-        let transfer = &snapshot.transfer;
-        self.torque.add(transfer.torque_efficiency);
-        let weight = &transfer.weight.mean;
-        let above = if weight[SURFACE].is_finite() {
-            weight[SURFACE]
-        } else {
-            weight[KICK_OFF]
-        };
-        if above > 0.0 {
-            self.weight.add(weight[BIT] / above);
-        }
-    }
-
-    /// With the damage per hour.
-    fn figures(&self, damage: f64) -> [f64; Figure::ALL.len()] {
-        Figure::ALL.map(|figure| match figure {
-            Figure::Ripple => self.ripple.value(),
-            Figure::PipeGuideForce => self.forces[0],
-            Figure::GuideWallForce => self.forces[1],
-            Figure::StopMoment => self.stop,
-            Figure::BendingCycles => self.cycles.value(),
-            Figure::Damage => damage,
-            Figure::TorqueTransfer => self.torque.value(),
-            Figure::WeightTransfer => self.weight.value(),
-        })
-    }
-}

@@ -4,7 +4,8 @@
 //! - [`Goal`]: candidates, horizon, members; checked against the configuration before anything runs.
 //! - [`Start`]: the states from which members begin: one for all, or a plausible tool for each (`draws`).
 //! - [`SetPoint`]: what the driller has set, and how the rig wavers about it; members waver alike.
-//! - `member`: one run of one candidate, judged by the alarms that the node itself uses.
+//! - `member`: one run of one candidate, judged by the alarms that the node itself uses; `early`, `tally`: when it ends
+//!   before its horizon, and its figures.
 //! - `measured`: the motion of a member without the gates of the alarms.
 //! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
 //! - [`look_ahead`]: runs the members on some threads (`engine`) and gathers an [`Answer`].
@@ -24,6 +25,7 @@ mod advice;
 mod answer;
 mod chance;
 mod draws;
+mod early;
 mod engine;
 mod forecast;
 mod goal;
@@ -34,6 +36,7 @@ mod member;
 mod plausible_tests;
 mod set_point;
 mod start;
+mod tally;
 mod trace;
 
 pub use advice::{LEAST_CONFIRMING, SearchProgress, Searched, search};

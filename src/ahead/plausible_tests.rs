@@ -33,7 +33,8 @@ tool:
   bit: {{diameter: 0.118}}
 environment: {{gravity: 100}}
 solver: {{time_step: 0.001, step: fixed}}
-stick_slip: {{window: 3.0, hysteresis: 1.0e-9, hold_off: 0.0, levels: {{watch: {watch}, warning: {warning}, critical: 9.0}}}}
+stick_slip:
+  {{window: 3.0, hysteresis: 1.0e-9, hold_off: 0.0, levels: {{watch: {watch}, warning: {warning}, critical: 9.0}}}}
 uncertainty:
   keys:
     - key: contact.inner.friction_tangential

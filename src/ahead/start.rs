@@ -221,7 +221,7 @@ impl Start {
         matches!(self.tools, Tools::This)
     }
 
-    /// How many tools these members have; 0 where they have none of their own that is drawn.
+    /// How many tools these members have; 0 where none is drawn.
     pub(super) fn tools(&self, members: impl Iterator<Item = u32>) -> u32 {
         let Tools::Forked(forked) = &self.tools else { return 0 };
         let mut drawn: Vec<usize> = members.filter_map(|member| forked.draws.of(member)).collect();

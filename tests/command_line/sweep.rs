@@ -554,9 +554,8 @@ fn the_cells_of_a_fast_map_are_those_of_fresh_full_runs() {
     let text = std::fs::read_to_string("tests/data/small.yaml").unwrap();
     // A level amid the swings of the bit's speed over the grid, so that some cells have alarms and some have none.
     let level = |watch: f64| {
-        let levels = format!(
-            "\nstick_slip: {{window: 2.0, hysteresis: 1.0e-9, hold_off: 0.0, levels: {{watch: {watch}, warning: 8.0, critical: 9.0}}}}\n"
-        );
+        let levels = format!("levels: {{watch: {watch}, warning: 8.0, critical: 9.0}}");
+        let levels = format!("\nstick_slip: {{window: 2.0, hysteresis: 1.0e-9, hold_off: 0.0, {levels}}}\n");
         Config::from_text("small.yaml", &(text.clone() + &levels)).unwrap()
     };
     let question = |fast: bool| Question {

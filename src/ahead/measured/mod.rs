@@ -57,7 +57,7 @@ pub(super) fn is_judged_at(id: AlarmId, [rpm, kn]: [f64; 2], settings: &Simulati
     gates && speed > 0.0 && above(speed, settings.whirl.min_rotary_speed)
 }
 
-/// Time (s) for which an alarm stands on at least after a look at which its condition counts as met. Only that of
+/// Time (s) for which an alarm remains at least after a look at which its condition counts as met. Only that of
 /// stick-slip is long.
 pub(super) fn least_hold(id: AlarmId, settings: &SimulationSettings) -> f64 {
     match hazard(id) {

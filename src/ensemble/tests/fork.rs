@@ -1,4 +1,4 @@
-//! Plausible tools as look-aheads have them: each in the state that a full run of its own has at that instant.
+//! Plausible tools as look-aheads have them: each in the state that a full run of that tool has at that instant.
 
 use super::*;
 use crate::ensemble::place::State;

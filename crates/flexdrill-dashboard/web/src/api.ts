@@ -153,6 +153,8 @@ export interface WhatIfAnswer {
   hole_radius_high: Figure;
   hole_plan_distance: Figure;
   hole_plan_ahead: Figure;
+  /** Plausible tools that the members are runs of; none, or 0, where they are runs of the twin. */
+  tools?: number;
 }
 
 /** The newest question to the look-ahead, with its answers so far. */

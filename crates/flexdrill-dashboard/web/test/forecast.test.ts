@@ -22,6 +22,7 @@ import {
   presentOf,
   rows,
   summary,
+  uncalibrated,
   withdrawn,
 } from "../src/views/forecast";
 import { holeOf, verdict } from "../src/views/what_if";
@@ -201,6 +202,15 @@ test("the store knows what a forecast must be of", () => {
   assert.equal(presentOf(store).applied?.weight_on_bit, 10e3);
 });
 
+test("a band says how far ahead it is not calibrated yet", () => {
+  const band = (calibrated: boolean[]) => ({
+    lead_until: new Float64Array([10, 30, 60]),
+    lead_calibrated: calibrated,
+  });
+  assert.equal(uncalibrated(band([true, true, true])), "");
+  assert.equal(uncalibrated(band([false, true, false])), " Not calibrated yet 0 to 10 s, 30 to 60 s ahead.");
+});
+
 test("a candidate without a run that ended is unknown, not safe", () => {
   const answer: WhatIfAnswer = {
     candidate: { rotary_speed: 60, weight_on_bit: 12 },
@@ -234,6 +244,8 @@ test("a candidate without a run that ended is unknown, not safe", () => {
   assert.equal(holeOf(unknown, "si"), "Hole not known: the bit is off bottom.");
   assert.equal(verdict(answer), "no alarm in 6 runs (0.0 % to 39.0 %)");
   assert.equal(verdict({ ...answer, any_alarm: 0.5 }), "alarms in 3 of 6 runs (0.0 % to 39.0 %)");
+  assert.equal(verdict({ ...answer, tools: 6 }), "no alarm in 6 plausible tools (0.0 % to 39.0 %)");
+  assert.equal(verdict({ ...answer, tools: 4 }), "no alarm in 6 runs of 4 plausible tools (0.0 % to 39.0 %)");
   assert.match(verdict({ ...answer, failed: 2 }), /4 runs .*; 2 unknown$/);
   assert.match(verdict({ ...answer, failed: 6, any_alarm: null, failure: "a step failed" }), /^unknown: a step failed/);
 });

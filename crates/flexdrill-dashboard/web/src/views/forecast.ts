@@ -1,7 +1,7 @@
 // The standing forecast: the band of the next minute and what came, in one strip; the chance of each alarm.
 
 import { h, setText, show } from "../dom";
-import { type AlarmChance, type AppliedInputs, type Forecast, TwinStatus } from "../messages";
+import { type AlarmChance, type AppliedInputs, type Forecast, type ForecastBand, TwinStatus } from "../messages";
 import type { Ring } from "../store/ring";
 import type { Layout, Scalar } from "../store/layout";
 import type { Store } from "../store/store";
@@ -223,6 +223,14 @@ export function alarmRows(all: readonly AlarmChance[]): HTMLElement[] {
 const OF_NOW = "The next minute at the present speed and weight";
 const HEADING = "Forecast";
 
+/** How far ahead a band is not calibrated yet, as words after a sentence; empty where all of it is. */
+export function uncalibrated(band: Pick<ForecastBand, "lead_until" | "lead_calibrated">): string {
+  const spans = [...band.lead_until]
+    .map((until, index) => `${index === 0 ? 0 : band.lead_until[index - 1]} to ${until} s`)
+    .filter((_, index) => !band.lead_calibrated[index]);
+  return spans.length === 0 ? "" : ` Not calibrated yet ${spans.join(", ")} ahead.`;
+}
+
 export class ForecastView implements View {
   readonly element: HTMLElement;
   private readonly heading = h("h2", { id: "forecast-heading" }, HEADING);
@@ -306,7 +314,7 @@ export class ForecastView implements View {
     setText(
       this.held,
       band && band.compared > 0
-        ? `${signal.label} in ${unit}. In the band so far: ${percent(share)} of ${band.compared} s that were compared.`
+        ? `${signal.label} in ${unit}. In the band so far: ${percent(share)} of ${band.compared} s that were compared.${uncalibrated(band)}`
         : `${signal.label} in ${unit}. No forecast has been compared with what came yet.`,
     );
     const key = `${newest.from_step} ${newest.header.stamp.sec}`;

@@ -26,7 +26,14 @@ export function verdict(answer: api.WhatIfAnswer): string {
   const seen = Math.round(answer.any_alarm * ended);
   const interval = `${percent(answer.any_alarm_lower ?? 0)} to ${percent(answer.any_alarm_upper ?? 1)}`;
   const what = seen === 0 ? "no alarm in" : `alarms in ${seen} of`;
-  return `${what} ${counted(ended, "run")} (${interval})${unknown}`;
+  const tools = answer.tools ?? 0;
+  const runs =
+    tools === 0
+      ? counted(ended, "run")
+      : tools === answer.members
+        ? counted(ended, "plausible tool")
+        : `${counted(ended, "run")} of ${counted(tools, "plausible tool")}`;
+  return `${what} ${runs} (${interval})${unknown}`;
 }
 
 /** A number of the answer, which JSON has as null where it is none. */
