@@ -372,12 +372,12 @@ fn a_motion_that_ends_slowly_is_found_with_more_time() {
 /// are over (1.5 s less, in which a condition counts as met, and three looks). On the way speed and weight change at the
 /// slew limits of `config/default.yaml`.
 ///
-/// Two cores at 2 s of model time per second, of which the twin takes one second per second, have 3 s of it for the search:
-/// 175 s in the 58 s that remain of a minute once the alarm has settled. Each change in turn, with eight members of 40 s to
-/// choose one and ten to confirm it, takes 830 s to 950 s in the same places.
+/// Two cores at 2.05 s of model time per second, of which the twin takes one second per second, have 3.1 s of it for the
+/// search: 180 s in the 58 s that remain of a minute once the alarm has settled. Each change in turn, with eight members of
+/// 40 s to choose one and ten to confirm it, takes 830 s to 950 s in the same places.
 #[test]
 fn a_search_has_a_first_answer_within_the_work_of_a_minute() {
-    const MOST: f64 = 175.0;
+    const MOST: f64 = 180.0;
     let from = [40.0, 18.0];
     let found = trials(&config(), &RULE, from[0], from[1]);
     type Ends = fn([f64; 2]) -> bool;

@@ -21,7 +21,7 @@ const SETTLED: Duration = Duration::from_secs(2);
 const AWAY: Duration = Duration::from_secs(10);
 /// Model time (s) that a search takes until its first answer, where one direction of change helps: two changes that show
 /// which, two that show how much, and four members that confirm it.
-const USUAL: f64 = 175.0;
+const USUAL: f64 = 180.0;
 /// Part of a coefficient of friction by which it may change: a torque follows it by as much, and a torque gauge shows
 /// no less.
 const SAME_FRICTION: f64 = 0.05;
