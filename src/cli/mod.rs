@@ -44,6 +44,7 @@ mod priors;
 mod progress;
 #[cfg(feature = "sweep")]
 mod reach;
+mod rebase;
 mod record_name;
 mod recover;
 mod replay;
@@ -121,6 +122,7 @@ enum Command {
     Watch(watch::WatchArgs),
     Dashboard(dashboard::DashboardArgs),
     Demo(demo::DemoArgs),
+    Rebase(rebase::RebaseArgs),
     Recover(recover::RecoverArgs),
     Verify(verify::VerifyArgs),
     Paper(Box<paper::PaperArgs>),
@@ -317,6 +319,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         Command::Watch(args) => watch::run(&args),
         Command::Dashboard(args) => dashboard::run(&args),
         Command::Demo(args) => demo::run(&args),
+        Command::Rebase(args) => rebase::run(&args),
         Command::Recover(args) => recover::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Paper(args) => paper::run(&args),

@@ -26,6 +26,7 @@ use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
 use crate::bag::{RecordingThread, Topic};
+use crate::drilling::live::{Point, SharedPoints, split};
 use crate::ensemble::{self, Ensemble, Pace, Running};
 use crate::live::{Hub, LiveServer, Steering};
 use crate::rig_inputs::Driver;
@@ -73,6 +74,10 @@ pub(super) struct PreparedNode {
     /// What viewers may steer; none without viewers.
     viewers: Option<Arc<Viewers>>,
     checkpoint: Option<Vec<u8>>,
+    /// Points of the hole as drilled from the checkpoint.
+    earlier: Vec<Point>,
+    /// The same of this run, for its checkpoints.
+    drilled: Arc<SharedPoints>,
     /// The map of speed and weight, where one is named.
     window: Option<Arc<SafeWindow>>,
     /// What plausible tools are drawn from, where the configuration names it.
@@ -88,7 +93,8 @@ impl PreparedNode {
     /// When a name is not allowed or the checkpoint cannot be read.
     pub(super) fn new(setup: NodeSetup) -> Result<Self, NodeError> {
         // Files first: a wrong checkpoint or map ends the program before it appears on the network.
-        let checkpoint = setup.checkpoint.as_deref().map(read_checkpoint).transpose()?;
+        let file = setup.checkpoint.as_deref().map(read_checkpoint).transpose()?;
+        let (checkpoint, earlier) = file.map_or((None, Vec::new()), |(checkpoint, points)| (Some(checkpoint), points));
         let config_file = Path::new(&setup.config_file);
         let (config, posterior) =
             ensemble::named_by(&setup.config, config_file).map_err(|error| NodeError::Stopped(error.to_string()))?;
@@ -234,6 +240,8 @@ impl PreparedNode {
             received: received::queue(),
             viewers,
             checkpoint,
+            earlier,
+            drilled: Arc::clone(control.drilled()),
             window,
             posterior,
             shut_down,
@@ -294,6 +302,7 @@ impl PreparedNode {
             self.clocks.rig_time(),
         );
         let mut session = Session::new(Arc::clone(&self.config), book);
+        session.continue_hole(&self.earlier);
         if let Some(window) = self.window {
             session.judge_by(window);
         }
@@ -328,6 +337,7 @@ impl PreparedNode {
             forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
             set_point: Arc::clone(&answering.set_point),
             moves: self.moves,
+            drilled: self.drilled,
         };
         let publisher = Publisher::new(parts, session).map_err(|error| NodeError::Stopped(error.to_string()))?;
         // The publisher runs before the solver builds its tool, which takes seconds: status and alarms of the node
@@ -372,11 +382,14 @@ fn topic_name(setup: &NodeSetup, topic: &TopicInfo) -> String {
     setup.topic_name(topic).unwrap_or_else(|_| topic.name.to_owned())
 }
 
-fn read_checkpoint(path: &Path) -> Result<Vec<u8>, NodeError> {
-    std::fs::read(path).map_err(|source| NodeError::Checkpoint {
+/// State and hole as drilled of a file.
+fn read_checkpoint(path: &Path) -> Result<(Vec<u8>, Vec<Point>), NodeError> {
+    let refused = |why: String| NodeError::Checkpoint {
         path: path.to_owned(),
-        why: source.to_string(),
-    })
+        why,
+    };
+    let file = std::fs::read(path).map_err(|source| refused(source.to_string()))?;
+    split(file).map_err(|damaged| refused(damaged.to_string()))
 }
 
 /// Starts the server for viewers; those with the token may steer.

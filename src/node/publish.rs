@@ -20,6 +20,7 @@ use super::set_point::SharedSetPoint;
 use super::thinned::Thinned;
 use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
+use crate::drilling::live::SharedPoints;
 use crate::health::diagnostics::{self, RigEvidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
@@ -84,6 +85,8 @@ pub struct PublisherParts {
     pub set_point: Arc<SharedSetPoint>,
     /// Takes the moves of what follows the rig.
     pub moves: Moves,
+    /// Takes the hole as drilled, for checkpoints.
+    pub drilled: Arc<SharedPoints>,
 }
 
 /// Publishes the run.
@@ -215,6 +218,7 @@ impl Publisher {
         self.send_forecast();
         log_unsent(self.session.publish_bands(false, &mut NodeHost::all(&self.parts)));
         log_unsent(self.session.publish_hole(false, &mut NodeHost::all(&self.parts)));
+        self.parts.drilled.update(self.session.drilled());
         // Requests of operators are answered before the list is published,
         // so that an acknowledgement is in the next list.
         let PublisherParts { alarms, clocks, .. } = &mut self.parts;

@@ -11,7 +11,7 @@ mod tests;
 use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
-use crate::drilling::live::{LiveHole, Ready};
+use crate::drilling::live::{Appended, DrilledHole, LiveHole, Point, Ready};
 use crate::ensemble::{self, Found, Running, Told};
 use crate::residuals::{Comparison, RigComparison, Samples, predicted};
 use crate::safe_window::SafeWindow;
@@ -64,6 +64,8 @@ pub struct Session {
     begun: Option<(u64, i64)>,
     /// Where the tool drills next.
     hole: LiveHole,
+    /// Points of the hole from an earlier run, until they are published.
+    earlier: Vec<Appended>,
     /// None before the instant of the first step is known, and in a run that publishes nothing.
     outputs: Option<Outputs>,
 }
@@ -75,6 +77,7 @@ impl Session {
         Self {
             rig: RigComparison::new(&config),
             hole: LiveHole::new(&config),
+            earlier: Vec::new(),
             config,
             alarms,
             residuals: None,
@@ -110,6 +113,8 @@ impl Session {
         // A run whose first message cannot be sent has begun all the same: its outputs follow.
         self.outputs = Some(outputs);
         sent?;
+        let earlier = std::mem::take(&mut self.earlier);
+        self.publish_drilled(earlier, start, host)?;
         let Some(window) = &self.window else { return Ok(()) };
         host.send(Encoded {
             topic: &topics::SAFE_WINDOW,
@@ -319,6 +324,7 @@ impl Session {
             ticks,
             answered,
             mut message,
+            appended,
         }) = self.hole.take(wait)
         {
             // Frames come only once the instant of the first step is known.
@@ -329,6 +335,33 @@ impl Session {
             self.alarms.observe_hole(&message, stamp);
             host.send(Encoded {
                 topic: &topics::HOLE_AHEAD,
+                stamp,
+                cdr: &to_cdr(&message)?,
+            })?;
+            self.publish_drilled(appended, stamp, host)?;
+        }
+        Ok(())
+    }
+
+    /// The hole as drilled.
+    pub fn drilled(&self) -> &DrilledHole {
+        self.hole.drilled()
+    }
+
+    /// Continues the hole of an earlier run, whose points a checkpoint has; [`Session::begin`] publishes them, so that a
+    /// recording has all of the hole.
+    pub fn continue_hole(&mut self, points: &[Point]) {
+        self.earlier = self.hole.continue_with(points);
+    }
+
+    /// Publishes points of the hole at an instant (ns since 1970).
+    fn publish_drilled<H: Host>(&self, appended: Vec<Appended>, stamp: i64, host: &mut H) -> Result<(), H::Error> {
+        for (answered, mut message) in appended {
+            message.header = self.header(stamp);
+            let answered = answered.and_then(|ticks| self.instant(ticks));
+            message.answered = answered.map_or_else(Time::default, Time::from_nanoseconds);
+            host.send(Encoded {
+                topic: &topics::HOLE_DRILLED,
                 stamp,
                 cdr: &to_cdr(&message)?,
             })?;

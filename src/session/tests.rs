@@ -6,7 +6,7 @@ use crate::rig_inputs::Measured;
 use flexdrill_core::inputs::MeasuredKind;
 use flexdrill_core::twin::{Run, Simulation};
 use flexdrill_messages::topics::Cadence;
-use flexdrill_messages::{HoleAhead, RigMeasured, from_cdr};
+use flexdrill_messages::{HoleAhead, HoleDrilled, RigMeasured, from_cdr};
 use flexdrill_outputs::{MeasuredValues as _, schedule};
 
 const SECOND: i64 = 1_000_000_000;
@@ -115,8 +115,13 @@ const OF_THE_NODE: [&str; 3] = [
 fn all_topics_of_a_run_come_from_the_session() {
     let (session, host) = hosted(&config());
     let counts = host.counts();
-    // A map is sent by sessions that have one, and nothing happens in two seconds that an alarm's event is of.
-    let at_times = [topics::SAFE_WINDOW.name, topics::ALARM_EVENTS.name];
+    // A map is sent by sessions that have one, and nothing happens in two seconds that an alarm's event is of, or that a
+    // point of the hole is complete with.
+    let at_times = [
+        topics::SAFE_WINDOW.name,
+        topics::ALARM_EVENTS.name,
+        topics::HOLE_DRILLED.name,
+    ];
     let published = topics::ALL.iter().filter(|topic| topic.cadence != Cadence::Received);
     for topic in published.filter(|topic| !OF_THE_NODE.contains(&topic.name)) {
         assert!(
@@ -141,6 +146,35 @@ fn all_topics_of_a_run_come_from_the_session() {
     // One message of applied inputs at the start and one repetition a second later; the second one is due at 2 s.
     assert_eq!(counts[topics::APPLIED_INPUTS.name], 3);
     assert_eq!(host.sent[0].0, topics::SESSION.name);
+}
+
+/// A recording of a run that continues from a checkpoint has all of the hole.
+#[test]
+fn a_hole_that_an_earlier_run_has_drilled_is_published_at_the_start() {
+    let config = config();
+    let (mut session, mut host) = (session(&config), Kept::default());
+    let point = |build| Point {
+        curvatures: [build, 0.0],
+        known: true,
+    };
+    let points = [point(0.3), point(0.31), point(0.29)];
+    session.continue_hole(&points);
+    session.begin(START, &mut host).unwrap();
+    let drilled = host
+        .sent
+        .iter()
+        .filter(|(topic, ..)| *topic == topics::HOLE_DRILLED.name);
+    let sent: Vec<HoleDrilled> = drilled.map(|(_, _, cdr)| from_cdr(cdr).unwrap()).collect();
+    assert_eq!(
+        sent.iter().map(|sent| sent.build).collect::<Vec<_>>(),
+        [0.3, 0.31, 0.29]
+    );
+    assert!((sent[2].measured_depth - config.well.length() - 0.06).abs() < 1e-12);
+    assert_eq!(session.drilled().points(), points);
+    // What was published is not published again.
+    let before = host.sent.len();
+    session.publish_hole(true, &mut host).unwrap();
+    assert_eq!(host.sent.len(), before);
 }
 
 /// A member of a look-ahead has a session that was never begun: it judges as the others do, and sends nothing.

@@ -75,6 +75,7 @@ types! {
     ours::Forecast,
     ours::ForecastBand,
     ours::HoleAhead,
+    ours::HoleDrilled,
     ours::JointDeflections,
     ours::Reactions,
     ours::Residual,

@@ -22,10 +22,9 @@ contact:
 environment: {gravity: 9.81, buoyancy_factor: 0.86}
 ";
 
-/// What a replay that succeeds says.
-pub(crate) fn replayed(arguments: &[&Path]) -> String {
+/// What a command that succeeds says.
+pub(crate) fn succeeds(arguments: &[&Path]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
-        .arg("replay")
         .args(arguments)
         .output()
         .unwrap();
@@ -34,11 +33,16 @@ pub(crate) fn replayed(arguments: &[&Path]) -> String {
     said.concat()
 }
 
-/// Time and bytes of each message.
-pub(crate) fn messages(of: &Path) -> Vec<(i64, Vec<u8>)> {
+/// What a replay that succeeds says.
+pub(crate) fn replayed(arguments: &[&Path]) -> String {
+    succeeds(&[&[Path::new("replay")], arguments].concat())
+}
+
+/// Time and bytes of each message of a topic.
+pub(crate) fn messages(of: &Path, topic: &str) -> Vec<(i64, Vec<u8>)> {
     let messages = bag::open(of).unwrap().map(Result::unwrap);
     messages
-        .filter(|message| message.topic.is("twin/hole_ahead"))
+        .filter(|message| message.topic.is(topic))
         .map(|message| (message.log_time, message.data.clone()))
         .collect()
 }
@@ -56,18 +60,18 @@ fn planned(radius: f64, length: f64) -> String {
     )
 }
 
-/// A run of a tool under 10 kN at 60 r/min over some seconds: its bag.
-fn run(folder: &Path, tool: &str, seconds: u32) -> PathBuf {
+/// A run of a tool under 10 kN at 60 r/min over some seconds, with a rate of penetration (m/h): its bag.
+pub(super) fn run(folder: &Path, tool: &str, seconds: u32, rate: u32) -> PathBuf {
     let at = |name: &str| -> PathBuf { folder.join(name) };
     std::fs::write(at("tool.yaml"), tool).unwrap();
     // 10 kN within a second; the answer for it is asked for at 6 s and used from 11 s on.
-    let rows = (0..seconds).map(|second| format!("{second},60,10\n"));
-    let rows: String = std::iter::once("time_s,rpm,wob\n".to_owned()).chain(rows).collect();
+    let rows = (0..seconds).map(|second| format!("{second},60,10,{rate}\n"));
+    let rows: String = std::iter::once("time_s,rpm,wob,rop\n".to_owned()).chain(rows).collect();
     std::fs::write(at("log.csv"), rows).unwrap();
     std::fs::write(
         at("mapping.yaml"),
         "columns:\n  time: {column: time_s, format: seconds}\n  rotary_speed: {column: rpm, unit: r/min}\n  \
-         weight_on_bit: {direct: {column: wob, unit: kN}}\n",
+         weight_on_bit: {direct: {column: wob, unit: kN}}\n  rate_of_penetration: {column: rop, unit: m/h}\n",
     )
     .unwrap();
     let [config, mapping, to] = ["--config", "--mapping", "--out"].map(Path::new);
@@ -88,11 +92,11 @@ fn events(of: &Path) -> Vec<AlarmEvent> {
 #[test]
 fn a_replay_repeats_where_the_tool_drills() {
     let folder = tempfile::tempdir().unwrap();
-    let first = run(folder.path(), &planned(3.145, 5.5), 24);
+    let first = run(folder.path(), &planned(3.145, 5.5), 24, 0);
     let to = Path::new("--out");
     let second = folder.path().join("again");
     replayed(&[&first, to, &second]);
-    let (run, again) = (messages(&first), messages(&second));
+    let [run, again] = [&first, &second].map(|of| messages(of, "twin/hole_ahead"));
     assert!(run.len() >= 15, "{} messages", run.len());
     assert!(run == again, "other messages");
     assert!(events(&first).is_empty(), "{:?}", events(&first));
@@ -125,7 +129,7 @@ fn a_replay_repeats_where_the_tool_drills() {
 #[test]
 fn a_plan_that_the_guide_cannot_drill_has_an_alarm() {
     let folder = tempfile::tempdir().unwrap();
-    let first = run(folder.path(), &planned(2.0, 3.0), 24);
+    let first = run(folder.path(), &planned(2.0, 3.0), 24, 0);
     let to = Path::new("--out");
     let second = folder.path().join("again");
     replayed(&[&first, to, &second]);

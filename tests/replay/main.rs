@@ -15,6 +15,7 @@ mod clock;
 mod earlier;
 mod field_log;
 mod following;
+mod growing_hole;
 mod hidden_rigs;
 mod hole_ahead;
 mod logs;

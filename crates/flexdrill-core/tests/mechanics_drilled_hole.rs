@@ -165,3 +165,42 @@ fn a_hole_that_drops_is_one_that_builds_mirrored() {
         assert!((u - other_u).abs() < 1e-8 && (w + other_w).abs() < 1e-8 && (tilt + other_tilt).abs() < 1e-8);
     }
 }
+
+/// The length of hole is the sum of the given rate over all steps with weight, also over those of other intervals. A motion
+/// that begins again begins a hole.
+#[test]
+fn the_bit_makes_as_much_hole_as_the_rate_says() {
+    let mut simulation = support::simulation(&support::tiny());
+    let mut snapshot = simulation.new_snapshot();
+    let dt = simulation.settings().time_step;
+    let mut inputs = Inputs {
+        rotary_speed: 2.0,
+        weight_on_bit: 5e3,
+        rate_of_penetration: 0.01,
+        ..Inputs::default()
+    };
+    let (mut expected, mut before) = (0.0, 0.0);
+    for step in 0..2000 {
+        // Lifted for the second half of a second.
+        inputs.weight_on_bit = if step < 1000 { 5e3 } else { 0.0 };
+        assert!(matches!(simulation.advance(&inputs), StepOutcome::Advanced { .. }));
+        let applied = simulation.applied();
+        if applied.weight_on_bit > 0.0 {
+            expected += applied.rate_of_penetration * dt;
+        }
+        if step % 150 == 0 {
+            simulation.snapshot(&mut snapshot, true);
+            assert!(snapshot.steering.drilled >= before);
+            before = snapshot.steering.drilled;
+        }
+    }
+    simulation.snapshot(&mut snapshot, true);
+    // Sums of 2000 terms of micrometres round to 1e-15 m.
+    assert!(
+        expected > 1e-4 && (snapshot.steering.drilled - expected).abs() < 1e-12,
+        "{snapshot:?}"
+    );
+    simulation.reset();
+    simulation.snapshot(&mut snapshot, true);
+    assert!(snapshot.steering.drilled == 0.0);
+}

@@ -1,7 +1,7 @@
 //! All topics: name, type, rate and quality of service. The node and the bags share this table.
 
 use super::{
-    Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, Forecast, HoleAhead,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, Forecast, HoleAhead, HoleDrilled,
     JointDeflections, Message, Reactions, Residuals, RigInputs, RigMeasured, RigSurvey, SafeWindow, SessionInfo,
     Transfer, TwinStatus, TypeInfo, WhirlState, WhirlWarning, diagnostic_msgs, rosgraph_msgs, sensor_msgs, std_msgs,
     tf2_msgs, visualization_msgs,
@@ -165,6 +165,9 @@ pub const FORECAST: TopicInfo = TopicInfo::new("twin/forecast", Forecast::INFO, 
 pub const BANDS: TopicInfo = TopicInfo::new("twin/bands", Bands::INFO, Cadence::OnChange, reliable(10));
 /// Output: where the tool drills next.
 pub const HOLE_AHEAD: TopicInfo = TopicInfo::new("twin/hole_ahead", HoleAhead::INFO, Cadence::OnChange, reliable(10));
+/// Output: the points of the hole that the tool drills.
+pub const HOLE_DRILLED: TopicInfo =
+    TopicInfo::new("twin/hole_drilled", HoleDrilled::INFO, Cadence::OnChange, reliable(100));
 /// Output: the map of speed and weight that is loaded.
 pub const SAFE_WINDOW: TopicInfo = TopicInfo::new("twin/safe_window", SafeWindow::INFO, Cadence::OnChange, LATCHED);
 /// Output: what the rig measures less what the twin computes.
@@ -228,6 +231,7 @@ pub const ALL: [TopicInfo; 30] = [
     FORECAST,
     BANDS,
     HOLE_AHEAD,
+    HOLE_DRILLED,
     SAFE_WINDOW,
     RESIDUALS,
     STATUS,

@@ -2,15 +2,18 @@
 //!
 //! Once per second of model time a message has the means of what the bit does across the hole (`means`). Where they can say
 //! where the tool drills (`answer`), the next metres are computed on another thread (`worker`) for the weight of an instant,
-//! and used [`DELAY`] of model time later, until the weight has moved or a survey has come. Which answer a message has is a function of the
-//! frames and surveys alone: where it is not there in time, the message and those behind it wait. A replay gives the same messages.
+//! and used [`DELAY`] of model time later, until the weight has moved or a survey has come. Which answer a message has is a
+//! function of the frames and surveys alone: where it is not there in time, the message and those behind it wait. A replay
+//! gives the same messages. What was drilled is kept point by point (`drilled`), also in the file of a checkpoint (`saved`).
 //! All of it reads the twin and acts on nothing.
 
 mod answer;
+mod drilled;
 mod means;
 mod message;
 #[cfg(test)]
 mod plan_tests;
+mod saved;
 #[cfg(test)]
 mod survey_tests;
 mod surveyed;
@@ -33,8 +36,10 @@ use self::worker::{Asked, Found, Worker};
 use crate::drilling::tool;
 
 pub use answer::{Ahead, Question, compute, refusal, side_force_doubt};
+pub use drilled::{Appended, DrilledHole, Point, SharedPoints};
 pub use means::Means;
 pub use message::surveys_of;
+pub use saved::{Damaged, split, with_points};
 
 /// Model time after which an answer is used (s): several times what it takes.
 pub const DELAY: f64 = 5.0;
@@ -68,6 +73,8 @@ struct Draft {
     inclination: f64,
     /// Surveys that are known.
     surveys: Arc<[Survey]>,
+    /// Length of hole since the run began (m).
+    drilled: f64,
     /// Ticks of the means whose answer it has, or why it has none.
     answer: Result<u64, String>,
 }
@@ -88,6 +95,8 @@ pub struct Ready {
     pub answered: Option<u64>,
     /// All but the header and the instant of the answer.
     pub message: HoleAhead,
+    /// Points of the hole that are complete with it.
+    pub appended: Vec<Appended>,
 }
 
 /// What the session keeps.
@@ -114,6 +123,8 @@ pub struct LiveHole {
     waits: bool,
     /// Why there are no answers any more.
     ended: Option<String>,
+    /// The hole as drilled.
+    drilled: DrilledHole,
 }
 
 impl LiveHole {
@@ -122,6 +133,7 @@ impl LiveHole {
         Self {
             refusal: refusal(config),
             flats: tool::wear_flats(config),
+            drilled: DrilledHole::new(&config.well),
             delay: (DELAY / config.solver.time_step).round() as u64,
             config: Arc::clone(config),
             window: Window::default(),
@@ -183,6 +195,7 @@ impl LiveHole {
             measured_depth: last(&snapshot.contacts.measured_depth),
             inclination: last(&snapshot.contacts.inclination),
             surveys: Arc::clone(&self.surveys),
+            drilled: snapshot.steering.drilled,
             answer,
         });
     }
@@ -280,11 +293,28 @@ impl LiveHole {
                     .unwrap_or("the computer does not keep up: the next metres are half a minute late")),
             },
         };
+        let message = message::message(&draft, ahead);
+        // What is not known of the hole ahead is not known of the hole that is drilled.
+        let shown = match (needs, ahead) {
+            (Some(answered), Ok(ahead)) if message.known => Ok((answered, &ahead.track)),
+            _ => Err(message.because.as_str()),
+        };
         Some(Ready {
             ticks: draft.ticks,
             answered: ahead.is_ok().then_some(needs).flatten(),
-            message: message::message(&draft, ahead),
+            appended: self.drilled.grow(draft.drilled, shown),
+            message,
         })
+    }
+
+    /// The hole as drilled.
+    pub fn drilled(&self) -> &DrilledHole {
+        &self.drilled
+    }
+
+    /// Continues the hole of an earlier run with its points. Returns their messages.
+    pub fn continue_with(&mut self, points: &[Point]) -> Vec<Appended> {
+        self.drilled.continue_with(points)
     }
 
     /// Takes what the thread has found, and waits for the answer of these ticks where it is to.

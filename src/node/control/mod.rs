@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use super::inputs::RigInputs;
 use super::parameters::{reconfigured, refresh_ranges};
 use super::states::{SavedRun, States};
+use crate::drilling::live::SharedPoints;
 use flexdrill_config::{Config, HardBounds, Rates};
 use flexdrill_core::twin::CheckpointError;
 use flexdrill_outputs::ParameterChange;
@@ -122,6 +123,8 @@ pub struct Control {
     initial_rates: Rates,
     /// When the last checkpoint was requested.
     checkpoint: Mutex<Option<Instant>>,
+    /// The hole as drilled, which a checkpoint has too.
+    drilled: Arc<SharedPoints>,
     /// What the states of a managed node ask for.
     managed: Mutex<Managed>,
     /// Acts before a reset.
@@ -162,6 +165,7 @@ impl Control {
             rig_inputs,
             gauges,
             checkpoint: Mutex::default(),
+            drilled: Arc::default(),
             managed: Mutex::default(),
             restore: OnceLock::new(),
         })
@@ -170,6 +174,11 @@ impl Control {
     /// The configuration in force.
     pub fn config(&self) -> Arc<Config> {
         Arc::clone(&self.config.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The hole as drilled, which the publisher keeps up to date.
+    pub fn drilled(&self) -> &Arc<SharedPoints> {
+        &self.drilled
     }
 
     /// The configuration at the start, by which the tool was built.

@@ -7,6 +7,7 @@ use std::sync::{Arc, PoisonError};
 use std::time::Instant;
 
 use super::{CHECKPOINT_INTERVAL, Control, ControlError};
+use crate::drilling::live::with_points;
 use crate::node::NodeError;
 use crate::node::states::SavedRun;
 use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
@@ -57,12 +58,13 @@ impl Control {
                 "flexdrill_{}_step{step}.checkpoint",
                 &self.config().hash()[..12]
             ));
-            if let Err(source) = write_whole(&path, &checkpoint) {
+            let file = with_points(checkpoint, &self.drilled.get());
+            if let Err(source) = write_whole(&path, &file) {
                 return Err(ControlError::Write { path, source });
             }
             // The client may run on another machine, where a relative path means nothing.
             let absolute = std::path::absolute(&path).unwrap_or(path);
-            Ok(format!("{} ({} bytes)", absolute.display(), checkpoint.len()))
+            Ok(format!("{} ({} bytes)", absolute.display(), file.len()))
         });
         let result = saved.await.unwrap_or_else(|error| Err(error.into()));
         let kind = if result.is_ok() {

@@ -208,6 +208,8 @@ pub struct Steering {
     pub side_force: [f64; 2],
     /// Tilt of the guide's last node against the hole (rad).
     pub tilt: [f64; 2],
+    /// Length of hole that the bit has made since the run began (m), of all steps.
+    pub drilled: f64,
 }
 
 /// What holds the tool at a place.

@@ -1233,6 +1233,63 @@ export function decodeHoleAhead(reader: CdrReader): HoleAhead {
 }
 
 /**
+ * A point of the hole as this tool drills it, from the end of the configured hole on: one message per 20 mm of advance. A
+ * point is final. The model stays in its configured hole until the next run; `flexdrill rebase` makes its configuration.
+ */
+export interface HoleDrilled {
+  /**
+   * Stamp: the instant of the means of `twin/hole_ahead` at which the point was complete, on the rig's clock; of points that a
+   * checkpoint has brought, the start of the run. Frame: the tool.
+   */
+  header: Header;
+  /** Number of the point, from 0 on. Where it is 0 again the motion has begun again, and the hole with it. */
+  point: number;
+  /** Length of hole of this point (m). */
+  length: number;
+  /** Length of hole from the end of the configured one to the lower end of this point (m). */
+  drilled: number;
+  /** Measured depth of the lower end, from the kick-off (m). */
+  measured_depth: number;
+  /** Inclination there (rad): 0 is straight down. */
+  inclination: number;
+  /** Azimuth there (rad), clockwise seen from above: 0 is the plane of the configured hole. */
+  azimuth: number;
+  /** Position there, from the kick-off (m): X horizontal in the plane of the configured hole, Y to its right, Z down. */
+  position: Float64Array;
+  /** Curvature of the hole over this point (1/m): above 0 the inclination rises. Axes are carried along the hole without twist. */
+  build: number;
+  /** The same to the right, seen down the hole (1/m). */
+  right: number;
+  /**
+   * Whether the hole ahead was known there. Where it is false the curvatures are those of the newest answer, or of the point
+   * above, or of the configured hole.
+   */
+  known: boolean;
+  /** Why it is not known, in one sentence; empty where it is. */
+  because: string;
+  /** The instant of the means whose answer has these curvatures, on the rig's clock; 0 without one. */
+  answered: Time;
+}
+/** Reads a `flexdrill/msg/HoleDrilled`. */
+export function decodeHoleDrilled(reader: CdrReader): HoleDrilled {
+  return {
+    header: decodeHeader(reader),
+    point: reader.uint32(),
+    length: reader.float64(),
+    drilled: reader.float64(),
+    measured_depth: reader.float64(),
+    inclination: reader.float64(),
+    azimuth: reader.float64(),
+    position: reader.float64Array(3),
+    build: reader.float64(),
+    right: reader.float64(),
+    known: reader.bool(),
+    because: reader.string(),
+    answered: decodeTime(reader),
+  };
+}
+
+/**
  * Deflection of and load on every joint of the flexible pipe. All arrays have one entry per joint, top to bottom:
  * entry 0 is joint_01 of joint_states.
  */
@@ -2746,6 +2803,7 @@ export const DECODERS = {
   "flexdrill/msg/Forecast": decodeForecast,
   "flexdrill/msg/ForecastBand": decodeForecastBand,
   "flexdrill/msg/HoleAhead": decodeHoleAhead,
+  "flexdrill/msg/HoleDrilled": decodeHoleDrilled,
   "flexdrill/msg/JointDeflections": decodeJointDeflections,
   "flexdrill/msg/Reactions": decodeReactions,
   "flexdrill/msg/Residual": decodeResidual,

@@ -164,6 +164,7 @@ impl Observer {
         self.chaotic_whirl.reset();
         self.transfer.reset();
         self.hole_depth = stepper.bit_depth();
+        self.steering = SteeringMeans::default();
         let loads = [&mut self.guide_preload, &mut self.pressure_folding];
         loads.into_iter().flatten().for_each(LoadWatch::reset);
         self.ageing.reset();

@@ -15,20 +15,27 @@ type Values = [f64; 7];
 pub(super) struct SteeringMeans {
     integrals: Values,
     duration: f64,
+    /// Length of hole made since the run began (m), over all intervals.
+    drilled: f64,
 }
 
 impl SteeringMeans {
-    /// Takes a step of `dt` (s), at its end, with torque, speed and weight of the bit.
-    pub fn push(&mut self, dt: f64, bit: [f64; 3], stepper: &Stepper) {
+    /// Takes a step of `dt` (s), at its end, with torque, speed and weight of the bit, and the rate (m/s) at which the hole
+    /// deepens.
+    pub fn push(&mut self, dt: f64, bit: [f64; 3], deepens: f64, stepper: &Stepper) {
         for (integral, value) in self.integrals.iter_mut().zip(together(bit, across(stepper))) {
             *integral += value * dt;
         }
         self.duration += dt;
+        self.drilled += deepens * dt;
     }
 
     /// Starts the next interval.
     pub fn restart(&mut self) {
-        *self = Self::default();
+        *self = Self {
+            drilled: self.drilled,
+            ..Self::default()
+        };
     }
 
     /// Means of the interval so far; at its start the present values, over no time, with these of the bit.
@@ -46,6 +53,7 @@ impl SteeringMeans {
             weight_on_bit,
             side_force: [right, low],
             tilt: [tilt_right, tilt_low],
+            drilled: self.drilled,
         }
     }
 }

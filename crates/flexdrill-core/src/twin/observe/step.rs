@@ -64,7 +64,7 @@ impl Observer {
         let bit = &stepper.interactions().bit;
         let of_bit = [bit.torque, bottom.spin_rate, bit.weight];
         self.bit.push(dt, of_bit);
-        self.steering.push(dt, of_bit, stepper);
+        self.steering.push(dt, of_bit, sample.rate_of_penetration, stepper);
         let radius = 0.5 * model.description.bit.diameter;
         self.tangential.push(dt, radius * bottom.spin_acceleration);
         self.axial.push(dt, bottom.axial_acceleration);
