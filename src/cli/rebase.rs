@@ -113,6 +113,7 @@ pub fn run(args: &RebaseArgs) -> anyhow::Result<()> {
             first.because
         );
     }
+    // Whether the hole can be one of a configuration is the check of `well.sections`, which says what is wrong with it.
     let walk = |right: f64| if args.in_plane { 0.0 } else { right };
     let curvatures: Vec<[f64; 2]> = points.iter().map(|point| [point.build, walk(point.right)]).collect();
     let rebased = config
@@ -128,6 +129,7 @@ pub fn run(args: &RebaseArgs) -> anyhow::Result<()> {
     if !new_file::write(&args.out, &text, "--out")? {
         bail!("--out {}: the file exists; give another name", args.out.display());
     }
+    // What the driller compares with surveys: direction and position of the bit in the new hole.
     let course = rebased.well.course();
     say!(
         "{}: {:.2} m drilled in {}; the bit at an inclination of {:.2} deg, azimuth {:.2} deg of the plane, {:.3} m along \
