@@ -110,7 +110,7 @@ section! {
         rated_moment_nm: f64 = JointLoadSettings::default().rated_moment, above(0.0, 1e7), "N m",
             "a stop that may carry nothing is always overloaded";
         /// Slope of the Woehler line that weights load cycles as damage, for comparison between stations: 3 for welds
-        /// and sharp notches, 5 for machined steel.
+        /// and sharp notches, 5 for machined steel. With `tool.joint.life` the slope of its class counts in place of it.
         woehler_slope: f64 = AgeingSettings::default().slope, within(1.0, 20.0), "",
             "steel has 3 to 8; at 1 only the number of cycles would count";
         /// Interval over which the moment is averaged (s).
@@ -250,7 +250,7 @@ impl ChaoticWhirl {
 impl JointLoad {
     pub(super) fn describe_ageing(&self) -> AgeingSettings {
         let mut settings = AgeingSettings::default();
-        settings.slope = self.woehler_slope;
+        (settings.slope, settings.slope_below_knee) = (self.woehler_slope, self.woehler_slope);
         settings.rated_moment = self.rated_moment_nm;
         settings
     }

@@ -1,12 +1,14 @@
 //! Relative ageing of the tool: damage of joints and links by counted load cycles, work of the friction at every
 //! station.
 //!
-//! The damage of a cycle is (range / rated moment)^slope, Palmgren and Miner's sum with a Woehler line of that slope.
-//! It compares stations and drilling parameters. It predicts no life, since the position of the line is unknown.
+//! The damage of a cycle is (range / rated moment)^slope, Palmgren and Miner's sum with a Woehler line of that slope, and
+//! less below the knee of a line that has one. It compares stations and drilling parameters. With the position of the line
+//! it is a part of a life: [`Detail`](super::Detail).
 
 use serde::{Deserialize, Serialize};
 
 use super::rainflow::Rainflow;
+use super::woehler::cycle_weight;
 
 /// Part of the rated moment below which a cycle is not counted: at a slope of 5 a million of them equal one.
 const LEAST_RANGE: f64 = 0.05;
@@ -19,6 +21,10 @@ pub struct AgeingSettings {
     pub slope: f64,
     /// Moment that a range is compared with (N m), see [`JointLoadSettings`](super::JointLoadSettings).
     pub rated_moment: f64,
+    /// Range over the rated moment at the knee of the line, for a stop and for a link; 0 for a line without a knee.
+    pub knees: [f64; 2],
+    /// Slope below the knee.
+    pub slope_below_knee: f64,
 }
 
 impl Default for AgeingSettings {
@@ -26,6 +32,8 @@ impl Default for AgeingSettings {
         Self {
             slope: 5.0,
             rated_moment: 100.0,
+            knees: [0.0; 2],
+            slope_below_knee: 5.0,
         }
     }
 }
@@ -108,14 +116,20 @@ impl AgeingWatch {
     /// of the link below each joint about two axes that turn with it, are the next values of the loads.
     pub fn sample(&mut self, elapsed: f64, bending: impl Fn(usize) -> [f64; 2]) {
         self.duration += elapsed;
-        let AgeingSettings { slope, rated_moment } = self.settings;
+        let AgeingSettings {
+            slope,
+            rated_moment,
+            knees: [of_stop, of_link],
+            slope_below_knee,
+        } = self.settings;
         for (index, joint) in self.joints.iter_mut().enumerate() {
             let [about_y, about_z] = bending(index);
             let loads = [joint.angular_impulse / elapsed, about_y, about_z];
             joint.angular_impulse = 0.0;
-            for ((flow, damage), load) in joint.channels.iter_mut().zip(&mut joint.damage).zip(loads) {
+            let channels = joint.channels.iter_mut().zip(&mut joint.damage);
+            for (((flow, damage), load), knee) in channels.zip(loads).zip([of_stop, of_link, of_link]) {
                 flow.push(load / rated_moment, LEAST_RANGE, |range| {
-                    *damage += libm::pow(range, slope)
+                    *damage += cycle_weight(range, [slope, slope_below_knee], knee);
                 });
             }
         }

@@ -12,6 +12,7 @@
 //! - [`TransferWatch`] averages torque, weight and power from the surface to the bit.
 //! - [`Hazards`] lists the results of all watches; alarms are made from it.
 //! - [`AgeingWatch`] finds what ages fastest, from cycles counted in `rainflow` and from the work of the friction.
+//!   [`Woehler`] and [`Detail`] turn counted cycles into the damage of a stated class, with its band.
 //! - [`EpisodeLog`] tabulates the levels over a run.
 //! - [`ContactStatistics`] and [`RootMeanSquare`] accumulate values between two outputs.
 //! - [`WhirlSettings`] and the settings of the other watches: every threshold, with its reason; `validation` checks them.
@@ -42,6 +43,7 @@ mod transfer;
 mod validation;
 mod watched_station;
 mod whirl;
+mod woehler;
 
 pub use ageing::{Ageing, AgeingSettings, AgeingWatch};
 pub use chaotic_whirl::{ChaoticWhirlLevel, ChaoticWhirlSettings, ChaoticWhirlWatch};
@@ -61,6 +63,7 @@ pub use transfer::{
 };
 pub use watched_station::{StationSample, WatchedStation};
 pub use whirl::WhirlAnalysis;
+pub use woehler::{DESIGN_DEVIATIONS, Detail, Woehler, cycle_weight};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

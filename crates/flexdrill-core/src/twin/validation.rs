@@ -44,7 +44,11 @@ impl SimulationSettings {
             load.as_ref().map_or(Ok(()), |load| load.validate(field))?;
         }
         Bound::Within(1.0, 20.0).check("ageing.slope", self.ageing.slope, "")?;
+        Bound::Within(1.0, 20.0).check("ageing.slope_below_knee", self.ageing.slope_below_knee, "")?;
         Bound::Positive.check("ageing.rated_moment", self.ageing.rated_moment, "N m")?;
+        for knee in self.ageing.knees {
+            Bound::NotNegative.check("ageing.knees", knee, "")?;
+        }
         for (index, &(station, _)) in self.watched.iter().enumerate() {
             count(&format!("watched[{index}].station"), station, 0, last_station)?;
         }
