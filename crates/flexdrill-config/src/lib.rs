@@ -21,6 +21,7 @@ mod environment;
 mod error;
 mod hard_limits;
 mod inputs;
+mod joint_life;
 mod json_schema;
 pub mod lines;
 mod loads;
@@ -82,6 +83,7 @@ pub use environment::Environment;
 pub use error::{ConfigError, Problem};
 pub use hard_limits::{HardBounds, HardLimits};
 pub use inputs::{DriverPolicy, DriverRule, InputsConfig, Measured, RotarySpeed, StampRule, WeightOnBit};
+pub use joint_life::{DetailClass, JointLife, LifeEnvironment};
 pub use json_schema::json_schema;
 pub use loads::{History, Load, Mass};
 pub use look_ahead::LookAhead;
@@ -373,7 +375,7 @@ impl Config {
             settings.transfer = self.transfer.describe();
             settings.guide_preload = self.guide_preload.describe();
             settings.pressure_folding = self.pressure_folding.describe();
-            settings.ageing = self.joint_load.describe_ageing();
+            settings.ageing = self.ageing();
             settings.watched = self.whirl.watched_stations(self.mesh().last_station());
             settings.whirl_sample_interval = 1.0 / self.whirl.sample_rate;
         })

@@ -92,7 +92,7 @@ impl Config {
             contact.remove("wall_friction_factors");
         }
         self.leave_out_idle_slots(&mut motion);
-        leave_out_hole_ahead(&mut motion);
+        leave_out_what_only_judges(&mut motion);
         // Without a string there is no drive that could stall, and no hoist that is asked for a weight.
         if self.string.model != Model::Line {
             for (section, key) in [
@@ -152,7 +152,7 @@ impl Config {
             }
         }
         self.leave_out_idle_slots(&mut tool);
-        leave_out_hole_ahead(&mut tool);
+        leave_out_what_only_judges(&mut tool);
         if factor != 1.0 {
             tool.insert("friction_factor".to_owned(), Value::from(factor));
         }
@@ -181,15 +181,20 @@ const HOLE_AHEAD: [&str; 4] = [
 /// Keys of the well that only the hole ahead reads: the plan, and what surveys count from.
 const OF_THE_HOLE: [&str; 3] = ["plan", "drilled_from", "kick_off_depth"];
 
-/// Removes the keys of bit and well that act on the hole ahead and not on the motion.
-fn leave_out_hole_ahead(sections: &mut Map<String, Value>) {
+/// Keys of the joints that only say how their life is judged.
+const LIFE: [&str; 2] = ["serial_numbers", "life"];
+
+/// Removes what acts on no motion: the keys of bit and well for the hole ahead, and the life of the joints.
+fn leave_out_what_only_judges(sections: &mut Map<String, Value>) {
     if let Some(well) = sections.get_mut("well").and_then(Value::as_object_mut) {
         well.retain(|key, _| !OF_THE_HOLE.contains(&key.as_str()));
     }
-    if let Some(bit) = sections.get_mut("tool").and_then(|tool| tool.get_mut("bit"))
-        && let Some(bit) = bit.as_object_mut()
-    {
-        bit.retain(|key, _| !HOLE_AHEAD.contains(&key.as_str()));
+    for (part, keys) in [("bit", &HOLE_AHEAD[..]), ("joint", &LIFE[..])] {
+        if let Some(tool) = sections.get_mut("tool")
+            && let Some(part) = tool.get_mut(part).and_then(Value::as_object_mut)
+        {
+            part.retain(|key, _| !keys.contains(&key.as_str()));
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker, EachItem};
+use super::joint_life::{JointLife, check_serial_numbers};
 use super::json_schema;
 use super::pipe::{Guide, Pipe};
 use super::section::section;
@@ -75,7 +76,6 @@ section! {
 
 section! {
     /// The joints between links.
-    #[derive(Copy)]
     pub struct Joint(this) {
         /// Kind of joint: `universal` (a cross), `ball_cage` (constant velocity) or `revolute` (a hinge, for comparison
         /// with the paper). Default universal.
@@ -126,6 +126,13 @@ section! {
         /// Hunt-Crossley damping of that contact (s/rad). Default 0.5. Used with `play_deg` only.
         #[serde(default = "half")]
         play_damping: f64, within(0.0, 1e3), "s/rad", "0 is elastic; far above 1 the contact hardly opens within a step";
+        /// Serial numbers of the joints, from the bit up: `tool.links` - 1 of them. `flexdrill life` keeps the life of each.
+        /// Default none.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        serial_numbers: Vec<String>;
+        /// The class of the joints' details, for their life. It changes nothing of the motion. Default none.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        life: Option<JointLife>;
     }
 }
 
@@ -334,7 +341,7 @@ impl Tool {
                 "the pipe turns inside the guide",
             );
         }
-        c.below("joint", |c| self.joint.check(c));
+        c.below("joint", |c| self.joint.check(c, self.links.saturating_sub(1)));
         c.below("damping", |c| self.damping.check_numbers(c));
         c.below("bit", |c| self.bit.check(c));
     }
@@ -351,8 +358,13 @@ impl Material {
 }
 
 impl Joint {
-    fn check(&self, c: &mut Checker) {
+    /// Checks the description of `joints` joints.
+    fn check(&self, c: &mut Checker, joints: usize) {
         self.check_numbers(c);
+        check_serial_numbers(c, &self.serial_numbers, joints);
+        if let Some(life) = &self.life {
+            c.below("life", |c| life.check(c));
+        }
         c.require(
             self.friction == 0.0 || self.kind == JointKind::Universal,
             "friction",
