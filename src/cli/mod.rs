@@ -20,6 +20,7 @@ mod dashboard;
 mod demo;
 mod drills;
 mod first_start;
+mod life;
 #[cfg(feature = "sweep")]
 mod map;
 mod new_file;
@@ -67,7 +68,6 @@ mod sweep;
 mod trip;
 mod verify;
 mod watch;
-#[cfg(any(feature = "calibrate", feature = "sweep"))]
 mod whole_file;
 
 use std::ffi::OsString;
@@ -118,6 +118,7 @@ enum Command {
     Bridge(bridge::BridgeArgs),
     Replay(replay::ReplayArgs),
     Report(report::ReportArgs),
+    Life(life::LifeArgs),
     Check(check::CheckArgs),
     Watch(watch::WatchArgs),
     Dashboard(dashboard::DashboardArgs),
@@ -315,6 +316,7 @@ fn run_command(command: Command, ros_args: &[String]) -> anyhow::Result<()> {
         _ if !ros_args.is_empty() => Err(WrongUse::new("only `run`, `rig` and `bridge` accept --ros-args").into()),
         Command::Replay(args) => replay::run(&args),
         Command::Report(args) => report::run(&args),
+        Command::Life(args) => life::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Watch(args) => watch::run(&args),
         Command::Dashboard(args) => dashboard::run(&args),

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::WrongUse;
 use super::progress::Progress;
+use super::{WrongUse, life};
 use crate::cli::output::{say, tell};
 use crate::report::{self, Comparison, Summary};
 use flexdrill_text::printable;
@@ -27,6 +27,9 @@ pub(super) struct ReportArgs {
     /// Namespace of the twin, such as /rig_7, if the bag has several.
     #[arg(long, value_name = "NS")]
     namespace: Option<String>,
+    /// Table of `flexdrill life`: the page lists the joints to inspect by all of its runs.
+    #[arg(long, value_name = "FILE", conflicts_with = "against")]
+    life: Option<PathBuf>,
     /// A second bag: the page shows both runs, A and B, with their differences.
     #[arg(long, value_name = "BAG")]
     against: Option<PathBuf>,
@@ -50,7 +53,12 @@ pub(super) fn run(args: &ReportArgs) -> anyhow::Result<()> {
         return Err(WrongUse::new(why).into());
     }
     let Some(other) = &args.against else {
-        let summary = read(&args.bag, args.namespace.as_deref(), "")?;
+        // A table that cannot be read is named before minutes of reading.
+        let lives = args.life.as_deref().map(life::existing).transpose()?;
+        let mut summary = read(&args.bag, args.namespace.as_deref(), "")?;
+        if let Some(lives) = lives {
+            summary = summary.with_lives(lives);
+        }
         if let Some(folder) = &args.out {
             let page = report::write(&summary, folder)?;
             say!("wrote {}", page.display());

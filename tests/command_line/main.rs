@@ -9,6 +9,7 @@
 mod ahead;
 mod ahead_from;
 mod guess;
+mod life;
 mod paper;
 mod plan;
 mod posterior;

@@ -8,7 +8,7 @@
 //! - Parts of the summary: `history` (over time), `envelope` (over the tool), `drive` (inputs, bit, torque),
 //!   `figures` (the figures of a message, as their table lists them), `transfer` (torque, weight and power from the surface
 //!   to the bit), `balances` (of the whole tool), `incidents` (alarms), `tools` (what plausible tools did), `hole` (where the
-//!   tool drilled next), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
+//!   tool drilled next), `life` (damage of the joints), `weight` (what does not arrive at the bit), `shares` (of time), `locations` (the worst ones and
 //!   their orbits), `health` (pace, model, recording).
 //! - [`calibration`]: the page of a calibration.
 //! - `compare`: two summaries next to each other, a [`Comparison`].
@@ -26,6 +26,7 @@ mod health;
 mod history;
 mod hole;
 mod incidents;
+mod life;
 mod locations;
 pub mod map;
 mod page;

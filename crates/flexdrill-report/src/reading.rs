@@ -9,6 +9,7 @@ use crate::figures::FigureHistories;
 use crate::health::Health;
 use crate::hole::HoleHistory;
 use crate::incidents::Incidents;
+use crate::life::JointLives;
 use crate::locations::Locations;
 use crate::roles::{OUTPUTS, Roles};
 use crate::tools::PlausibleTools;
@@ -18,10 +19,11 @@ use flexdrill_bag::{BagError, BagMessage, Gap, Gaps};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::InputKind;
 use flexdrill_field_log::LogRows;
+use flexdrill_life::Lives;
 use flexdrill_messages::std_msgs::{Float64, Header};
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_messages::{
-    AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, HoleAhead, JointDeflections, Message,
+    Ageing, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, HoleAhead, JointDeflections, Message,
     Reactions, RigInputs, SessionInfo, Transfer, TwinStatus, WhirlState,
 };
 use flexdrill_outputs::figures::BIT_STATE;
@@ -54,6 +56,7 @@ pub struct Summary {
     pub(crate) steady: SteadyDrilling,
     pub(crate) tools: PlausibleTools,
     pub(crate) hole: HoleHistory,
+    pub(crate) life: JointLives,
     pub(crate) balances: Balances,
     pub(crate) incidents: Incidents,
     /// The rows of the field log that drove the run; none of another run.
@@ -73,6 +76,13 @@ struct Unreadable {
 }
 
 impl Summary {
+    /// Adds the table of all runs of the joints, whose ranking the page then has.
+    #[must_use]
+    pub fn with_lives(mut self, lives: Lives) -> Self {
+        self.life.lives = Some(lives);
+        self
+    }
+
     /// Missing or incomplete data, each as a sentence.
     pub fn missing(&self) -> impl Iterator<Item = &str> {
         self.missing.iter().map(String::as_str)
@@ -149,6 +159,7 @@ impl Reader {
                 steady: SteadyDrilling::default(),
                 tools: PlausibleTools::default(),
                 hole: HoleHistory::default(),
+                life: JointLives::default(),
                 balances: Balances::default(),
                 incidents: Incidents::default(),
                 log_rows: LogRows::default(),
@@ -263,6 +274,16 @@ impl Reader {
                 let hole: HoleAhead = message.decode()?;
                 let time = self.stamp(&hole.header);
                 self.summary.hole.push(time, &hole);
+            }
+            Ageing::ROS_TYPE => {
+                let ageing: Ageing = message.decode()?;
+                let _ = self.stamp(&ageing.header);
+                let start = self
+                    .summary
+                    .session
+                    .as_ref()
+                    .map(|session| session.start.to_nanoseconds());
+                self.summary.life.push(&ageing, start);
             }
             Reactions::ROS_TYPE => {
                 let reactions: Reactions = message.decode()?;

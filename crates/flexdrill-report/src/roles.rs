@@ -22,7 +22,7 @@ pub(crate) const OUTPUTS: [&TopicInfo; 11] = [
     &topics::STATUS,
 ];
 /// Outputs that the report uses where there are any: most runs have none, and nothing is missing without them.
-const OPTIONAL: [&TopicInfo; 2] = [&topics::BANDS, &topics::HOLE_AHEAD];
+const OPTIONAL: [&TopicInfo; 3] = [&topics::BANDS, &topics::HOLE_AHEAD, &topics::AGEING];
 /// Inputs that the report uses, as received.
 const INPUTS: [&TopicInfo; 5] = [
     &topics::ROTARY_SPEED_RPM,

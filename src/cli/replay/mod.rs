@@ -21,7 +21,7 @@ use self::player::Player;
 pub(super) use self::steady::record_case;
 use super::progress::Progress;
 use super::run::load_config;
-use super::{Ended, WrongUse, numbers, source};
+use super::{Ended, WrongUse, life, numbers, source};
 use crate::bag;
 use crate::cli::output::{say, say_text, tell};
 use crate::messages::topics;
@@ -67,6 +67,9 @@ pub(super) struct ReplayArgs {
     /// Also write the incidents (whirl, stick-slip, shock) as JSON.
     #[arg(long, value_name = "FILE.json")]
     incidents: Option<PathBuf>,
+    /// Also add the new bag to this table of `flexdrill life`.
+    #[arg(long, value_name = "FILE.csv", requires = "out")]
+    life: Option<PathBuf>,
     #[command(flatten)]
     source: source::SourceArgs,
 }
@@ -81,7 +84,12 @@ pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
         return Err(WrongUse::new("--yes runs the log into a bag: add --out FILE.mcap").into());
     }
     if let Some(out) = &args.out {
+        // A table that cannot be read is named before the run, which may take long.
+        args.life.as_deref().map_or(Ok(()), life::is_readable)?;
         replay(args, out)?;
+        if let Some(table) = &args.life {
+            life::add_recording(table, out)?;
+        }
     }
     let Some(address) = args.foxglove else { return Ok(()) };
     let recording = args.out.as_deref().unwrap_or(&args.input);

@@ -7,6 +7,7 @@ pub(crate) mod comparison;
 mod drive;
 mod health;
 mod hole;
+mod life;
 mod locations;
 pub(crate) mod text;
 mod tools;
@@ -55,6 +56,7 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
         (transfer::section(summary)?)
         (tools::section(summary)?)
         (hole::section(summary)?)
+        (life::section(summary))
         (balances::section(summary))
         (health::section(summary)?)
         (limits())
