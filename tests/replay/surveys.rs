@@ -93,7 +93,10 @@ fn a_replay_repeats_when_surveys_were_used() {
     assert!(said.contains("exact: the recording has everything"), "{said}");
 
     // All that came is in both recordings, the refused one too.
-    let (run, again) = (messages(&at("run"), "twin/hole_ahead"), messages(&at("again"), "twin/hole_ahead"));
+    let (run, again) = (
+        messages(&at("run"), "twin/hole_ahead"),
+        messages(&at("again"), "twin/hole_ahead"),
+    );
     assert_eq!(surveys(&at("run")).len(), 4);
     assert_eq!(surveys(&at("run")), surveys(&at("again")));
     assert!(

@@ -209,7 +209,7 @@ pub const DIAGNOSTICS: TopicInfo = TopicInfo::new(
 pub const TF_STATIC: TopicInfo = TopicInfo::new("/tf_static", tf2_msgs::TFMessage::INFO, Cadence::OnChange, LATCHED);
 
 /// All of them, inputs first.
-pub const ALL: [TopicInfo; 30] = [
+pub const ALL: [TopicInfo; 31] = [
     ROTARY_SPEED_RPM,
     WEIGHT_ON_BIT_KN,
     RATE_OF_PENETRATION,
