@@ -7,10 +7,7 @@ use flexdrill_config::{Config, ConfigError, Distribution, Form, UncertainKey};
 use flexdrill_uncertainty::{Priors, UncertaintyError};
 
 /// Friction within a factor of two, as 0.20 to 0.40 in water-base mud (SPE 11380).
-const FRICTION: Distribution = Distribution::LogNormal {
-    low: 0.7071,
-    high: 1.4142,
-};
+const FRICTION: Distribution = Distribution::LogNormal { low: 0.7, high: 1.4 };
 
 /// A key that is not known, with the keys that have the same draw.
 type Unknown = (&'static str, &'static [&'static str], Distribution, Form);

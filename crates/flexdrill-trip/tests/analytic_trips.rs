@@ -148,8 +148,8 @@ fn friction_is_drawn_where_the_configuration_says_nothing() {
     let draws: Vec<f64> = (0..400)
         .map(|member| priors.member(1, member).unwrap().config.string.friction.coefficient)
         .collect();
-    let below = draws.iter().filter(|draw| **draw < 0.25 * 0.7071).count();
-    let above = draws.iter().filter(|draw| **draw > 0.25 * 1.4142).count();
+    let below = draws.iter().filter(|draw| **draw < 0.25 * 0.7).count();
+    let above = draws.iter().filter(|draw| **draw > 0.25 * 1.4).count();
     // 5 % of 400, with a standard deviation of 4.4.
     assert!(
         (7..=33).contains(&below) && (7..=33).contains(&above),
