@@ -21,6 +21,7 @@ mod surveyed;
 mod tests;
 mod worker;
 
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
@@ -80,11 +81,12 @@ struct Draft {
 }
 
 /// A weight for which an answer was asked, with the surveys that were known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Request {
     ticks: u64,
     weight: f64,
-    surveys: Arc<[Survey]>,
+    /// Ticks from which on these surveys were known.
+    surveyed: u64,
 }
 
 /// A message that is ready.
@@ -109,8 +111,9 @@ pub struct LiveHole {
     /// Ticks of [`DELAY`].
     delay: u64,
     window: Window,
-    /// Surveys that are known.
+    /// Surveys that are known, and the ticks from which on.
     surveys: Arc<[Survey]>,
+    surveyed: u64,
     /// Tenths since the last message.
     tenths: u32,
     /// Answers that messages may have, the newest last, and the one that follows.
@@ -138,6 +141,7 @@ impl LiveHole {
             config: Arc::clone(config),
             window: Window::default(),
             surveys: Arc::default(),
+            surveyed: 0,
             tenths: 0,
             current: VecDeque::new(),
             next: None,
@@ -182,7 +186,10 @@ impl LiveHole {
         }
         self.tenths = 0;
         let Some(means) = self.window.means() else { return };
-        self.surveys = surveys();
+        let surveys = surveys();
+        if surveys != self.surveys {
+            (self.surveys, self.surveyed) = (surveys, frame.ticks);
+        }
         let answer = self.answer_for(&means, frame.ticks);
         let law = tool::bit(&self.config, means.weight).ok();
         let turn = law.map(|law| law.turn(means.tilt.into(), means.side_force.into()));
@@ -218,21 +225,18 @@ impl LiveHole {
         // One answer at a time is computed: a weight that changes all the time asks once per delay.
         let weight = means.weight;
         let off = |request: &Request| (weight - request.weight).abs() / request.weight;
-        // An answer for this weight counts before one with the newest surveys, which follows.
-        let surveys = &self.surveys;
-        let fresh = |request: &Request| request.surveys == *surveys;
-        let rank = |request: &&Request| (off(request) > OTHER, !fresh(request));
-        let best = self
-            .current
-            .iter()
-            .min_by(|a, b| rank(a).cmp(&rank(b)).then(off(a).total_cmp(&off(b))));
-        let asks = self.next.is_none() && best.is_none_or(|request| off(request) > MOVED || !fresh(request));
+        // An answer for this weight counts before one with newer surveys, which follows.
+        let rank = |request: &Request| (off(request) > OTHER, Reverse(request.surveyed));
+        let nearer = |a: &Request, b: &Request| rank(a).cmp(&rank(b)).then(off(a).total_cmp(&off(b)));
+        let best = self.current.iter().copied().min_by(nearer);
+        let is_old = |request: Request| off(&request) > MOVED || request.surveyed != self.surveyed;
+        let asks = self.next.is_none() && best.is_none_or(is_old);
         // An answer for another weight would look like one for this.
         let answer = match best {
             None => Err(format!(
                 "the next metres are being computed: they follow within {DELAY:.0} s"
             )),
-            Some(other) if off(other) > OTHER => Err(format!(
+            Some(other) if off(&other) > OTHER => Err(format!(
                 "the weight has changed from {:.2} to {:.2} kN: the next metres for it follow within {:.0} s",
                 n_to_kn(other.weight),
                 n_to_kn(weight),
@@ -244,7 +248,7 @@ impl LiveHole {
             self.next = Some(Request {
                 ticks,
                 weight,
-                surveys: Arc::clone(surveys),
+                surveyed: self.surveyed,
             });
             self.ask(ticks, weight);
         }
