@@ -1,11 +1,14 @@
 //! Quantities derived from a configuration.
 
-use super::pipe::MadePiece;
+use super::guide::MadePiece;
 use super::{Config, Section};
 use std::f64::consts::PI;
 
 use flexdrill_core::tool::{JointKind, SectionProperties};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
+
+/// A piece of the guide that reaches into a section of the well by less (m) does not lie in it: lengths in files are rounded.
+const TOUCHES: f64 = 1e-3;
 
 /// Size of the system, held directions included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,7 +96,7 @@ impl Config {
             let mut begin = 0.0;
             for section in &self.well.sections {
                 let end = begin + section.length();
-                if begin < lower && (has_passed || end > upper) {
+                if begin + TOUCHES < lower && (has_passed || end - TOUCHES > upper) {
                     section.curvature_range().into_iter().for_each(&mut bent);
                 }
                 begin = end;

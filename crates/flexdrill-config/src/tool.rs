@@ -4,9 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker, EachItem};
+use super::guide::Guide;
 use super::joint_life::{JointLife, check_serial_numbers};
 use super::json_schema;
-use super::pipe::{Guide, Pipe};
+use super::pipe::Pipe;
 use super::section::section;
 use flexdrill_core::tool::{
     BitDescription, HingeAngle, JointDescription, JointKind, JointPlay, Material as Steel, PinFriction, Rayleigh,
