@@ -84,6 +84,16 @@ pub(super) fn trip_speed(text: &str) -> Result<f64, NumberError> {
     number(text, 0.001, 10.0, "m/s")
 }
 
+/// A pull at the hook or along the guide (kN), within the bounds of a configuration.
+pub(super) fn pull(text: &str) -> Result<f64, NumberError> {
+    number(text, 0.1, 20_000.0, "kN")
+}
+
+/// A torque at the rig (N m).
+pub(super) fn torque(text: &str) -> Result<f64, NumberError> {
+    number(text, 1.0, 1e6, "N m")
+}
+
 /// A measured depth from the kick-off (m).
 pub(super) fn measured_depth(text: &str) -> Result<f64, NumberError> {
     number(text, 0.0, 100_000.0, "m")
@@ -116,7 +126,7 @@ mod tests {
     #[test]
     fn implausible_numbers_are_refused_with_the_bounds() {
         type Parser = fn(&str) -> Result<f64, NumberError>;
-        let parsers: [Parser; 15] = [
+        let parsers: [Parser; 17] = [
             seconds,
             time_step,
             rpm,
@@ -131,6 +141,8 @@ mod tests {
             arc_radius,
             distance,
             trip_speed,
+            pull,
+            torque,
             measured_depth,
         ];
         for parse in parsers {

@@ -1,4 +1,4 @@
-//! `flexdrill trip`: hook load and torque over the depth of the bit.
+//! `flexdrill trip`: hook load and torque over the depth of the bit, and what reaches a stuck tool.
 
 use std::path::PathBuf;
 
@@ -8,16 +8,17 @@ use clap::Args;
 use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
-use crate::trip::{Plan, picture, study, table, words};
+use crate::trip::{Plan, picture, stuck, study, table, words};
 use flexdrill_config::Config;
-use flexdrill_core::units::rpm_to_rad_per_s;
+use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_text::counted;
-use flexdrill_trip::Assembly;
+use flexdrill_trip::{Assembly, Limits};
 
 /// Computes hook load and torque of pulling out and running in over the depth of the bit, with rotation and without, with the
-/// range of plausible tools, and writes them as trip.csv and trip.svg.
+/// range of plausible tools, and writes them as trip.csv and trip.svg. With a largest pull, what of it and of the largest
+/// torque reaches a stuck tool, as stuck.csv, stuck.svg and reached.csv.
 ///
-/// Depths count from the kick-off; the bit goes from the bottom of the configured hole to the kick-off.
+/// Depths count from the kick-off; the bit moves from the bottom of the configured hole to the kick-off.
 #[derive(Debug, Args)]
 pub struct TripArgs {
     /// The tool in its hole, with the string above it (YAML).
@@ -34,6 +35,15 @@ pub struct TripArgs {
     /// Rotary speed of the loads with rotation (r/min).
     #[arg(long, default_value_t = 40.0, value_parser = numbers::drilling_rpm)]
     rpm: f64,
+    /// Largest hook load without the block (kN) to free a stuck tool; string.largest_pull_kn by default.
+    #[arg(long, value_parser = numbers::pull)]
+    max_pull: Option<f64>,
+    /// Largest tension of the guide at its top (kN); string.largest_guide_pull_kn by default.
+    #[arg(long, value_parser = numbers::pull)]
+    max_guide_pull: Option<f64>,
+    /// Largest torque at the rig (N m); string.top_drive.torque_limit by default.
+    #[arg(long, value_parser = numbers::torque)]
+    max_torque: Option<f64>,
     /// Plausible tools, drawn from what is not known.
     #[arg(long, default_value_t = 100, value_parser = numbers::members())]
     members: usize,
@@ -63,8 +73,24 @@ pub fn run(args: &TripArgs) -> anyhow::Result<()> {
     progress.done();
     whole_file::write(&args.out, "trip.csv", &table::csv(&rows))?;
     whole_file::write(&args.out, "trip.svg", &flexdrill_plot::svg(&picture::figure(&rows))?)?;
+    let limits = limits(args, &config);
+    let freed = match limits {
+        Some(limits) => Some(stuck::study(&config, &plan, limits, |_| ()).with_context(|| name.clone())?),
+        None => None,
+    };
+    if let Some(freed) = &freed {
+        whole_file::write(&args.out, "stuck.csv", &stuck::csv(freed))?;
+        whole_file::write(&args.out, "reached.csv", &stuck::reached_csv(freed))?;
+        whole_file::write(&args.out, "stuck.svg", &flexdrill_plot::svg(&stuck::figure(freed))?)?;
+    }
     for line in words::words(&config, &plan, &rows, assembly.tool().as_built) {
         say!("{line}");
+    }
+    for line in freed.iter().flat_map(stuck::words) {
+        say!("{line}");
+    }
+    if freed.is_none() {
+        say!("What frees a stuck tool is not computed: give --max-pull or string.largest_pull_kn.");
     }
     say!(
         "{} in {:.1} s: {} and trip.svg",
@@ -77,6 +103,16 @@ pub fn run(args: &TripArgs) -> anyhow::Result<()> {
         "no depth has a result; the table has the causes"
     );
     Ok(())
+}
+
+/// Limits of the rig, SI; none without a largest pull.
+fn limits(args: &TripArgs, config: &Config) -> Option<Limits> {
+    let string = &config.string;
+    Some(Limits {
+        pull: kn_to_n(args.max_pull.or(string.largest_pull_kn)?),
+        guide: args.max_guide_pull.or(string.largest_guide_pull_kn).map(kn_to_n),
+        torque: args.max_torque.unwrap_or(string.top_drive.torque_limit),
+    })
 }
 
 /// What is asked, SI.

@@ -65,6 +65,54 @@ fn the_rigs_trip_has_the_weight_between_its_loads_and_bands_that_hold_them() {
 }
 
 #[test]
+fn a_largest_pull_has_what_reaches_the_stuck_tool() {
+    let folder = tempfile::tempdir().unwrap();
+    let more = ["--every", "5", "--members", "1", "--max-pull", "150"];
+    let (words, rows) = trip("rig", folder.path(), &more);
+    let read = |name: &str| -> Vec<std::collections::BTreeMap<String, String>> {
+        let mut reader = csv::Reader::from_path(folder.path().join(name)).unwrap();
+        reader.deserialize().map(Result::unwrap).collect()
+    };
+    let stuck = &read("stuck.csv")[0];
+    let at_bit = number(stuck, "pull_at_bit_kn");
+    // More than what is pulled beyond the hook load of pulling out cannot arrive, and the arc of 90 deg takes from it.
+    let beyond = 150.0 - number(&rows[0], "hook_out_kn");
+    assert!(at_bit > 0.3 * beyond && at_bit < beyond, "{at_bit} of {beyond} kN");
+    assert!(stuck["holds_at_m"].is_empty(), "{stuck:?}");
+    // The string hangs vertically: no friction of its few metres of tool takes 26 kN.
+    assert!(stuck["critical_friction_factor"].is_empty(), "{stuck:?}");
+    assert!(
+        words.contains("the largest that was computed, does not take this pull"),
+        "{words}"
+    );
+    let reached = read("reached.csv");
+    let last = reached.last().unwrap();
+    // The tension above the bit has the friction of the bit in it.
+    assert!(
+        (number(last, "pull_kn") - at_bit).abs() < 0.1 * at_bit,
+        "{last:?} {at_bit}"
+    );
+    assert!(
+        (number(&reached[0], "pull_kn") - 150.0).abs() < 0.01,
+        "{:?}",
+        reached[0]
+    );
+    assert!(words.contains(&format!("{at_bit:.1} kN pull at the bit")), "{words}");
+    assert!(
+        std::fs::read_to_string(folder.path().join("stuck.svg"))
+            .unwrap()
+            .contains("Along the tool")
+    );
+    // Less than what hangs frees nothing.
+    let weak = folder.path().join("weak");
+    let (words, _) = trip("rig", &weak, &["--every", "5", "--members", "1", "--max-pull", "20"]);
+    assert!(
+        words.contains("does not reach the bit") && words.contains("Even without friction"),
+        "{words}"
+    );
+}
+
+#[test]
 fn bad_arguments_are_refused_with_value_bound_and_unit() {
     let folder = tempfile::tempdir().unwrap();
     for (argument, expected) in [
@@ -73,6 +121,8 @@ fn bad_arguments_are_refused_with_value_bound_and_unit() {
         ("--speed=0", "from 0.001 to 10 m/s"),
         ("--rpm=4000", "inputs.rotary_speed.max_rpm"),
         ("--members=0", "1..=10000"),
+        ("--max-pull=0", "from 0.1 to 20000 kN"),
+        ("--max-torque=-1", "from 1 to 1000000 N m"),
     ] {
         let out = folder.path().join("none");
         let output = flexdrill(&["trip", "rig", "--out", out.to_str().unwrap(), argument]);

@@ -160,7 +160,7 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 20] = [
+const WRITTEN_FILES: [&str; 22] = [
     // by `flexdrill ahead`
     "surveys.csv",
     "metadata.yaml",
@@ -183,6 +183,8 @@ const WRITTEN_FILES: [&str; 20] = [
     "ahead.csv",
     // by `flexdrill trip`
     "trip.csv",
+    "stuck.csv",
+    "reached.csv",
     // by `flexdrill bridge wits --look`
     "site.yaml",
 ];

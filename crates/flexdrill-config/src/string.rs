@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::checker::Checker;
+use super::checker::{Bound, Checker};
 use super::section::section;
 use super::tool::Material;
 use flexdrill_core::tool::{
@@ -16,6 +16,10 @@ use flexdrill_core::units::{deg_to_rad, sine_and_cosine};
 
 /// Longest string (m): the longest wells have 15 km.
 const LONGEST: f64 = 15_000.0;
+/// Limits of a pull (kN).
+const PULL: Bound = Bound::above(0.0, 20_000.0);
+/// Why they are limited.
+const PULL_REASON: &str = "leave it out where it is not known; the largest derricks lift 10,000 kN";
 /// A wave travels through a piece in at least so many steps.
 const LEAST_STEPS: f64 = 3.0;
 
@@ -50,6 +54,16 @@ section! {
         top_drive: TopDrive = TopDrive::default(), below;
         /// Block, lines and auto-driller; in force with `rock.law: depth_of_cut`.
         hoist: Hoist = Hoist::default(), below;
+        /// Largest hook load, without the block, that derrick, lines and the weakest pipe of the string allow (kN): by it
+        /// `flexdrill trip` and the alarm `friction_near_stuck` judge what frees a stuck tool. Nothing of it acts on a run.
+        /// Default not known.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = PULL.in_schema())]
+        largest_pull_kn: Option<f64> = None;
+        /// Largest tension of the guide at its top that its slots leave (kN), for the same. Default not known.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        #[schemars(transform = PULL.in_schema())]
+        largest_guide_pull_kn: Option<f64> = None;
     }
 }
 
@@ -173,6 +187,14 @@ impl DrillString {
     pub(super) fn check(&self, c: &mut Checker, time_step: f64) {
         // Single numbers first: the sums and roots below need them in their ranges.
         self.check_numbers(c);
+        for (key, limit) in [
+            ("largest_pull_kn", self.largest_pull_kn),
+            ("largest_guide_pull_kn", self.largest_guide_pull_kn),
+        ] {
+            if let Some(limit) = limit {
+                c.number(key, limit, PULL, "kN", PULL_REASON);
+            }
+        }
         c.require(
             self.model != Model::Line || !self.sections.is_empty(),
             "sections",

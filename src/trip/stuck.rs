@@ -1,0 +1,270 @@
+//! What the largest pull and torque do with a stuck tool: at each depth of the bit, and over the string with the bit on the
+//! bottom; table, picture and words.
+
+use flexdrill_config::Config;
+use flexdrill_core::units::n_to_kn;
+use flexdrill_drilling::Band;
+use flexdrill_plot::{Figure as Drawn, Legend, Line, Panel};
+use flexdrill_text::fixed;
+use flexdrill_trip::unknowns::priors;
+use flexdrill_trip::{Assembly, Limits, Stuck};
+
+use super::{Plan, StudyError};
+use crate::runs::{KeptAs, Work, run_all};
+
+/// The results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Freed {
+    /// What the rig may do.
+    pub limits: Limits,
+    /// By depth of the bit (m), or why there is nothing.
+    pub rows: Vec<(f64, Result<Stuck, String>)>,
+    /// Pull and torque at the bit on the bottom, in 90 % of the plausible tools (N, N m); none of too few.
+    pub at_bit: [Option<Band>; 2],
+    /// Plausible tools with a result, and those of them whose bit the pull does not reach.
+    pub members: [usize; 2],
+}
+
+/// A plausible tool on the bottom.
+struct Run<'a> {
+    assembly: Result<Assembly, String>,
+    depth: f64,
+    limits: &'a Limits,
+}
+
+impl Work for Run<'_> {
+    /// Pull and torque at the bit, and 1 where the pull does not reach it.
+    type Found = [f64; 3];
+
+    fn cost(&self) -> f64 {
+        1.0
+    }
+
+    /// A run takes less time than a file.
+    fn kept_as(&self) -> Option<KeptAs> {
+        None
+    }
+
+    fn run(&self, _: &mut impl FnMut(f64)) -> Result<[f64; 3], String> {
+        let assembly = self.assembly.as_ref().map_err(Clone::clone)?;
+        let stuck = assembly
+            .pull(self.depth, self.limits)
+            .map_err(|error| error.to_string())?;
+        let lost = if stuck.holds_at.is_some() { 1.0 } else { 0.0 };
+        Ok([stuck.at_bit, stuck.torque_at_bit(), lost])
+    }
+
+    fn figures(found: &[f64; 3]) -> Vec<f64> {
+        found.to_vec()
+    }
+
+    fn found(figures: Vec<f64>) -> Option<[f64; 3]> {
+        figures.try_into().ok()
+    }
+}
+
+/// Computes it for all depths of a plan, and for its plausible tools with the bit on the bottom.
+///
+/// # Errors
+/// When nothing can be computed for the configuration, or its priors cannot be drawn.
+pub fn study(config: &Config, plan: &Plan, limits: Limits, progress: impl FnMut(f64)) -> Result<Freed, StudyError> {
+    let assembly = Assembly::of(config)?;
+    let priors = priors(config)?;
+    let [_, bottom] = assembly.depths();
+    let runs: Vec<Run<'_>> = super::members(&priors, plan)
+        .map(|assembly| Run {
+            assembly,
+            depth: bottom,
+            limits: &limits,
+        })
+        .collect();
+    let found = run_all(&runs, plan.jobs, None, progress)?;
+    let known: Vec<[f64; 3]> = found.into_iter().flatten().collect();
+    let band = |at: usize| Band::of(known.iter().map(|of| of[at]).collect());
+    let row = |&depth: &f64| (depth, assembly.stuck(depth, &limits).map_err(|error| error.to_string()));
+    Ok(Freed {
+        limits,
+        rows: plan.depths.iter().map(row).collect(),
+        at_bit: [band(0), band(1)],
+        members: [known.len(), known.iter().filter(|of| of[2] > 0.0).count()],
+    })
+}
+
+impl Freed {
+    /// With the bit on the bottom.
+    fn on_bottom(&self) -> Option<&Stuck> {
+        self.rows.first()?.1.as_ref().ok()
+    }
+}
+
+/// A cell; empty for what is not known.
+fn cell(value: Option<f64>, digits: usize) -> String {
+    value
+        .filter(|value| value.is_finite())
+        .map_or_else(String::new, |value| fixed(value, digits))
+}
+
+/// The table by depth of the bit.
+pub fn csv(freed: &Freed) -> String {
+    let mut out =
+        "bit_depth_m,pull_kn,pull_at_bit_kn,torque_at_bit_nm,holds_at_m,critical_friction_factor,cause\n".to_owned();
+    for (depth, found) in &freed.rows {
+        let mut line = vec![fixed(*depth, 4)];
+        match found {
+            Ok(stuck) => line.extend([
+                cell(Some(n_to_kn(stuck.pull)), 4),
+                cell(Some(n_to_kn(stuck.at_bit)), 4),
+                cell(Some(stuck.torque_at_bit()), 2),
+                cell(stuck.holds_at, 3),
+                cell(stuck.critical_factor, 4),
+                String::new(),
+            ]),
+            Err(cause) => {
+                line.extend(vec![String::new(); 5]);
+                line.push(format!("\"{}\"", cause.replace('"', "\"\"")));
+            }
+        }
+        out.push_str(&line.join(","));
+        out.push('\n');
+    }
+    out
+}
+
+/// The table along string and tool, with the bit on the bottom.
+pub fn reached_csv(freed: &Freed) -> String {
+    let mut out = "measured_depth_m,pull_kn,overpull_kn,torque_nm\n".to_owned();
+    for at in freed.on_bottom().iter().flat_map(|stuck| &stuck.reached) {
+        let cells = [
+            cell(Some(at.depth), 4),
+            cell(Some(n_to_kn(at.tension)), 4),
+            cell(Some(n_to_kn(at.overpull)), 4),
+            cell(Some(at.torque), 2),
+        ];
+        out.push_str(&cells.join(","));
+        out.push('\n');
+    }
+    out
+}
+
+/// Pull and overpull along string and tool with the bit on the bottom, and the pull at the bit over its depth.
+pub fn figure(freed: &Freed) -> Drawn {
+    let along = |title: &str, x: &str, of_tool: bool| {
+        let points = |of: &dyn Fn(&flexdrill_trip::Reached) -> f64| -> Vec<(f64, f64)> {
+            let stations = freed.on_bottom().into_iter().flat_map(|stuck| &stuck.reached);
+            // The tool's top is the last station at or above the kick-off, where the bit is on the bottom.
+            stations
+                .filter(|at| if of_tool { at.depth >= 0.0 } else { at.depth <= 0.0 })
+                .map(|at| (at.depth, n_to_kn(of(at))))
+                .collect()
+        };
+        Panel::new(title, x, "kN")
+            .legend(Legend::Stacked)
+            .line(Line::new("pull that arrives", points(&|at| at.tension)).color(0))
+            .line(Line::new("beyond what slides out freely", points(&|at| at.overpull)).color(1))
+    };
+    let below = "measured depth below the kick-off (m)";
+    let at_bit = freed.rows.iter().filter_map(|(depth, found)| {
+        let stuck = found.as_ref().ok()?;
+        Some((*depth, n_to_kn(stuck.at_bit)))
+    });
+    let over_depth = Panel::new("Pull at the bit", "depth of the bit below the kick-off (m)", "kN")
+        .from_zero()
+        .span(2)
+        .legend(Legend::Stacked)
+        .line(Line::new("of the largest pull", at_bit.collect()).color(0));
+    let mut panels = vec![
+        along("Along the string", "measured depth from the kick-off (m)", false),
+        along("Along the tool", below, true),
+        over_depth,
+    ];
+    // A tool without a string has one point above the kick-off.
+    panels.retain(|panel| panel.lines.iter().any(|line| line.points.len() > 1));
+    Drawn {
+        name: "stuck",
+        title: "What reaches a stuck tool".to_owned(),
+        caption: "The largest pull along string and tool with the bit on the bottom, and at the bit over its depth"
+            .to_owned(),
+        columns: 2,
+        height: 420,
+        panels,
+    }
+}
+
+/// A range in words, with its unit.
+fn in_range(band: Option<Band>, digits: usize, shown: impl Fn(f64) -> f64) -> String {
+    band.map_or_else(String::new, |band| {
+        format!(" ({:.digits$} to {:.digits$})", shown(band.low), shown(band.high))
+    })
+}
+
+/// The results in words, a line each.
+pub fn words(freed: &Freed) -> Vec<String> {
+    let mut lines = Vec::new();
+    let Some(stuck) = freed.on_bottom() else {
+        let cause = freed.rows.first().and_then(|(_, found)| found.as_ref().err());
+        lines.extend(cause.map(|cause| format!("Unknown what reaches a stuck tool: {cause}")));
+        return lines;
+    };
+    // Which limit decides comes first: more pull at the rig helps only where the guide does not end it.
+    let limit = if stuck.guide_limits {
+        format!(
+            "which brings the guide's top to its {:.1} kN",
+            n_to_kn(freed.limits.guide.unwrap_or(f64::NAN))
+        )
+    } else {
+        "the rig's limit".to_owned()
+    };
+    let pull = n_to_kn(stuck.pull);
+    lines.push(match stuck.holds_at {
+        None => format!(
+            "Stuck at {:.2} m: of a hook load of {pull:.1} kN, {limit}, {:.1} kN{} pull at the bit.",
+            stuck.depth,
+            n_to_kn(stuck.at_bit),
+            in_range(freed.at_bit[0], 1, n_to_kn)
+        ),
+        Some(at) => format!(
+            "Stuck at {:.2} m: a hook load of {pull:.1} kN, {limit}, does not reach the bit. Friction takes all of it down to a \
+             measured depth of {at:.2} m; nothing of it arrives deeper.",
+            stuck.depth
+        ),
+    });
+    let [known, lost] = freed.members;
+    if lost > 0 {
+        lines.push(format!(
+            "In {lost} of {known} plausible tools the pull does not reach the bit."
+        ));
+    }
+    // Torque by itself: the pull that presses the string into the bends would take more of it.
+    lines.push(match stuck.turns_to {
+        None => format!(
+            "Of {:.0} N m at the top drive {:.0}{} N m arrive at the bit while nothing moves along the hole.",
+            freed.limits.torque,
+            stuck.torque_at_bit(),
+            in_range(freed.at_bit[1], 0, |torque| torque)
+        ),
+        Some(at) => format!(
+            "{:.0} N m at the top drive do not turn the bit: friction takes all of them down to a measured depth of {at:.2} m.",
+            freed.limits.torque
+        ),
+    });
+    // The reserve against a hole that becomes worse.
+    lines.push(match stuck.critical_factor {
+        Some(factor) if factor <= 0.0 => {
+            "Even without friction this pull lifts less than hangs: it frees nothing.".to_owned()
+        }
+        Some(factor) => format!(
+            "Friction {factor:.2} times as large as configured takes all of this pull on the way to the bit: from there on \
+             pulling frees nothing at the bit."
+        ),
+        None => format!(
+            "Friction {:.1} times as large as configured, the largest that was computed, does not take this pull.",
+            stuck.tried_factor
+        ),
+    });
+    lines.push(
+        "This is the pull that arrives, and not what it takes to free the tool: differential sticking, a bed of cuttings and key \
+         seats hold with forces that no measurement here knows. Pull and torque together strain the pipe more than each alone."
+            .to_owned(),
+    );
+    lines
+}
