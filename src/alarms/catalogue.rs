@@ -40,6 +40,8 @@ pub enum AlarmId {
     RigDisagrees,
     /// The plan of the hole is outside the range in which plausible tools drill.
     HoleLeavesPlan,
+    /// Friction rises towards where the largest pull no longer reaches the bit.
+    FrictionNearStuck,
     /// A client has changed values that alarms depend on.
     ChangedParameters,
     /// Rotary speed not received, refused or stale.
@@ -64,7 +66,7 @@ pub enum AlarmId {
 
 impl AlarmId {
     /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 25] = [
+    pub const ALL: [AlarmId; 26] = [
         AlarmId::BitStuck,
         AlarmId::BackwardWhirl,
         AlarmId::ForwardWhirl,
@@ -80,6 +82,7 @@ impl AlarmId {
         AlarmId::KnownWindow,
         AlarmId::RigDisagrees,
         AlarmId::HoleLeavesPlan,
+        AlarmId::FrictionNearStuck,
         AlarmId::ChangedParameters,
         AlarmId::RotarySpeedInput,
         AlarmId::WeightOnBitInput,
@@ -110,6 +113,7 @@ impl AlarmId {
             AlarmId::KnownWindow => "known_window",
             AlarmId::RigDisagrees => "rig_disagrees",
             AlarmId::HoleLeavesPlan => "hole_leaves_plan",
+            AlarmId::FrictionNearStuck => "friction_near_stuck",
             AlarmId::ChangedParameters => "changed_parameters",
             AlarmId::RotarySpeedInput => "rotary_speed_input",
             AlarmId::WeightOnBitInput => "weight_on_bit_input",
@@ -141,6 +145,7 @@ impl AlarmId {
             AlarmId::KnownWindow => "outside the known window",
             AlarmId::RigDisagrees => "twin and rig disagree",
             AlarmId::HoleLeavesPlan => "hole leaves its plan",
+            AlarmId::FrictionNearStuck => "friction near stuck",
             AlarmId::ChangedParameters => "changed parameters",
             AlarmId::RotarySpeedInput => "no valid rotary speed",
             AlarmId::WeightOnBitInput => "no valid weight on bit",
@@ -225,6 +230,7 @@ impl AlarmId {
             AlarmId::KnownWindow => tool(&alarms.known_window),
             AlarmId::RigDisagrees => tool(&alarms.rig_disagrees),
             AlarmId::HoleLeavesPlan => tool(&alarms.hole_leaves_plan),
+            AlarmId::FrictionNearStuck => tool(&alarms.friction_near_stuck),
             AlarmId::ChangedParameters => tool(&alarms.changed_parameters),
             AlarmId::RotarySpeedInput => node(&alarms.rotary_speed_input),
             AlarmId::WeightOnBitInput => node(&alarms.weight_on_bit_input),

@@ -20,6 +20,7 @@ mod catalogue;
 mod changed;
 mod fill;
 mod finding;
+mod friction;
 mod node;
 mod plan;
 mod plausible;
@@ -95,6 +96,10 @@ pub struct AlarmBook {
     rig_judged: Time,
     /// When the hole ahead was compared last with its plan.
     plan_judged: Time,
+    /// What the largest pull does against friction, once it was asked for; none where there is nothing to judge.
+    reserve: Option<Option<friction::Reserve>>,
+    /// When friction was judged last.
+    friction_judged: Time,
     /// What the twin expects of the rig, as the journal has it.
     adjusted: Adjusted,
     /// What clients have changed of the configuration.
@@ -159,6 +164,8 @@ impl AlarmBook {
             unknown: Unknown::default(),
             rig_judged: Time::MIN,
             plan_judged: Time::MIN,
+            reserve: None,
+            friction_judged: Time::MIN,
             adjusted: Adjusted::default(),
             changed: Changed::new(Arc::clone(&config)),
             restored: (0..AlarmId::ALL.len())
@@ -256,6 +263,24 @@ impl AlarmBook {
             return;
         }
         self.observe([(AlarmId::HoleLeavesPlan, finding.unwrap_or_default())], stamp);
+    }
+
+    /// Observes the friction of a comparison with the rig against what the largest pull overcomes, at its stamp. A standing alarm
+    /// outlasts connections, as that on the comparison does.
+    pub fn observe_friction(&mut self, residuals: &Residuals, stamp: Time) {
+        // The statics behind it take as long as some frames, and only the book of a rig needs them.
+        let config = &self.config;
+        let Some(reserve) = *self.reserve.get_or_insert_with(|| friction::Reserve::of(config)) else {
+            return;
+        };
+        let stands = self.active(AlarmId::FrictionNearStuck);
+        let finding = reserve.finding(residuals, stands);
+        if finding.is_some() {
+            self.friction_judged = stamp;
+        } else if stands.is_some() && stamp.saturating_sub(self.friction_judged) <= friction::OUTLASTS {
+            return;
+        }
+        self.observe([(AlarmId::FrictionNearStuck, finding.unwrap_or_default())], stamp);
     }
 
     /// Enters what changed of what the twin expects of the rig, as a comparison has it at its stamp.

@@ -118,8 +118,8 @@ impl MotionEvidence {
     pub(super) fn hole() -> Item {
         Item {
             name: "hole",
-            alarms: &[AlarmId::HoleLeavesPlan],
-            calm: "no alarm on where the tool drills".to_owned(),
+            alarms: &[AlarmId::HoleLeavesPlan, AlarmId::FrictionNearStuck],
+            calm: "no alarm on where the tool drills, or on what would free it".to_owned(),
             values: Vec::new(),
         }
     }

@@ -267,6 +267,7 @@ impl Session {
         self.alarms
             .observe_rig(comparison.judged(), &followed, samples.bit_depth, stamp);
         self.alarms.observe_adjusted(&comparison.message, stamp);
+        self.alarms.observe_friction(&comparison.message, stamp);
         host.compared(&comparison);
         let residuals = self.residuals.insert(comparison.message);
         host.send(Encoded {

@@ -843,7 +843,7 @@ const ITEMS: [(&str, &[AlarmId]); 13] = [
             AlarmId::PressureFolding,
         ],
     ),
-    ("hole", &[AlarmId::HoleLeavesPlan]),
+    ("hole", &[AlarmId::HoleLeavesPlan, AlarmId::FrictionNearStuck]),
     ("recording", &[AlarmId::Recording]),
     ("network", &[AlarmId::Network]),
 ];

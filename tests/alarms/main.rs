@@ -29,6 +29,7 @@ mod book;
 mod chatter;
 mod disagrees;
 mod forecast;
+mod friction;
 mod leading;
 mod plan;
 mod rig;

@@ -296,12 +296,13 @@ fn an_effect_is_one_file() {
 
 /// What makes messages, alarms and comparisons of a run, and the hosts of runs. Only the session calls it, so that an output
 /// that is added there is in all of them.
-const OF_THE_SESSION: [&str; 7] = [
+const OF_THE_SESSION: [&str; 8] = [
     "Outputs::",
     "RigComparison::new",
     ".observe_tool(",
     ".observe_rig(",
     ".observe_adjusted(",
+    ".observe_friction(",
     "fill::",
     "&topics::RESIDUALS",
 ];

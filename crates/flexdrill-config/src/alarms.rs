@@ -44,6 +44,8 @@ section! {
         rig_disagrees: ToolAlarm = ToolAlarm { on_delay: 10.0, off_delay: 30.0, ..ToolAlarm::default() }, below;
         /// The plan of the hole (`well.plan`) is outside the range in which plausible tools drill.
         hole_leaves_plan: ToolAlarm = ToolAlarm { on_delay: 5.0, off_delay: 10.0, ..ToolAlarm::default() }, below;
+        /// Friction rises towards where the largest pull (`string.largest_pull_kn`) no longer reaches the bit.
+        friction_near_stuck: ToolAlarm = ToolAlarm { on_delay: 30.0, off_delay: 30.0, ..ToolAlarm::default() }, below;
         /// A client has changed values that alarms depend on, and the twin differs from its configuration.
         changed_parameters: ToolAlarm = ToolAlarm { off_delay: 1.0, ..ToolAlarm::default() }, below;
         /// The rotary speed is not received, refused or stale.
