@@ -159,7 +159,7 @@ fn what_does_not_belong_leaves_the_table_as_it_was() {
         ),
         (vec![&*first, "--namespace", "/rig_8"], "/rig_8/twin/session"),
     ] {
-        let (code, _, err) = life(&[&["life", "add", table], &arguments[..]].concat());
+        let (code, _, err) = life(&[&["life", "add", table][..], &arguments[..]].concat());
         assert!(matches!(code, Some(1 | 2)) && err.contains(words), "{words}: {err}");
         assert_eq!(std::fs::read_to_string(table).unwrap(), before, "{words}");
     }

@@ -96,6 +96,8 @@ pub(super) fn is_readable(file: &Path) -> anyhow::Result<()> {
 }
 
 fn add(args: &AddArgs) -> anyhow::Result<()> {
+    // Another command that adds to a table of this folder waits until this one has written.
+    let _locked = locked(folder(&args.file))?;
     let mut lives = read(&args.file)?;
     let mut lines = Vec::new();
     // A joint may be new in the first of several runs, and is known in the others.
@@ -172,8 +174,24 @@ fn read(file: &Path) -> anyhow::Result<Option<Lives>> {
 fn write(file: &Path, text: &str) -> anyhow::Result<()> {
     let name = file.file_name().and_then(|name| name.to_str());
     let name = name.with_context(|| format!("{}: must be the name of a file in UTF-8", file.display()))?;
+    whole_file::write(folder(file), name, text)
+}
+
+/// The folder of a file.
+fn folder(file: &Path) -> &Path {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    whole_file::write(folder.unwrap_or(Path::new(".")), name, text)
+    folder.unwrap_or(Path::new("."))
+}
+
+/// Locks a folder until the result is dropped. On a disk without locks nothing is locked.
+fn locked(folder: &Path) -> anyhow::Result<File> {
+    let opened = File::open(folder).with_context(|| format!("cannot open {}", folder.display()))?;
+    match opened.lock() {
+        Err(error) if error.kind() != ErrorKind::Unsupported => {
+            Err(error).with_context(|| format!("cannot lock {}", folder.display()))
+        }
+        _ => Ok(opened),
+    }
 }
 
 /// Reads a table that there must be.
