@@ -13,8 +13,13 @@ use flexdrill_trip::{Assembly, Refusal, unknowns};
 
 /// A straight guide in a straight hole of this inclination (deg), under a string of these sections.
 fn config(inclination: f64, sections: &str) -> Config {
+    in_hole(inclination, "{straight: {length: 6}}", sections)
+}
+
+/// The same in a hole of these sections.
+fn in_hole(inclination: f64, hole: &str, sections: &str) -> Config {
     let text = format!(
-        "well: {{start_inclination_deg: {inclination}, sections: [{{straight: {{length: 6}}}}], hole_diameter: 0.118}}
+        "well: {{start_inclination_deg: {inclination}, sections: [{hole}], hole_diameter: 0.118}}
 tool:
   links: 40
   pipe: {{outer_diameter: 0.063, inner_diameter: 0.032}}
@@ -155,4 +160,49 @@ fn friction_is_drawn_where_the_configuration_says_nothing() {
         (7..=33).contains(&below) && (7..=33).contains(&above),
         "{below} {above}"
     );
+}
+
+#[test]
+fn a_hole_drilled_with_the_curvature_of_an_arc_has_the_loads_of_the_arc() {
+    let (radius, points) = (3.2, 195);
+    let degrees = (0.02 * f64::from(points) / radius).to_degrees();
+    let point = format!("[{}, 0.0]", 1.0 / radius);
+    let drilled = vec![point; points as usize].join(", ");
+    let string = format!("{{length: 400, {LIGHT}, inclination_deg: 0}}");
+    let [arc, drilled] = [
+        format!("{{arc: {{radius: {radius}, build_angle_deg: {degrees}}}}}"),
+        format!("{{drilled: {{points: [{drilled}]}}}}"),
+    ]
+    .map(|hole| in_hole(0.0, &format!("{{straight: {{length: 2}}}}, {hole}"), &string))
+    .map(|config| Assembly::of(&config).unwrap());
+    // On the bottom, and with the bit between two points in the bend.
+    for depth in [5.9, 4.0] {
+        let [expected, found] = [&arc, &drilled].map(|assembly| assembly.trip(depth, ALONG, SPIN).unwrap());
+        // Chords and steps are the same: the statics of the guide are iterated to 1e-5 of its loads, some 10 kN.
+        near("weight", found.weight, expected.weight, 1e-3);
+        for motion in [0, 1] {
+            near(
+                "out",
+                found.out[motion].hook_load(),
+                expected.out[motion].hook_load(),
+                0.2,
+            );
+            near(
+                "in",
+                found.into[motion].hook_load(),
+                expected.into[motion].hook_load(),
+                0.2,
+            );
+            near(
+                "torque",
+                found.out[motion].torque(),
+                expected.out[motion].torque(),
+                1e-3,
+            );
+        }
+        assert!(
+            found.out[0].hook_load() > found.weight + 100.0,
+            "a straight guide in a bend rubs"
+        );
+    }
 }
