@@ -4,7 +4,7 @@ use flexdrill_bridge::wits::capture::CaptureReader;
 use flexdrill_bridge::wits::{Counts, FrameUse, Line, LineEvent, Look, Mapping};
 
 use crate::engine::Target;
-use crate::{folder, says_why};
+use crate::{folder, is_mapping, says_why};
 
 /// 2023-11-14, a time of arrival (ns since 1970).
 const NOW: i64 = 1_700_000_000_000_000_000;
@@ -167,16 +167,7 @@ fn wits_mapping() {
             "~",
             "\t",
         ],
-        run: &mut |bytes| match Mapping::from_text("fuzz.yaml", &String::from_utf8_lossy(bytes)) {
-            Ok(mapping) => {
-                let written = serde_saphyr::to_string(&mapping).unwrap();
-                let again =
-                    Mapping::from_text("again.yaml", &written).unwrap_or_else(|error| panic!("{error}\n{written}"));
-                assert_eq!(serde_saphyr::to_string(&again).unwrap(), written);
-                true
-            }
-            Err(error) => says_why(&error),
-        },
+        run: &mut |bytes| is_mapping(bytes, Mapping::from_text),
     }
     .fuzz();
 }

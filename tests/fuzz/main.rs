@@ -46,3 +46,20 @@ fn says_why(error: &impl std::fmt::Display) -> bool {
     assert!(text.trim().len() > 8, "an error without words: {text:?}");
     false
 }
+
+/// Whether a text of YAML is a mapping; what it is written as is the same mapping.
+fn is_mapping<M: serde::Serialize, E: std::fmt::Display>(
+    bytes: &[u8],
+    from_text: impl Fn(&str, &str) -> Result<M, E>,
+) -> bool {
+    match from_text("fuzz.yaml", &String::from_utf8_lossy(bytes)) {
+        Ok(mapping) => {
+            let written = serde_saphyr::to_string(&mapping).unwrap();
+            let again = from_text("again.yaml", &written).unwrap_or_else(|error| panic!("{error}\n{written}"));
+            // As text: NaN, which stands for no value in some logs, is not equal to itself.
+            assert_eq!(serde_saphyr::to_string(&again).unwrap(), written);
+            true
+        }
+        Err(error) => says_why(&error),
+    }
+}
