@@ -223,7 +223,11 @@ pub fn understand(arguments: impl IntoIterator<Item = String>) -> Result<(), Mis
         .collect();
     match Cli::try_parse_from(arguments) {
         Err(error) if error.use_stderr() => {
-            let ends_early = [ErrorKind::MissingRequiredArgument, ErrorKind::MissingSubcommand];
+            let ends_early = [
+                ErrorKind::MissingRequiredArgument,
+                ErrorKind::MissingSubcommand,
+                ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand,
+            ];
             // The line ends with an option that needs a value.
             let no_value = error.kind() == ErrorKind::InvalidValue
                 && matches!(error.get(ContextKind::InvalidValue), Some(ContextValue::String(value)) if value.is_empty());

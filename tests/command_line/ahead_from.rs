@@ -274,7 +274,7 @@ fn what_says_nothing_of_the_weight_is_refused() {
         friction: 0.3,
         hole: 60,
     };
-    let bag = recording(folder.path().join("lifted.mcap"), &lifted);
+    let bag = recording(folder.path().join("lifted"), &lifted);
     let (code, said) = refused(&bag, &[]);
     assert_eq!(code, Some(2), "{said}");
     assert!(
@@ -282,14 +282,14 @@ fn what_says_nothing_of_the_weight_is_refused() {
         "{said}"
     );
     // Of two twins none is chosen.
-    let two = folder.path().join("two.mcap");
+    let two = folder.path().join("two");
     let both = Bag::begin(&two, &ALL, &["/rig_7", "/rig_8"]);
     both.recorder.finish().unwrap();
     let (code, said) = refused(&two, &[]);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("/rig_7/") && said.contains("/rig_8/"), "{said}");
     // A recording without the twin's messages.
-    let inputs = folder.path().join("inputs.mcap");
+    let inputs = folder.path().join("inputs");
     Bag::begin(&inputs, &[&topics::RIG_INPUTS], &["/rig_7"])
         .recorder
         .finish()

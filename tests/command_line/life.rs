@@ -77,10 +77,10 @@ fn lives_are_carried_from_run_to_run_and_listed() {
     let first = tool("J-1, J-2, J-3", "class: F1");
     // An hour makes 0.1 of a life of the uppermost joint, J-3, and 0.01 of J-1.
     let per_hour = [0.1, 0.0, 0.01].map(|damage| damage / unit());
-    let one = recorded(folder.path(), "one.mcap", &first, BEGIN, 4, per_hour);
+    let one = recorded(folder.path(), "one", &first, BEGIN, 4, per_hour);
     // The next day J-1 and J-3 have changed places.
     let second = tool("J-3, J-2, J-1", "class: F1");
-    let two = recorded(folder.path(), "two.mcap", &second, BEGIN + 86_400 * SECOND, 3, per_hour);
+    let two = recorded(folder.path(), "two", &second, BEGIN + 86_400 * SECOND, 3, per_hour);
     let [one, two] = [&one, &two].map(|path| path.to_str().unwrap());
     let (code, out, err) = life(&["life", "add", table, one]);
     assert_eq!(code, Some(0), "{err}");
@@ -136,12 +136,12 @@ fn what_does_not_belong_leaves_the_table_as_it_was() {
         let path = recorded(folder.path(), name, config, start, 1, [1.0; 3]);
         path.to_str().unwrap().to_owned()
     };
-    let first = bag("first.mcap", &tool("J-1, J-2, J-3", "class: F1"), BEGIN);
+    let first = bag("first", &tool("J-1, J-2, J-3", "class: F1"), BEGIN);
     assert_eq!(life(&["life", "add", table, &first]).0, Some(0));
     let before = std::fs::read_to_string(table).unwrap();
     let later = BEGIN + 86_400 * SECOND;
-    let unknown = bag("unknown.mcap", &tool("J-1, J-22, J-3", "class: F1"), later);
-    let class = bag("class.mcap", &tool("J-1, J-2, J-3", "class: W3"), later);
+    let unknown = bag("unknown", &tool("J-1, J-22, J-3", "class: F1"), later);
+    let class = bag("class", &tool("J-1, J-2, J-3", "class: W3"), later);
     for (arguments, words) in [
         (vec![&*unknown], "does not have J-22 (place 2 from the bit)"),
         (

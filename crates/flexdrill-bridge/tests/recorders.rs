@@ -150,7 +150,8 @@ fn lines_of_usual_recorders_are_read_whole() {
         lines.extend(["0823-9999", "071300.00"].map(str::to_owned));
         lines
     });
-    is_read_whole("Pason's header without a sequence", &pason, 7);
+    // Item 0713, the inclination of a survey, is read.
+    is_read_whole("Pason's header without a sequence", &pason, 8);
     let two = joined("\r\n", |k| {
         let mut lines = PLAIN.lines(k);
         lines.extend(["08031".to_owned(), format!("0804{}", k / 5), "0823-9999".to_owned()]);

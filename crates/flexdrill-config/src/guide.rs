@@ -156,6 +156,7 @@ impl Guide {
         let phase = self.free_curvature_phase_deg;
         c.number("free_curvature_phase_deg", phase, PHASE, "deg", "one turn");
         let reason = "0 is a straight tube; no arc of a well is tighter than 0.5 m";
+        // What is made can bend only where the guide is free: at every node it would be a load without effect.
         if let (true, Some(first)) = (self.fixed, self.made().first()) {
             c.wrong(
                 "free_curvature",
@@ -165,6 +166,7 @@ impl Guide {
                 "a guide that is held at every node does not bend",
             );
         }
+        // Each piece has the bounds of a whole guide. Where nothing is given there is no plane for the phase to turn.
         match &self.free_curvature {
             FreeBend::Curvature(curvature) => c.number("free_curvature", *curvature, FREE_CURVATURE, "1/m", reason),
             FreeBend::Pieces(pieces) => c.below("free_curvature", |c| {

@@ -96,7 +96,7 @@ fn a_wrong_class_and_wrong_serial_numbers_are_named() {
         ("life: {class: F2}", "F2"),
         ("life: {class: F, fat: 71}", "left out with tool.joint.life.class"),
         ("life: {class: F, fat_slope: 5}", "left out without tool.joint.life.fat"),
-        ("life: {fat: 7}", "within 15 to 320 MPa"),
+        ("life: {fat: 7}", "must be 15 to 320 MPa"),
         ("serial_numbers: [J-1, J-2]", "32 serial numbers, one per joint"),
         ("serial_numbers: ['J,1']", "letters A to Z"),
         ("serial_numbers: [J-1, J-1]", "another serial number"),

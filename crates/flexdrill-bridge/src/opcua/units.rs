@@ -41,6 +41,7 @@ pub const fn code(unit: Unit) -> Option<&'static str> {
         Unit::DegreePerMetre => "H27",
         Unit::Second => "SEC",
         Unit::One => "C62",
+        // Units of oil fields that the recommendation does not list: their text alone names them.
         Unit::Decanewton
         | Unit::Kilodecanewton
         | Unit::TonneForce

@@ -8,9 +8,9 @@ use std::path::Path;
 
 use flexdrill_messages::{
     Ageing, Alarm, AlarmChance, AlarmEvent, AlarmList, AppliedInputs, Bands, BitState, ContactForces, FigureBand,
-    Forecast, ForecastBand, HoleAhead, JointDeflections, Message, Reactions, Residual, Residuals, RigInputs,
-    RigMeasured, RigSurvey, SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate, WhirlState,
-    WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
+    Forecast, ForecastBand, HoleAhead, HoleDrilled, JointDeflections, Message, Reactions, Residual, Residuals,
+    RigInputs, RigMeasured, RigSurvey, SafeWindow, SessionInfo, Transfer, TwinStatus, WhatIfAnswer, WhatIfCandidate,
+    WhirlState, WhirlWarning, to_cdr, visualization_msgs::MarkerArray,
 };
 use serde::Serialize;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, SeqAccess, Visitor, value::Error};
@@ -176,6 +176,7 @@ fn the_pages_reference_is_what_the_encoder_gives() {
         reference::<Residuals>(&mut maker),
         reference::<HoleAhead>(&mut maker),
         reference::<RigSurvey>(&mut maker),
+        reference::<HoleDrilled>(&mut maker),
     ];
     let fresh = format!("[\n{}\n]\n", lines.join(",\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(REFERENCE);
