@@ -26,7 +26,7 @@ fn tool(serials: &str, life: &str) -> Config {
 /// A recording of `hours` whose links have these sums of counted cycles per hour, from the top down.
 fn recorded(folder: &Path, name: &str, config: &Config, start: i64, hours: i64, per_hour: [f64; 3]) -> PathBuf {
     let path = folder.join(name);
-    let topic = |known: &topics::TopicInfo| Topic::new(&format!("/rig_7/{}", known.name), &known.kind, known.qos);
+    let topic = |known: &topics::TopicInfo| Topic::new(format!("/rig_7/{}", known.name), &known.kind, known.qos);
     let mut recorder = Recorder::create(&path, &[topic(&topics::SESSION), topic(&topics::AGEING)]).unwrap();
     let session = SessionInfo {
         config_hash: config.hash(),

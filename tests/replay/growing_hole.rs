@@ -46,8 +46,8 @@ fn a_hole_that_was_drilled_is_the_hole_of_the_next_run() {
     let before = Config::from_text("tool", TOOL).unwrap();
     let last = points.last().unwrap();
     let answers = messages(&first, "twin/hole_ahead");
-    let answers = answers.iter().map(|(_, data)| from_cdr::<HoleAhead>(data).unwrap());
-    let answer = answers.filter(|answer| answer.known).last().unwrap();
+    let mut answers = answers.iter().map(|(_, data)| from_cdr::<HoleAhead>(data).unwrap());
+    let answer = answers.rfind(|answer| answer.known).unwrap();
     let station = (last.drilled / 0.25) as usize;
     let [from, to] = [station, station + 1].map(|station| answer.inclinations[station]);
     let expected = from + (last.drilled / 0.25 - station as f64) * (to - from);

@@ -57,7 +57,7 @@ fn tool(sections: Vec<WellSection>) -> ToolDescription {
 /// Displacements at rest and after `steps` steps at 60 r/min under 10 kN, with the largest of all forces of the walls (N).
 fn motion(tool: &ToolDescription, steps: u32) -> [Vec<f64>; 2] {
     let inputs = Inputs {
-        rotary_speed: 6.28,
+        rotary_speed: std::f64::consts::TAU,
         weight_on_bit: 10e3,
         ..Inputs::default()
     };

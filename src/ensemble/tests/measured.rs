@@ -82,7 +82,7 @@ fn a_stuck_sensor_is_named_and_weighs_no_tool() {
         // Half of the stated noise, up and down.
         vec![(
             TORQUE,
-            values[TORQUE as usize] + if second % 2 == 0 { 0.5 } else { -0.5 },
+            values[TORQUE as usize] + if second.is_multiple_of(2) { 0.5 } else { -0.5 },
         )]
     };
     let (believed, _) = weighed(config, &plan, &twin, working);

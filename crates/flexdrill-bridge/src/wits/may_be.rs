@@ -187,8 +187,11 @@ mod tests {
         ItemCode { record: 1, item }
     }
 
+    /// An item: its number, what the mapping takes it for, and its value by frame.
+    type Item<'a> = (u8, Option<Quantity>, &'a dyn Fn(u32) -> f64);
+
     /// Items by their numbers in frames, with what is said of each.
-    fn words(items: &[(u8, Option<Quantity>, &dyn Fn(u32) -> f64)], frames: u32) -> Vec<Option<String>> {
+    fn words(items: &[Item<'_>], frames: u32) -> Vec<Option<String>> {
         let mut all: BTreeMap<ItemCode, Numbers> = BTreeMap::new();
         for (item, _, value) in items {
             for frame in 0..frames {
