@@ -150,7 +150,11 @@ async fn plugged(ends: &mut Ends, config: &Config, line: &Line, phase: Duration)
     let mapping = Mapping::from_text(name, mapping)?;
     let (place, plug) = recorder.line(phase).await?;
     let (plugged, accepted) = ends.first_accepted(config, mapping, place, plug).await?;
-    let moment = || plugged.moments.try_recv().context("the recorder sent nothing");
+    // The sample may be accepted before the recorder's thread has noted when it sent.
+    let moment = || {
+        let noted = plugged.moments.recv_timeout(Duration::from_secs(5));
+        noted.context("the recorder sent nothing")
+    };
     let (made, sent) = (moment()?, moment()?);
     Ok(Times {
         sent: sent - made,
