@@ -46,9 +46,11 @@ fn a_foreign_viewer_decodes_every_topic() {
         "/rig/measured",
         "/rig/rate_of_penetration",
         "/rig/standpipe_pressure",
+        "/rig/survey",
         "/twin/alarm_events",
         "/twin/bands",
         "/twin/forecast",
+        "/twin/hole_drilled",
         "/twin/residuals",
         "/twin/safe_window",
     ]
@@ -59,7 +61,7 @@ fn a_foreign_viewer_decodes_every_topic() {
         .filter(|name| !quiet.contains(*name))
         .collect();
     assert!(missing.is_empty(), "{missing:?} of {offered:?}");
-    assert_eq!(offered.len(), 29);
+    assert_eq!(offered.len(), 31);
     let joints = &seen["found"]["/twin/joint_deflections"];
     // 50 Hz for 4 s, less the time until the subscription.
     assert!((150..=205).contains(&joints["count"].as_u64().unwrap()), "{joints}");
