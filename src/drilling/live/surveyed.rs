@@ -62,6 +62,8 @@ pub fn learn(
     }
     // Another tool drilled the hole above. In the order of depth the answer is the same whichever came first.
     let mut used: Vec<Survey> = surveys.iter().copied().filter(|survey| survey.depth >= since).collect();
+    // A survey at the bit may lie below it by the rounding of depths.
+    used.iter_mut().for_each(|survey| survey.depth = survey.depth.min(bit));
     used.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     if used.is_empty() {
         return Some(Err(format!(
