@@ -1,7 +1,7 @@
 //! An ensemble of plausible tools: what measurements say of each member, and what the members say together.
 //!
 //! A member is a tool with drawn parameters. Measurements weigh members ([`Evidence`], [`weights`]); where few carry most of
-//! the weight, the ensemble is renewed near them ([`renewal`()]) by so much of the weights that enough members remain alike
+//! the weight, the ensemble is renewed near them ([`renewal`()]). A power of the weights leaves enough members alike
 //! ([`tempering`]); the rest counts afterwards. What members compute becomes bands ([`Band`]) and chances
 //! ([`Chance`]) over plausible tools. The model itself is wrong by a stated amount per channel, the *discrepancy*: no number
 //! of measurements takes it away.

@@ -10,8 +10,8 @@
 mod elastica;
 mod support;
 
-use flexdrill_hole::{Advance, Bend, Bends, BitLaw, Gravity, Guide, Hole, Propagation, at_rest, bounds, steady};
-use support::{ARC, CHORD, SOFT, agree, arc, guide};
+use flexdrill_hole::{Advance, Bend, Bends, BitLaw, Gravity, Guide, at_rest, bounds, steady};
+use support::{ARC, CHORD, SOFT, agree, arc, drill, guide};
 
 /// Pieces above the one at the bit: where they begin (m), and their curvature (1/m).
 fn bends(changes: &[(f64, f64)]) -> Bends {
@@ -20,15 +20,6 @@ fn bends(changes: &[(f64, f64)]) -> Bends {
         .map(|&(from, curvature)| Bend { from, curvature })
         .collect();
     Bends::new(&changes).unwrap()
-}
-
-fn drill(guide: Guide, law: BitLaw, curvature: f64, metres: f64) -> Vec<Advance> {
-    let hole = Hole::begin(0.0, 0.0).unwrap();
-    let hole = hole
-        .arc(1.0 / curvature, (guide.length + 0.1) * curvature, CHORD)
-        .unwrap();
-    let (mut propagation, _) = Propagation::begin(guide, law, hole, CHORD).unwrap();
-    propagation.drill(metres).unwrap()
 }
 
 #[test]

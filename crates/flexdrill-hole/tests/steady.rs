@@ -11,7 +11,7 @@ mod elastica;
 mod support;
 
 use flexdrill_hole::{Advance, BitLaw, Gravity, Guide, Hole, Propagation, bounds, indifferent_resistance, steady};
-use support::{ARC, CHORD, SOFT, TUBE, agree, guide};
+use support::{ARC, CHORD, SOFT, TUBE, agree, drill, guide};
 
 /// The paper's guide in a hole of constant weight across it.
 fn level(factor: f64) -> Guide {
@@ -19,16 +19,6 @@ fn level(factor: f64) -> Guide {
         gravity: Gravity::LowSide,
         ..guide(factor)
     }
-}
-
-/// Drills from an arc of a curvature on.
-fn drill(guide: Guide, law: BitLaw, curvature: f64, metres: f64) -> Vec<Advance> {
-    let hole = Hole::begin(0.0, 0.0).unwrap();
-    let hole = hole
-        .arc(1.0 / curvature, (guide.length + 0.1) * curvature, CHORD)
-        .unwrap();
-    let (mut propagation, _) = Propagation::begin(guide, law, hole, CHORD).unwrap();
-    propagation.drill(metres).unwrap()
 }
 
 /// Mean of a figure over the last metres.

@@ -7,7 +7,7 @@
     reason = "each test uses some of these helpers, which fail by panicking"
 )]
 
-use flexdrill_hole::{Bends, Gravity, Guide, Hole};
+use flexdrill_hole::{Advance, Bends, BitLaw, Gravity, Guide, Hole, Propagation};
 
 /// EI of the paper's guide as a tube (N m2).
 pub const TUBE: f64 = 6.8037e5;
@@ -39,6 +39,16 @@ pub fn guide(factor: f64) -> Guide {
 pub fn arc(degrees: f64, chord: f64) -> Hole {
     let hole = Hole::begin(0.0, 0.0).unwrap().straight(5.2, chord).unwrap();
     hole.arc(3.2, degrees.to_radians(), chord).unwrap()
+}
+
+/// Drills from an arc of a curvature on.
+pub fn drill(guide: Guide, law: BitLaw, curvature: f64, metres: f64) -> Vec<Advance> {
+    let hole = Hole::begin(0.0, 0.0).unwrap();
+    let hole = hole
+        .arc(1.0 / curvature, (guide.length + 0.1) * curvature, CHORD)
+        .unwrap();
+    let (mut propagation, _) = Propagation::begin(guide, law, hole, CHORD).unwrap();
+    propagation.drill(metres).unwrap()
 }
 
 /// Whether two numbers agree within a share of the second.

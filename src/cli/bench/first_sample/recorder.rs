@@ -1,5 +1,5 @@
 //! Made recorders: each sends as a recorder of the table in `docs/rig_inputs.md` does, on loopback or a pseudo terminal, from
-//! a thread, as a recorder is a machine of its own.
+//! a separate thread, as a recorder is a separate machine.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
