@@ -14,28 +14,22 @@
 //! - [`reach`]: runs of a lengthened tool: what arrives at the bit against the length of the hole.
 //! - [`trip`]: hook load and torque of a trip over the depth of the bit.
 //! - [`sensitivity`]: runs of a tool with one uncertain key at an end of its distribution.
-//! - [`session`]: what the frames and inputs of a run become, for each host: node, replay, look-ahead.
-//! - [`ensemble`]: plausible tools that run with the twin, and what they do together. [`drilling`]: where a tool drills next,
-//!   with the range of plausible tools, also under the load of a live twin.
 //! - [`runs`]: runs that need nothing of each other, on threads, and kept.
-//! - [`residuals`]: what the rig measures against what the twin computes, once per second.
-//! - [`health`]: status and diagnostics of the node. [`alarms`]: the meaning of the motion and of the node's state for
-//!   an operator.
-//! - [`safe_window`]: the map of speed and weight, and where a point is on it.
+//! - [`health`]: status, diagnostics and conditions of the node.
 //! - [`bridge`]: a rig's own protocols joined to the twin's topics.
-//! - [`rig_inputs`]: publishers, age and validity of the rig's inputs.
+//!
+//! What a run becomes is the crate [`flexdrill_session`], of which this program has three hosts: node, replay, look-ahead. Its
+//! rooms have their names here too: [`session`], [`ensemble`], [`drilling`], [`residuals`], [`alarms`], [`safe_window`],
+//! [`rig_inputs`].
 //!
 //! Below them are crates, most of them also under a short name here: [`flexdrill_dashboard`], [`flexdrill_report`],
 //! [`flexdrill_live`], [`flexdrill_bag`], [`flexdrill_field_log`], [`flexdrill_ros2`], [`flexdrill_messages`],
 //! [`flexdrill_outputs`], [`flexdrill_text`], and the mechanics with the crates around it. `docs/architecture.md` draws the house.
 
 pub mod ahead;
-pub mod alarms;
 #[cfg(feature = "bridge")]
 pub mod bridge;
 pub mod cli;
-pub mod drilling;
-pub mod ensemble;
 pub mod health;
 #[cfg(feature = "sweep")]
 pub mod hole_ahead;
@@ -44,14 +38,10 @@ pub mod map;
 pub mod node;
 #[cfg(feature = "sweep")]
 pub mod reach;
-pub mod residuals;
-pub mod rig_inputs;
 #[cfg(feature = "sweep")]
 pub mod runs;
-pub mod safe_window;
 #[cfg(feature = "sweep")]
 pub mod sensitivity;
-pub mod session;
 #[cfg(feature = "sweep")]
 pub mod trip;
 
@@ -64,3 +54,5 @@ pub use flexdrill_messages as messages;
 pub use flexdrill_report as report;
 pub use flexdrill_ros2 as ros;
 pub use flexdrill_ros2::dds;
+pub use flexdrill_session as session;
+pub use flexdrill_session::{alarms, drilling, ensemble, residuals, rig_inputs, safe_window};

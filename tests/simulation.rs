@@ -21,8 +21,9 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
 
 use bag_support::witness::Witness;
-use flexdrill::alarms::{AlarmBook, NodeState};
+use flexdrill::alarms::AlarmBook;
 use flexdrill::dds::port::{Health, Restart};
+use flexdrill::health::conditions::{NodeConditions, NodeState};
 use flexdrill::health::status::{OutputCount, Sources, StatusKeeper};
 use flexdrill::messages::builtin_interfaces::Time as Stamp;
 use flexdrill::messages::std_msgs::Header;
@@ -103,6 +104,7 @@ struct World {
     commands: rtrb::Producer<Command>,
     status: StatusKeeper,
     session: Session,
+    conditions: NodeConditions,
     dds: Health,
     stamps: BTreeMap<&'static str, i64>,
     counts: BTreeMap<&'static str, u64>,
@@ -384,7 +386,7 @@ impl World {
         let time = self.rig_time();
         let book = self.session.alarms_mut();
         book.advance(time);
-        book.observe_node(&state, time);
+        self.conditions.observe(book, &state, time);
         let header = self.header();
         let mut sent = Sent::default();
         self.session.publish_alarms(header, self.now as i64, &mut sent).unwrap();
@@ -505,6 +507,7 @@ fn run(seed: u64, config: &Arc<Config>, fresh: &[u8]) -> u64 {
         publisher,
         commands: requests.commands,
         status: StatusKeeper::new(Arc::clone(config)).unwrap(),
+        conditions: NodeConditions::default(),
         session: Session::new(
             Arc::clone(config),
             AlarmBook::fresh(Arc::clone(config), RIG_BEGIN as i64),

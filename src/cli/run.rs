@@ -8,7 +8,6 @@ use clap::Args;
 
 use super::built_in::{self, BuiltIn};
 use super::{WrongUse, numbers, plan, record_name, signals};
-use crate::alarms::state_file;
 use crate::bag::Losses;
 use crate::cli::output::say;
 use crate::dds::network::Network;
@@ -17,6 +16,7 @@ use crate::messages::TwinStatus;
 use crate::messages::topics::{self, Cadence};
 use crate::node::DEFAULT_NODE_NAME;
 use crate::node::parameters;
+use crate::node::state_file;
 use crate::node::{self, LiveAddress, NodeSetup, RunSummary};
 use crate::ros::args::RosArgs;
 use crate::ros::service::ServiceMapping;

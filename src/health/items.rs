@@ -1,8 +1,9 @@
 //! The items of `/diagnostics` whose figures are in the status: pacing, solver, inputs, recording, network.
 
+use super::conditions::{another_of_this_name, not_in_real_time};
 use super::diagnostics::RigEvidence;
 use super::item::{Item, figure, figure_in};
-use crate::alarms::{AlarmId, another_of_this_name, not_in_real_time};
+use crate::alarms::AlarmId;
 use crate::messages::{Residuals, TwinStatus};
 use flexdrill_core::inputs::{InputKind, MeasuredKind};
 use flexdrill_outputs::words;

@@ -1,7 +1,8 @@
-//! The state of the twin in figures (`twin/status`), and the alarms with these figures as items of `/diagnostics`. It
-//! knows the messages and no middleware.
+//! The state of the node in figures (`twin/status`) and as items of `/diagnostics`, with the alarms, and the conditions of the
+//! alarms on it. The room knows the messages, and no middleware.
 
 mod alarms;
+pub mod conditions;
 pub mod diagnostics;
 mod item;
 mod items;

@@ -11,8 +11,9 @@ use super::NodeError;
 use super::advisor::{Acting, Advisor, InForce};
 use super::confirmed::Confirmation;
 use super::publish::PublisherParts;
-use crate::alarms::state_file::{self, StateError, StateWriter};
-use crate::alarms::{AlarmBook, NodeState, RecordingState, Request};
+use super::state_file::{self, StateError, StateWriter};
+use crate::alarms::{AlarmBook, Request};
+use crate::health::conditions::{NodeConditions, NodeState, RecordingState};
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
@@ -60,6 +61,8 @@ pub struct AlarmDesk {
     advisor: Option<Arc<Advisor>>,
     /// The parameters in force that advice depends on.
     parameters: InForce,
+    /// The conditions of the node itself.
+    conditions: NodeConditions,
     /// Writes the state to its file, with the number of the newest event that it was given.
     writer: Option<(StateWriter, u64)>,
 }
@@ -82,6 +85,7 @@ impl AlarmDesk {
             requests,
             advisor: None,
             parameters: InForce::of(config),
+            conditions: NodeConditions::default(),
             writer: writer.map(|writer| (writer, 0)),
         };
         (book, desk)
@@ -150,7 +154,7 @@ impl AlarmDesk {
 /// Judges the alarms of the node itself, at the present time on the rig's clock. They follow the wall clock, so that they work
 /// while the model stands.
 pub(super) fn judge_node(
-    parts: &PublisherParts,
+    parts: &mut PublisherParts,
     book: &mut AlarmBook,
     failure: Option<StepFailure>,
     pace: PaceReading,
@@ -174,7 +178,7 @@ pub(super) fn judge_node(
     };
     let time = parts.clocks.rig_time();
     book.advance(time);
-    book.observe_node(&state, time);
+    parts.alarms.conditions.observe(book, &state, time);
     for Confirmation { by, reason } in parts.confirmed.take() {
         book.enter_confirmed(&by, &reason, time);
     }

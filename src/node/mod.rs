@@ -29,6 +29,7 @@ mod running;
 mod set_point;
 mod setup;
 mod simulator;
+pub mod state_file;
 mod states;
 mod thinned;
 mod turns;

@@ -18,9 +18,9 @@ use super::publishers::Publishers;
 use super::received::{Received, ReceivedQueue};
 use super::set_point::SharedSetPoint;
 use super::thinned::Thinned;
-use crate::alarms::{another_of_this_name, not_in_real_time};
 use crate::bag::RecordingThread;
 use crate::drilling::live::SharedPoints;
+use crate::health::conditions::{another_of_this_name, not_in_real_time};
 use crate::health::diagnostics::{self, RigEvidence};
 use crate::health::motion::MotionEvidence;
 use crate::health::status::{OutputCount, Sources, StatusKeeper};
@@ -213,7 +213,7 @@ impl Publisher {
             let pace = self.status.pace();
             // The node's alarms are judged at a fixed rate, not with the status:
             // a rate that a client sets must not delay an alarm.
-            alarms::judge_node(&self.parts, self.session.alarms_mut(), self.failure, pace);
+            alarms::judge_node(&mut self.parts, self.session.alarms_mut(), self.failure, pace);
         }
         self.send_forecast();
         log_unsent(self.session.publish_bands(false, &mut NodeHost::all(&self.parts)));

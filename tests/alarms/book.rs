@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
-use flexdrill::alarms::{AlarmBook, AlarmId, NodeState, RecordingState, Request};
+use flexdrill::alarms::{AlarmBook, AlarmId, Request};
 use flexdrill::bag::{Losses, Problem};
 use flexdrill::dds::port::Health;
+use flexdrill::health::conditions::{NodeConditions, NodeState, RecordingState};
 use flexdrill::health::diagnostics::{self, RigEvidence};
 use flexdrill::health::motion::MotionEvidence;
 use flexdrill::messages::builtin_interfaces::Time;
@@ -366,6 +367,7 @@ fn inputs_pace_and_recording_call_too() {
         conditioner.offer(kind, 10.0, 0.0).unwrap();
     }
     let mut book = AlarmBook::fresh(config, 0);
+    let mut conditions = NodeConditions::default();
     // 15 s without a sample: past max_age and hold_before_safe, so that the safe values act.
     for tenth in 0..200 {
         let state = NodeState {
@@ -393,7 +395,7 @@ fn inputs_pace_and_recording_call_too() {
             dds: Health::default(),
             namesakes: Vec::new(),
         };
-        book.observe_node(&state, tenth * SECOND / 10);
+        conditions.observe(&mut book, &state, tenth * SECOND / 10);
     }
     let (events, list) = publish(&mut book, 20);
     let list = list.unwrap();
@@ -431,6 +433,7 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
         let config = config();
         let conditioner = Conditioner::new(config.inputs.rules());
         let mut book = AlarmBook::fresh(config, 0);
+        let mut conditions = NodeConditions::default();
         for tenth in 0..40 {
             let state = NodeState {
                 conditioner: &conditioner,
@@ -443,7 +446,7 @@ fn a_recording_that_lost_something_calls_even_when_it_goes_on() {
                 namesakes: Vec::new(),
                 drivers: Default::default(),
             };
-            book.observe_node(&state, tenth * SECOND / 10);
+            conditions.observe(&mut book, &state, tenth * SECOND / 10);
         }
         let (_, list) = publish(&mut book, 4);
         let alarm = find(&list.unwrap(), "recording").clone();
@@ -557,6 +560,7 @@ fn two_drivers_call_with_who_they_are() {
     let mut conditioner = Conditioner::new(config.inputs.rules());
     let mut drivers = Drivers::new(Rule::of(&config.inputs));
     let mut book = AlarmBook::fresh(config, 0);
+    let mut conditions = NodeConditions::default();
     let ids = [1, 2].map(|byte| DriverId([byte; 16]));
     drivers.describe(Driver {
         id: ids[1],
@@ -586,7 +590,7 @@ fn two_drivers_call_with_who_they_are() {
             dds: Health::default(),
             namesakes: Vec::new(),
         };
-        book.observe_node(&state, tenth * SECOND / 10);
+        conditions.observe(&mut book, &state, tenth * SECOND / 10);
         if tenth == 90 {
             let list = publish(&mut book, 9).1.unwrap();
             let alarm = find(&list, "two_drivers");
@@ -678,6 +682,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
     let config = config();
     let mut conditioner = Conditioner::new(config.inputs.rules());
     let mut book = AlarmBook::fresh(config, 0);
+    let mut conditions = NodeConditions::default();
     for tenth in 0..=200_i64 {
         let now = tenth as f64 * 0.1;
         conditioner.offer(InputKind::RotarySpeed, 500.0, now).unwrap_err();
@@ -692,7 +697,7 @@ fn an_input_that_is_only_refused_is_stale_and_says_why() {
             dds: Health::default(),
             namesakes: Vec::new(),
         };
-        book.observe_node(&state, tenth * SECOND / 10);
+        conditions.observe(&mut book, &state, tenth * SECOND / 10);
         // Stale after max_age of 5 s, on its safe value after 10 s more; each calls after the alarm's delay of 2 s.
         let expected = match tenth {
             40 => Some((Alarm::LOW, "refused: above the maximum of 120 r/min")),
@@ -718,6 +723,7 @@ fn an_input_that_has_never_sent_calls_after_the_configured_time_only() {
     let wait = config.alarms.first_sample_within;
     let conditioner = Conditioner::new(config.inputs.rules());
     let mut book = AlarmBook::fresh(config, 0);
+    let mut conditions = NodeConditions::default();
     let mut states = Vec::new();
     for second in 0..=(wait as i64 + 10) {
         let state = NodeState {
@@ -731,7 +737,7 @@ fn an_input_that_has_never_sent_calls_after_the_configured_time_only() {
             dds: Health::default(),
             namesakes: Vec::new(),
         };
-        book.observe_node(&state, second * SECOND);
+        conditions.observe(&mut book, &state, second * SECOND);
         let list = book.list(Header::default());
         let found = ["rotary_speed_input", "weight_on_bit_input"].map(|id| find(&list, id).state);
         assert_eq!(found[0], found[1]);
@@ -757,6 +763,7 @@ fn a_matter_of_the_computer_is_for_whoever_runs_it_and_comes_after_the_drillers(
     let config = config();
     let conditioner = Conditioner::new(config.inputs.rules());
     let mut book = AlarmBook::fresh(config, 0);
+    let mut conditions = NodeConditions::default();
     for second in 0..10 {
         let state = NodeState {
             conditioner: &conditioner,
@@ -772,7 +779,7 @@ fn a_matter_of_the_computer_is_for_whoever_runs_it_and_comes_after_the_drillers(
             dds: Health::default(),
             namesakes: Vec::new(),
         };
-        book.observe_node(&state, second * SECOND);
+        conditions.observe(&mut book, &state, second * SECOND);
     }
     show(&mut book, 10, 1, &snapshot(&[stick_slip()]));
     let (events, list) = publish(&mut book, 11);
@@ -868,6 +875,7 @@ fn diagnostics_never_contradict_the_alarms() {
     let begun = config();
     let mut conditioner = Conditioner::new(begun.inputs.rules());
     let mut book = AlarmBook::fresh(Arc::clone(&begun), 0);
+    let mut conditions = NodeConditions::default();
     // Figures that would be an error by themselves throughout: they must not raise any level.
     let status = TwinStatus {
         state: TwinStatus::RUNNING,
@@ -960,7 +968,7 @@ fn diagnostics_never_contradict_the_alarms() {
         book.advance(stamp);
         book.observe_tool(&snapshot, stamp);
         book.observe_hole(&crate::plan::off(if bad { 1.2 } else { 0.5 }), stamp);
-        book.observe_node(&state, stamp);
+        conditions.observe(&mut book, &state, stamp);
         match tenth {
             250 => drop(book.request(&acknowledge("stick_slip"), stamp).unwrap()),
             260 => drop(book.request(&shelve("joint_load", 10.0), stamp).unwrap()),

@@ -1,8 +1,9 @@
 //! Which alarm leads the list, and when its condition counts as one that stands, is less severe or has ended.
 
 use super::words::{SECOND, any_snapshot, config, find, hazard, list, said, snapshot};
-use flexdrill::alarms::{AlarmBook, AlarmId, NodeState, Request};
+use flexdrill::alarms::{AlarmBook, AlarmId, Request};
 use flexdrill::dds::port::Health;
+use flexdrill::health::conditions::{NodeConditions, NodeState};
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::{AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, ShelveAlarmRequest};
 use flexdrill_core::inputs::Conditioner;
@@ -233,6 +234,7 @@ proptest! {
         let config = config();
         let conditioner = Conditioner::new(config.inputs.rules());
         let mut book = AlarmBook::fresh(config, 0);
+        let mut conditions = NodeConditions::default();
         let mut now = 0.0;
         for (snapshot, request, step, of_node) in &moments {
             for _ in 0..3 {
@@ -252,7 +254,7 @@ proptest! {
                         dds: Health::default(),
                         namesakes: Vec::new(),
                     };
-                    book.observe_node(&state, stamp);
+                    conditions.observe(&mut book, &state, stamp);
                 }
                 leads_rightly(&list(&book))?;
             }

@@ -4,9 +4,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use flexdrill::alarms::{AlarmBook, AlarmId, NodeState, RecordingState};
+use flexdrill::alarms::{AlarmBook, AlarmId};
 use flexdrill::bag::{Losses, Problem};
 use flexdrill::dds::port::Health;
+use flexdrill::health::conditions::{NodeConditions, NodeState, RecordingState};
 use flexdrill::messages::builtin_interfaces::Time;
 use flexdrill::messages::std_msgs::Header;
 use flexdrill::messages::{Alarm, AlarmEvent, AlarmList, CdrError};
@@ -178,6 +179,7 @@ fn with_stale_inputs_the_motion_says_first_that_the_rig_is_unknown() {
         conditioner.offer(kind, 10.0, 0.0).unwrap();
     }
     let mut book = AlarmBook::fresh(config, 0);
+    let mut conditions = NodeConditions::default();
     let mut told = |now: f64| {
         let state = NodeState {
             conditioner: &conditioner,
@@ -194,7 +196,7 @@ fn with_stale_inputs_the_motion_says_first_that_the_rig_is_unknown() {
             namesakes: Vec::new(),
         };
         let stamp = (now * 1e9) as i64;
-        book.observe_node(&state, stamp);
+        conditions.observe(&mut book, &state, stamp);
         let chaos = hazard(HazardKind::ChaoticWhirl, Severity::Critical);
         book.observe_tool(&snapshot(95.0, 10.0, &[chaos]), stamp);
         find(&list(&book), "chaotic_whirl").what_to_do.clone()
@@ -601,6 +603,7 @@ proptest! {
         let config = config();
         let conditioner = Conditioner::new(config.inputs.rules());
         let mut book = AlarmBook::fresh(config, 0);
+        let mut conditions = NodeConditions::default();
         for second in 0..30 {
             let state = NodeState {
                 conditioner: &conditioner,
@@ -624,7 +627,7 @@ proptest! {
                 dds: Health::default(),
                 namesakes: Vec::new(),
             };
-            book.observe_node(&state, i64::from(second) * SECOND);
+            conditions.observe(&mut book, &state, i64::from(second) * SECOND);
             let (list, events) = said(&mut book);
             check(&list, &events)?;
         }

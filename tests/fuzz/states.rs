@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use flexdrill::alarms::{AlarmBook, state_file};
+use flexdrill::alarms::AlarmBook;
 use flexdrill::dds::frames::{self, Beat, FromSide, LogLevel, Peer, Peers, RequestId, Stall, ToSide};
 use flexdrill::dds::network::{Network, Reach};
 use flexdrill::dds::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan};
 use flexdrill::messages::std_msgs::Header;
+use flexdrill::node::state_file;
 use flexdrill_alarms::{AlarmSystem, Observation, Priority, Saved};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;

@@ -319,7 +319,7 @@ fn hosts_publish_nothing_of_their_own() {
             for call in OF_THE_SESSION {
                 assert!(
                     !code.contains(call),
-                    "{}: {call} is for src/session alone",
+                    "{}: {call} is for the session alone",
                     file.display()
                 );
             }

@@ -31,9 +31,13 @@ const ALLOWED: &[(&str, &str, &str)] = &[
         "configuration, once, at the start",
     ),
     ("src/node/prepare.rs", "model time runs", "once, at the start"),
-    ("src/ensemble/running.rs", "{why}", "once, at the start"),
     (
-        "src/ensemble/running.rs",
+        "crates/flexdrill-session/src/ensemble/running.rs",
+        "{why}",
+        "once, at the start",
+    ),
+    (
+        "crates/flexdrill-session/src/ensemble/running.rs",
         "plausible tools run with the twin",
         "once, at the start",
     ),
@@ -41,11 +45,11 @@ const ALLOWED: &[(&str, &str, &str)] = &[
     ("src/node/running.rs", "the node ends without it", "once, at the end"),
     ("src/node/publish.rs", "did not reach the viewers", "once, at the end"),
     (
-        "src/alarms/state_file.rs",
+        "src/node/state_file.rs",
         "tracing::warn!(\"{error}\")",
         "once, at the start",
     ),
-    ("src/alarms/state_file.rs", "does not answer", "once, at the end"),
+    ("src/node/state_file.rs", "does not answer", "once, at the end"),
     ("src/cli/", "{note}", "notes on the environment, once, at the start"),
     ("src/cli/bridge/", "password", "configuration, once, at the start"),
     (

@@ -74,10 +74,10 @@ mod with_mqtt {
 
     use super::super::super::{WrongUse, signals};
     use super::MqttArgs;
-    use crate::alarms::state_file;
     use crate::bridge::mqtt::MqttBridge;
     use crate::bridge::{Outgoing, birth_number};
     use crate::cli::output::say;
+    use crate::node::state_file;
 
     /// Name of the node unless it is remapped.
     const NODE_NAME: &str = "flexdrill_bridge_mqtt";

@@ -91,10 +91,10 @@ mod with_opcua {
     use super::super::super::{WrongUse, signals};
     use super::super::ros_side::RosSide;
     use super::OpcuaArgs;
-    use crate::alarms::state_file;
     use crate::bridge::Outgoing;
     use crate::bridge::opcua::{RigBridge, ServerBridge};
     use crate::cli::output::say;
+    use crate::node::state_file;
 
     /// Name of the node unless it is remapped.
     const NODE_NAME: &str = "flexdrill_bridge_opcua";

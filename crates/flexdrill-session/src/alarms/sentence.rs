@@ -4,7 +4,7 @@
 const IMPLAUSIBLE: f64 = 1e6;
 
 /// A number for a sentence; none for one that was not measured, so that the sentence leaves it out.
-pub(super) fn number(value: f64, digits: usize) -> Option<String> {
+pub fn number(value: f64, digits: usize) -> Option<String> {
     if !value.is_finite() || value.abs() >= IMPLAUSIBLE {
         return None;
     }
@@ -17,7 +17,7 @@ pub(super) fn number(value: f64, digits: usize) -> Option<String> {
 }
 
 /// The text with a capital first letter.
-pub(super) fn capitalized(text: &str) -> String {
+pub fn capitalized(text: &str) -> String {
     let (first, rest) = text.split_at(text.chars().next().map_or(0, char::len_utf8));
     first.to_uppercase() + rest
 }

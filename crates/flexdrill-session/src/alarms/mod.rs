@@ -4,13 +4,13 @@
 //! # Layout
 //! - [`AlarmBook`] joins them: conditions and requests in, [`AlarmList`] and [`AlarmEvent`]s out.
 //! - `catalogue`: the alarms that exist. `finding`: a condition with its texts.
-//! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. `node`: conditions of
-//!   inputs, real time, solver, recording and network. `worst_moment`: a standing alarm shows its worst moment.
+//! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. The conditions of a node come
+//!   from the node. `worst_moment`: a standing alarm shows its worst moment.
 //!   `window`: speed and weight against the map. `rig`: what the rig measures against what the twin computes;
 //!   `adjusted`: what followed from it. `plan`: where the tool drills against the plan of the hole. `changed`: what clients have changed of the configuration.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `plausible`: in how
 //!   many plausible tools an alarm stands. `sentence`: parts of sentences. `set`: sets of alarms.
-//! - `fill`: messages. `state_file`: the state that outlasts a restart.
+//! - `fill`: messages.
 //!
 //! `docs/alarms.md` is for operators.
 
@@ -21,29 +21,24 @@ mod changed;
 mod fill;
 mod finding;
 mod friction;
-mod node;
 mod plan;
 mod plausible;
 mod request;
 mod rig;
-mod sentence;
+pub mod sentence;
 mod set;
-pub mod state_file;
 mod tool;
 mod window;
 mod worst_moment;
 
-pub use advice::{Change, Knob, Leading, Tested, Trial, Unknown};
-pub(crate) use advice::{TRIED_SPEED, TRIED_WEIGHT};
+pub use advice::{Change, Knob, Leading, TRIED_SPEED, TRIED_WEIGHT, Tested, Trial, Unknown};
 pub use catalogue::AlarmId;
-pub(crate) use fill::priority as priority_code;
+pub use fill::priority as priority_code;
 pub use finding::Finding;
-pub use node::{NodeState, RecordingState};
-pub(crate) use node::{another_of_this_name, not_in_real_time};
 pub use request::Request;
 pub use rig::{Followed, Judged, in_words};
 pub use set::AlarmSet;
-pub(crate) use tool::called_at;
+pub use tool::called_at;
 
 use std::sync::Arc;
 
@@ -80,7 +75,6 @@ pub struct AlarmBook {
     holds: bool,
     /// The operating point of the newest snapshot.
     operating: Operating,
-    memory: node::Memory,
     /// The map of speed and weight, where one is loaded.
     window: Option<Arc<SafeWindow>>,
     /// What look-aheads have found for the present state, and what they do.
@@ -136,7 +130,7 @@ impl AlarmBook {
 
     /// All alarms normal, for a run that is to find out whether a motion has ended: the alarms return within [`PROMPT_OFF_DELAY`]
     /// of it, and are not held as those of an operator are.
-    pub(crate) fn prompt(config: Arc<Config>, time: Time) -> Self {
+    pub fn prompt(config: Arc<Config>, time: Time) -> Self {
         let mut definitions = AlarmId::ALL.map(|id| id.define(&config.alarms)).to_vec();
         let of_motion = HazardKind::ALL.into_iter().map(AlarmId::of_hazard);
         for id in of_motion.chain([AlarmId::ModelQuality]) {
@@ -155,7 +149,6 @@ impl AlarmBook {
             moments: vec![WorstMoment::default(); AlarmId::ALL.len()],
             holds: true,
             operating: Operating::default(),
-            memory: node::Memory::default(),
             window: None,
             tested: None,
             trial: Trial::default(),
@@ -188,6 +181,11 @@ impl AlarmBook {
     pub fn reconfigure(&mut self, config: &Arc<Config>, changes: &[ParameterChange]) {
         self.changed.reconfigure(&self.config, config, changes);
         self.config = Arc::clone(config);
+    }
+
+    /// The configuration that defines them.
+    pub fn config(&self) -> &Config {
+        &self.config
     }
 
     /// Judges speed and weight by a map.
@@ -290,14 +288,8 @@ impl AlarmBook {
         }
     }
 
-    /// Observes the node's own state.
-    pub fn observe_node(&mut self, state: &NodeState<'_>, time: Time) {
-        self.set_unknown(Unknown::of(state.conditioner, state.now));
-        let findings = node::findings(state, &self.config.alarms, &mut self.memory);
-        self.observe(findings, time);
-    }
-
-    fn observe(&mut self, findings: impl IntoIterator<Item = (AlarmId, Finding)>, time: Time) {
+    /// Observes findings at the present time, such as those on the state of a node, which the node makes.
+    pub fn observe(&mut self, findings: impl IntoIterator<Item = (AlarmId, Finding)>, time: Time) {
         let mut events = Vec::new();
         for (id, finding) in findings {
             let moment = &self.moments[id as usize];
@@ -327,7 +319,7 @@ impl AlarmBook {
         self.tools.take(bands);
     }
 
-    /// Takes which of the rig's values the twin does not know. [`AlarmBook::observe_node`] does so too.
+    /// Takes which of the rig's values the twin does not know.
     pub fn set_unknown(&mut self, unknown: Unknown) {
         (self.unknown, self.operating.unknown) = (unknown, unknown);
     }
@@ -505,7 +497,7 @@ impl AlarmBook {
 }
 
 /// The rule for an alarm of the tool's motion; one without limits for any other.
-pub(crate) fn rule(id: AlarmId, table: &AdviceTable) -> Advice {
+pub fn rule(id: AlarmId, table: &AdviceTable) -> Advice {
     let kind = HazardKind::ALL.into_iter().find(|kind| AlarmId::of_hazard(*kind) == id);
     kind.map_or(Advice::default(), |kind| tool::rule(kind, table))
 }

@@ -254,9 +254,10 @@ impl Trial {
 /// What is said where look-aheads have refuted the rule of the leading alarm.
 const NOTHING: &str =
     "Nothing that the twin has tried ends it: from 0.3 to 2 times the speed, from 0.3 to 1.5 times the weight. ";
-/// Least and most speed that look-aheads try, and the same of weight, as parts of the present value.
-pub(crate) const TRIED_SPEED: [f64; 2] = [0.3, 2.0];
-pub(crate) const TRIED_WEIGHT: [f64; 2] = [0.3, 1.5];
+/// Least and most speed that look-aheads try, as parts of the present one.
+pub const TRIED_SPEED: [f64; 2] = [0.3, 2.0];
+/// Least and most weight that look-aheads try, as parts of the present one.
+pub const TRIED_WEIGHT: [f64; 2] = [0.3, 1.5];
 
 impl Knob {
     fn name(self) -> &'static str {

@@ -122,12 +122,7 @@ fn called(kind: HazardKind, severity: Severity, now: &Operating, config: &Config
 
 /// The priority with which a level would raise its alarm at a speed (r/min) and weight (kN); none where it is a
 /// displayed state there.
-pub(crate) fn called_at(
-    kind: HazardKind,
-    severity: Severity,
-    [rpm, kn]: [f64; 2],
-    config: &Config,
-) -> Option<Priority> {
+pub fn called_at(kind: HazardKind, severity: Severity, [rpm, kn]: [f64; 2], config: &Config) -> Option<Priority> {
     let now = Operating {
         rpm,
         kn,

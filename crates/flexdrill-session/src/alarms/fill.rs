@@ -180,7 +180,7 @@ fn place(finding: &Finding) -> (u8, f64, f64) {
 }
 
 /// A priority in messages.
-pub(crate) fn priority(priority: Option<Priority>) -> u8 {
+pub fn priority(priority: Option<Priority>) -> u8 {
     match priority {
         None => Alarm::NO_PRIORITY,
         Some(Priority::Low) => Alarm::LOW,

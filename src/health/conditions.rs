@@ -1,12 +1,11 @@
-//! Alarms of the node itself: inputs, real time, solver, recording, network.
+//! Conditions of the alarms on the node itself: inputs, real time, solver, recording, network.
 
-use super::catalogue::AlarmId;
-use super::finding::Finding;
-use super::sentence::{self, number};
+use crate::alarms::sentence::{self, number};
+use crate::alarms::{AlarmBook, AlarmId, Finding, Unknown};
 use crate::bag::{Losses, Problem};
 use crate::dds::port::Health;
 use crate::rig_inputs::DriverSummary;
-use flexdrill_alarms::Priority;
+use flexdrill_alarms::{Priority, Time};
 use flexdrill_config::Alarms;
 use flexdrill_core::dynamics::StepFailure;
 use flexdrill_core::inputs::{Conditioner, InputKind, InputState};
@@ -52,9 +51,9 @@ pub struct RecordingState {
     pub losses: Losses,
 }
 
-/// The part of earlier observations that later ones need.
+/// Judges the state of a node. It keeps what later observations need of earlier ones.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Memory {
+pub struct NodeConditions {
     /// Time of the first observation (s, the conditioner's clock).
     began: Option<f64>,
     /// Messages that the recording had lost at the last observation.
@@ -63,8 +62,17 @@ pub(super) struct Memory {
     losses: Option<(Losses, f64)>,
 }
 
+impl NodeConditions {
+    /// Has `book` observe the alarms on a node in this state, at the present time on the rig's clock.
+    pub fn observe(&mut self, book: &mut AlarmBook, state: &NodeState<'_>, time: Time) {
+        book.set_unknown(Unknown::of(state.conditioner, state.now));
+        let findings = findings(state, &book.config().alarms, self);
+        book.observe(findings, time);
+    }
+}
+
 /// The findings on the node's state, one per alarm of the node.
-pub(super) fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut Memory) -> [(AlarmId, Finding); 9] {
+fn findings(state: &NodeState<'_>, alarms: &Alarms, memory: &mut NodeConditions) -> [(AlarmId, Finding); 9] {
     // A simulated clock is 0 before its first tick and may be set back.
     let began = memory
         .began
@@ -353,7 +361,7 @@ pub(crate) fn not_in_real_time(factor: f64) -> String {
     }
 }
 
-fn recording(recording: Option<&RecordingState>, memory: &mut Memory, now: f64) -> Finding {
+fn recording(recording: Option<&RecordingState>, memory: &mut NodeConditions, now: f64) -> Finding {
     let Some(recording) = recording else {
         return Finding::default();
     };

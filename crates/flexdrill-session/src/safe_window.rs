@@ -280,7 +280,7 @@ mod tests {
     use flexdrill_map::{FORMAT, OfStart, Origin, Start};
 
     fn config() -> Config {
-        Config::from_text("coarse.yaml", include_str!("../config/coarse.yaml")).unwrap()
+        Config::from_text("coarse.yaml", include_str!("../../../config/coarse.yaml")).unwrap()
     }
 
     fn axis(key: &str, values: &[f64]) -> Axis {

@@ -56,7 +56,7 @@ impl Kept {
 
 /// With as few plausible tools as have bands.
 fn config() -> Arc<Config> {
-    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/config/default.yaml")).unwrap();
+    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/default.yaml")).unwrap();
     let text = format!("{}ensemble: {{members: 8}}\n", config.to_yaml().unwrap());
     Arc::new(Config::from_text("default.yaml with an ensemble", &text).unwrap())
 }
@@ -208,7 +208,7 @@ fn a_session_that_was_not_begun_judges_and_sends_nothing() {
 /// The tool of config/default.yaml at rest under a weight (kN), with this in place of its guide's stiffness: what the newest
 /// message of the first second says.
 fn at_rest(bending_factor: &str) -> HoleAhead {
-    let text = include_str!("../../config/default.yaml");
+    let text = include_str!("../../../../config/default.yaml");
     let text = text
         .replace("bending_factor: 1.0 ", &format!("bending_factor: {bending_factor} "))
         .replace("initial_kn: 0", "initial_kn: 10");
@@ -271,7 +271,7 @@ fn a_tool_at_rest_has_the_side_force_of_the_statics() {
 /// standard error of a mean over 30 s is 7.5 N: two of them.
 #[test]
 fn the_torque_pushes_a_running_bit_to_the_right() {
-    let text = include_str!("../../config/default.yaml").replace("initial_kn: 0", "initial_kn: 10");
+    let text = include_str!("../../../../config/default.yaml").replace("initial_kn: 0", "initial_kn: 10");
     let config = Arc::new(Config::from_text("a tool that runs", &text).unwrap());
     let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut run = Run::new(simulation, schedule(&config, &config.outputs.rates));

@@ -264,7 +264,7 @@ mod tests {
     use super::*;
 
     fn config(values: &[(&str, serde_json::Value)]) -> Config {
-        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/config/rig.yaml")).unwrap();
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
         config.with_values("a test", values.iter().cloned()).unwrap()
     }
 

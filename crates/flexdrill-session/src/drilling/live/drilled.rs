@@ -221,7 +221,7 @@ mod tests {
     use super::*;
 
     fn config() -> Config {
-        Config::from_text("tool.yaml", include_str!("../../../tests/data/ahead.yaml")).unwrap()
+        Config::from_text("tool.yaml", include_str!("../../../../../tests/data/ahead.yaml")).unwrap()
     }
 
     /// An answer in closed form: an arc of a curvature (1/m) from a direction (rad) on.

@@ -7,7 +7,7 @@ const SECOND: i64 = 1_000_000_000;
 
 /// A hole of 5.026548 m below a kick-off at 2000 m.
 fn surveys() -> Surveys {
-    let text = include_str!("../../../config/default.yaml");
+    let text = include_str!("../../../../../config/default.yaml");
     assert!(text.contains("\nwell:\n"));
     let text = text.replace("\nwell:\n", "\nwell:\n  kick_off_depth: 2000\n");
     Surveys::new(&Config::from_text("a deep kick-off", &text).unwrap())

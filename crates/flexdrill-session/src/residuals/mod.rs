@@ -336,7 +336,7 @@ mod tests {
     const START: i64 = 1_700_000_000 * SECOND;
 
     fn config() -> Config {
-        Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/config/rig.yaml")).unwrap()
+        Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap()
     }
 
     /// A frame of steady drilling at a second.

@@ -158,7 +158,7 @@ mod tests {
     const FRICTION: &str = "contact.inner.friction_tangential";
 
     fn config() -> Arc<Config> {
-        Arc::new(Config::from_text("default.yaml", include_str!("../../config/default.yaml")).unwrap())
+        Arc::new(Config::from_text("default.yaml", include_str!("../../../../config/default.yaml")).unwrap())
     }
 
     fn request(name: &str, value: f64, asked_by: &str) -> ParameterChange {
