@@ -7,8 +7,10 @@ use flexdrill_config::{ChangedNumber, Config};
 use flexdrill_text::six_digits;
 
 use super::finding::Finding;
-use crate::residuals::FOLLOW;
 use flexdrill_outputs::ParameterChange;
+
+/// Who asks for a change by following the rig, for the log, the journal and the recording.
+pub const FOLLOW: &str = "calibration.follow";
 
 /// Entries within [`SPAN`] (ns) after which changes wait for its end and share one, so that a client that changes a value
 /// without end does not fill the journal.

@@ -6,10 +6,10 @@ use super::advice::Unknown;
 use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::number;
-use crate::drilling::to_plan::BACK;
 use crate::messages::HoleAhead;
 use flexdrill_alarms::{Priority, Time};
 use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_drilling::to_plan::BACK;
 
 /// Time without a known hole for which a standing alarm remains (ns): after a change of the weight the next answer takes 10 s.
 pub(super) const OUTLASTS: Time = 15_000_000_000;

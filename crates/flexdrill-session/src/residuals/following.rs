@@ -6,11 +6,9 @@ use flexdrill_calibration::following::{Estimated, Following, FollowingSettings, 
 use flexdrill_config::{Config, FOLLOWED};
 
 use super::tools::Friction;
+use crate::alarms::FOLLOW;
 use crate::messages;
 use flexdrill_outputs::ParameterChange;
-
-/// Who asks for a change by following, for the log and the recording.
-pub const FOLLOW: &str = "calibration.follow";
 
 /// Why nothing follows plausible tools.
 const TOO_FEW: &str = "the plausible tools say nothing of friction: too few of them run or have weight";

@@ -17,13 +17,14 @@ use flexdrill_core::inputs::{InputState, MeasuredKind};
 use flexdrill_core::twin::{Frame, Snapshot};
 use flexdrill_motion::{BIT, KICK_OFF, SURFACE};
 
+pub use crate::alarms::FOLLOW;
 use crate::alarms::{Followed, Judged, in_words};
 use crate::messages;
 use crate::messages::std_msgs::Header;
 use crate::rig_inputs::Measured;
 pub use flexdrill_config::FOLLOWED;
 use following::Estimate;
-pub use following::{FOLLOW, changes, followed};
+pub use following::{changes, followed};
 pub use tools::{Friction, Judgement};
 use tools::{Said, Tools};
 
