@@ -295,9 +295,8 @@ impl<'a> Watched<'a> {
             }
             self.advance()?;
             let snapshot = &self.snapshot;
-            session.observe(snapshot, stamp(snapshot));
-            // The journal of a fork has no reader, and would grow with the horizon.
-            session.alarms_mut().forget_events();
+            // The events of a fork have no reader.
+            drop(session.judge(snapshot, stamp(snapshot)));
             // What stands before belongs to the transition. Where all has ended early, the rest of the transition says
             // nothing more.
             let gone = snapshot.time - begun;

@@ -324,7 +324,7 @@ const OF_THE_SESSION: [&str; 8] = [
     "fill::",
     "&topics::RESIDUALS",
 ];
-const HOSTS: [&str; 3] = ["src/node", "src/cli/replay", "src/ahead"];
+const HOSTS: [&str; 4] = ["src/node", "src/cli/replay", "src/ahead", "crates/flexdrill-python/src"];
 
 #[test]
 fn hosts_publish_nothing_of_their_own() {

@@ -1,6 +1,7 @@
-//! A recording: columns that grow by a sample.
+//! A recording: columns that grow by a sample, and the events of the alarms.
 
 use flexdrill_core::twin::Snapshot;
+use flexdrill_messages::AlarmEvent;
 
 use crate::columns::{Column, GROUPS, Group, INSTANT, Read, group};
 
@@ -116,6 +117,8 @@ struct Kept {
 /// Columns that grow by a sample.
 pub struct Recorder {
     columns: Vec<Kept>,
+    /// Events of the alarms, as the node publishes them; their stamps are model time.
+    pub alarms: Vec<AlarmEvent>,
     samples: usize,
     every: u64,
 }
@@ -138,6 +141,7 @@ impl Recorder {
         }
         Ok(Self {
             columns,
+            alarms: Vec::new(),
             samples: 0,
             every,
         })

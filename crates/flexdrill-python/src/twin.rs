@@ -6,8 +6,9 @@ use flexdrill_config::Config;
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::inputs::{InputKind, InputState, Inputs};
 use flexdrill_core::tool::LiveParameters;
-use flexdrill_core::twin::{BuildError, Run, RunInputs, Schedule, Simulation, Snapshot};
+use flexdrill_core::twin::{BuildError, Run, RunInputs, Simulation, Snapshot};
 
+use crate::judge::{self, Judge};
 use crate::recorder::Recorder;
 
 /// Model time (s) between two choices of the step's refinement: the period of node and replay.
@@ -50,6 +51,7 @@ pub struct Plan {
 pub struct Twin {
     config: Arc<Config>,
     run: Run,
+    judge: Judge,
     snapshot: Snapshot,
     /// Model steps between two choices of the refinement.
     period: u64,
@@ -62,25 +64,25 @@ impl Twin {
     /// When the tool cannot be built or does not come to rest.
     pub fn new(config: Arc<Config>) -> Result<Self, BuildError> {
         let simulation = Simulation::new(&config.tool(), &config.simulation())?;
-        let run = Run::new(simulation, silent(&config));
+        let run = Run::new(simulation, judge::schedule(&config));
         Ok(Self::of(config, run))
     }
 
-    /// A run that continues from a simulation's present state.
+    /// A run that continues from a simulation's present state, with all alarms normal.
     pub(crate) fn resumed(config: Arc<Config>, simulation: Simulation, inputs: Inputs, refinement: u32) -> Self {
-        let run = Run::new(simulation, silent(&config));
+        let mut run = Run::new(simulation, judge::schedule(&config));
         let applied = RunInputs {
             inputs,
             refinement,
             ..run.applied()
         };
-        let mut run = run;
         run.apply(&trusted(applied));
         Self::of(config, run)
     }
 
     fn of(config: Arc<Config>, run: Run) -> Self {
         Self {
+            judge: Judge::new(&config, &run),
             snapshot: run.simulation().new_snapshot(),
             period: ((PERIOD / config.solver.time_step).round() as u64).max(1),
             config,
@@ -94,6 +96,7 @@ impl Twin {
         Self {
             config: Arc::clone(&self.config),
             run: self.run.fork(),
+            judge: self.judge.fork(),
             snapshot: self.snapshot.clone(),
             period: self.period,
         }
@@ -139,8 +142,8 @@ impl Twin {
         }
     }
 
-    /// Advances by `steps` model steps towards `inputs`. `recorder` takes its samples, and the state at the start if it
-    /// has none.
+    /// Advances by `steps` model steps towards `inputs`. `recorder` takes its samples, with the state at the start if it
+    /// has none, and the events of the alarms.
     ///
     /// # Errors
     /// When a step fails; the state is then that before this step.
@@ -155,25 +158,27 @@ impl Twin {
             if number == 0 || step.is_multiple_of(self.period) {
                 self.apply(inputs, step);
             }
-            if let Some(recorder) = &mut recorder
-                && step == 0
-                && recorder.samples() == 0
-                && recorder.is_due(0)
-            {
-                self.run.look(&mut self.snapshot);
-                recorder.sample(&self.snapshot);
+            if step == 0 {
+                let first = recorder.as_deref_mut().filter(|recorder| recorder.samples() == 0);
+                self.look_where_due(first);
             }
             if let StepOutcome::Failed(failure) = self.run.advance() {
                 return Err(failure);
             }
-            if let Some(recorder) = &mut recorder
-                && recorder.is_due(step + 1)
-            {
-                self.run.look(&mut self.snapshot);
-                recorder.sample(&self.snapshot);
-            }
+            self.look_where_due(recorder.as_deref_mut());
         }
         Ok(())
+    }
+
+    /// Judges the alarms and takes a sample, each where it is due.
+    fn look_where_due(&mut self, recorder: Option<&mut Recorder>) {
+        let events = self.judge.look(&mut self.run);
+        let Some(recorder) = recorder else { return };
+        recorder.alarms.extend(events);
+        if recorder.is_due(self.run.simulation().step()) {
+            self.run.look(&mut self.snapshot);
+            recorder.sample(&self.snapshot);
+        }
     }
 
     /// Lets `inputs` act, and at the borders of a period the refinement that the motion asks for.
@@ -230,7 +235,7 @@ impl Twin {
         &self.snapshot
     }
 
-    /// Resets the motion to the state after the start.
+    /// Resets the motion to the state after the start, and all alarms to normal.
     pub fn reset(&mut self) {
         let initial = self.run.simulation().settings().initial_inputs;
         self.run.apply(&RunInputs {
@@ -243,6 +248,7 @@ impl Twin {
             refinement,
             ..self.run.applied()
         });
+        self.judge = Judge::new(&self.config, &self.run);
     }
 
     /// Disturbs the lateral motion of the pipe by up to 1e-5 m/s, by the numbers that follow from `seed`: forks of one
@@ -264,11 +270,6 @@ impl Twin {
         });
         Ok(())
     }
-}
-
-/// Samples are taken by hand; a schedule without outputs.
-fn silent(config: &Config) -> Schedule {
-    Schedule::new(config.solver.time_step, |_| 0.0)
 }
 
 /// Inputs that a caller sets are known.

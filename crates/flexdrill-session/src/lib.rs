@@ -1,8 +1,8 @@
 //! What a run becomes: messages, alarms, the comparison with the rig, plausible tools that run with it, and the hole that it
-//! drills. A [`Session`] makes them for every [`Host`]: node, replay, look-ahead.
+//! drills. A [`Session`] makes them for each host: node, replay, look-ahead and the package for Python.
 //!
-//! The crate knows no middleware, no recording and no file of the node. A host says where messages are sent and what the rig
-//! has measured.
+//! The crate knows no middleware, no recording and no file of the node. A [`Host`] says where messages are sent and what the
+//! rig has measured.
 //!
 //! # Layout
 //! Each room may use those below it, never those above.

@@ -13,6 +13,7 @@ Inside everything is SI; names carry the unit: `_nm` is N m, `_rad_per_s` is rad
 """
 
 from ._ahead import HoleAhead
+from ._alarms import AlarmEvent
 from ._bag import Bag, Band, Bands, Messages, read_bag
 from ._errors import (
     ConfigError,
@@ -65,6 +66,7 @@ __all__ = [
     "USUAL_GROUPS",
     "WHIRL_KINDS",
     "Ageing",
+    "AlarmEvent",
     "Applied",
     "Bag",
     "Band",

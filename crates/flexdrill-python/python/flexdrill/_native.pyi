@@ -10,6 +10,8 @@ Changes = tuple[
     Sequence[tuple[int, float]],
 ]
 
+AlarmRow = tuple[float, str, str, int, int, int, str, str, str, int, float, float]
+
 __version__: str
 
 def columns() -> list[tuple[str, str, bool]]: ...
@@ -26,6 +28,7 @@ def rollout(
 @final
 class Recorder:
     def __new__(cls, groups: Sequence[str], rate_hz: Optional[float], time_step_s: float) -> Recorder: ...
+    def alarms(self) -> list[AlarmRow]: ...
     def finish(self) -> dict[str, Any]: ...
 
 @final

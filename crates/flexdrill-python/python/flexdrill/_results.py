@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union, cast
 import numpy.typing as npt
 
 from . import _native
+from ._alarms import AlarmEvent, events
 from ._errors import NotRecordedError, StepError
 from ._groups import (
     Ageing,
@@ -117,10 +118,22 @@ class _Grouped:
 class Recording(_Grouped):
     """Samples over the time of a run. The arrays cannot be written to and share the memory that the run filled."""
 
-    def __init__(self, columns: Mapping[str, Array], failure: Optional[StepError] = None) -> None:
+    def __init__(
+        self,
+        columns: Mapping[str, Array],
+        failure: Optional[StepError] = None,
+        alarms: Sequence[AlarmEvent] = (),
+    ) -> None:
         super().__init__(columns)
+        self.alarms: tuple[AlarmEvent, ...] = tuple(alarms)
+        """What the alarms did in the run, in the order of time. They are those of the node for these inputs."""
         self.failure = failure
         """Why the run ended early, in a rollout; None where it did not."""
+
+    @classmethod
+    def _of(cls, recorder: _native.Recorder, failure: Optional[StepError] = None) -> Recording:
+        alarms = events(recorder.alarms())
+        return cls(recorder.finish(), failure, alarms)
 
     def __len__(self) -> int:
         return len(self.time_s)

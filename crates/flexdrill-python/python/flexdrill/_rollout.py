@@ -56,6 +56,6 @@ def rollout(
         natives, steps, changes, recorders, threads or os.cpu_count() or 1, share_of(progress, count)
     )
     return [
-        Recording(recorder.finish(), cast("Optional[StepError]", failure))
+        Recording._of(recorder, cast("Optional[StepError]", failure))
         for recorder, failure in zip(recorders, failures)
     ]

@@ -115,9 +115,9 @@ class Twin:
         try:
             self._advance(steps, inputs, recorder, share_of(progress, steps))
         except StepError as failure:
-            failure.recording = Recording(recorder.finish())
+            failure.recording = Recording._of(recorder)
             raise
-        return Recording(recorder.finish())
+        return Recording._of(recorder)
 
     def step(
         self,

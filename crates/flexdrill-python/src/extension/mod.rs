@@ -3,6 +3,7 @@
 // The macros of PyO3 write the glue to the C interface of Python.
 #![allow(unsafe_code)]
 
+mod alarms;
 mod arrays;
 mod errors;
 mod recorder;

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::{arrays, errors};
+use super::{alarms, arrays, errors};
 use crate::recorder;
 
 /// Columns that grow while twins run; `finish` takes them out.
@@ -28,6 +28,12 @@ impl Recorder {
         Ok(Self { inner: Some(inner) })
     }
 
+    /// The events of the alarms so far.
+    fn alarms(&self) -> PyResult<Vec<alarms::Row>> {
+        let inner = self.inner.as_ref().ok_or_else(used)?;
+        Ok(inner.alarms.iter().map(alarms::row).collect())
+    }
+
     /// The columns as arrays by name; the recorder is empty then.
     fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         arrays::dictionary(py, self.take()?.finish())
@@ -37,7 +43,6 @@ impl Recorder {
 impl Recorder {
     /// Takes the columns out, to fill them without Python.
     pub(super) fn take(&mut self) -> PyResult<recorder::Recorder> {
-        let used = || pyo3::exceptions::PyRuntimeError::new_err("the recorder has been finished, or is in use");
         self.inner.take().ok_or_else(used)
     }
 
@@ -45,4 +50,8 @@ impl Recorder {
     pub(super) fn put(&mut self, inner: recorder::Recorder) {
         self.inner = Some(inner);
     }
+}
+
+fn used() -> PyErr {
+    pyo3::exceptions::PyRuntimeError::new_err("the recorder has been finished, or is in use")
 }

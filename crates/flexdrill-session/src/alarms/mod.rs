@@ -66,7 +66,8 @@ const SET_BACK: Time = 60_000_000_000;
 /// Longest time between two lists (ns).
 const LIST_INTERVAL: Time = 1_000_000_000;
 
-/// All alarms with their conditions.
+/// All alarms with their conditions. A copy is the book of a fork: both continue from the same state.
+#[derive(Clone)]
 pub struct AlarmBook {
     system: AlarmSystem,
     config: Arc<Config>,
@@ -384,9 +385,9 @@ impl AlarmBook {
         self.system.alarm(id as usize).standing.active()
     }
 
-    /// Drops events that have no reader.
-    pub fn forget_events(&mut self) {
-        self.journal.clear();
+    /// Takes the new events, for a caller that publishes nothing. [`AlarmBook::publish`] sends them otherwise.
+    pub fn take_events(&mut self) -> Vec<AlarmEvent> {
+        std::mem::take(&mut self.journal)
     }
 
     /// Carries out a request of an operator at the present time of its clock. Returns what was done.
@@ -449,7 +450,7 @@ impl AlarmBook {
         clock: Time,
         mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<Vec<AlarmEvent>, E> {
-        let events = std::mem::take(&mut self.journal);
+        let events = self.take_events();
         for event in &events {
             to_cdr_into(event, &mut self.bytes)?;
             send(Encoded {

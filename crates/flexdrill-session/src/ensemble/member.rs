@@ -135,7 +135,7 @@ impl Member {
         self.run.look(&mut self.snapshot);
         self.alarms.observe_tool(&self.snapshot, span(self.snapshot.time));
         // Nobody reads the journal of a member.
-        self.alarms.forget_events();
+        drop(self.alarms.take_events());
         self.figures.add(&self.snapshot);
         let contacts = &self.snapshot.contacts;
         for (peaks, layer) in self.peaks.iter_mut().zip([&contacts.pipe_guide, &contacts.guide_wall]) {

@@ -1,9 +1,10 @@
 //! What the frames and the inputs of a run become: messages, alarms, and the comparison with the rig.
 //!
-//! A run is driven by a solver's thread, by a replay or by a look-ahead, and a [`Session`] is the same for each. A host gives
-//! what differs, as [`Host`]: where messages are sent, and what the rig has measured. The node is a host with a clock, DDS,
-//! recording and viewers; a replay one with a bag; a member of a look-ahead judges alone, and begins no outputs. An output
-//! that is added here is added for all of them, so that a replay repeats the node.
+//! A run is driven by a solver's thread, by a replay, by a look-ahead or by Python, and a [`Session`] is the same for each. A
+//! host gives what differs, as [`Host`]: where messages are sent, and what the rig has measured. The node is a host with a
+//! clock, DDS, recording and viewers; a replay one with a bag. A member of a look-ahead and the twin of the package for Python
+//! judge alone, and begin no outputs: the one asks which alarms stand, the other gives their events next to its columns. What
+//! is added here is added for all of them, so that a replay repeats the node.
 
 #[cfg(test)]
 mod tests;
@@ -239,8 +240,13 @@ impl Session {
         }
     }
 
-    /// Judges the alarms of a snapshot at its stamp (ns).
-    pub fn observe(&mut self, snapshot: &Snapshot, stamp: i64) {
+    /// Judges the alarms of a snapshot at its stamp (ns), for a host that sends no messages, and returns their new events.
+    pub fn judge(&mut self, snapshot: &Snapshot, stamp: i64) -> Vec<AlarmEvent> {
+        self.observe(snapshot, stamp);
+        self.alarms.take_events()
+    }
+
+    fn observe(&mut self, snapshot: &Snapshot, stamp: i64) {
         self.alarms.observe_tool(snapshot, stamp);
     }
 

@@ -177,7 +177,8 @@ fn a_hole_that_an_earlier_run_has_drilled_is_published_at_the_start() {
     assert_eq!(host.sent.len(), before);
 }
 
-/// A member of a look-ahead has a session that was never begun: it judges as the others do, and sends nothing.
+/// A member of a look-ahead and the twin of the package for Python have a session that was never begun: it judges as the
+/// others do, and sends nothing.
 #[test]
 fn a_session_that_was_not_begun_judges_and_sends_nothing() {
     let config = config();
@@ -191,14 +192,19 @@ fn a_session_that_was_not_begun_judges_and_sends_nothing() {
     let id = crate::alarms::AlarmId::of_hazard(hazard);
     let (mut silent, mut begun, mut host) = (session(&config), session(&config), Kept::default());
     begun.begin(START, &mut host).unwrap();
-    let before = host.sent.len();
+    let mut events = silent.alarms_mut().take_events();
     for tenth in 0..100 {
         let stamp = START + tenth * SECOND / 10;
-        silent.observe(&frame.snapshot, stamp);
+        events.extend(silent.judge(&frame.snapshot, stamp));
         begun.observe(&frame.snapshot, stamp);
     }
     assert!(silent.alarms().active(id).is_some());
     assert_eq!(silent.alarms().active(id), begun.alarms().active(id));
+    let published = begun.publish_alarms(Header::default(), 0, &mut host).unwrap();
+    // As texts: what is not known of a place is NaN, which is not equal to itself.
+    assert_eq!(format!("{events:?}"), format!("{published:?}"));
+    assert!(events.iter().any(|event| event.id == id.id()));
+    let before = host.sent.len();
     silent.frame(&frame, &mut host).unwrap();
     silent.applied(&run.applied(), &[], 0, &mut host).unwrap();
     silent.repeat_applied(&frame, &mut host).unwrap();
