@@ -2,7 +2,7 @@
 //! [`flexdrill_alarms`].
 //!
 //! # Layout
-//! - [`AlarmBook`] joins them: conditions and requests in, [`AlarmList`] and [`AlarmEvent`]s out.
+//! - [`AlarmBook`] joins them: conditions and requests in, lists and events out.
 //! - `catalogue`: the alarms that exist. `finding`: a condition with its texts.
 //! - `tool`: conditions from a snapshot, in model time, so that a replay has the same alarms. The conditions of a node come
 //!   from the node. `worst_moment`: a standing alarm shows its worst moment.
@@ -10,7 +10,7 @@
 //!   `adjusted`: what followed from it. `plan`: where the tool drills against the plan of the hole. `changed`: what clients have changed of the configuration.
 //!   `advice`: what the driller can do, for all alarms together, by the rules of the configuration. `plausible`: in how
 //!   many plausible tools an alarm stands. `sentence`: parts of sentences. `set`: sets of alarms.
-//! - `fill`: messages.
+//! - `journal`: events and list, published. `fill`: messages.
 //!
 //! `docs/alarms.md` is for operators.
 
@@ -21,6 +21,7 @@ mod changed;
 mod fill;
 mod finding;
 mod friction;
+mod journal;
 mod plan;
 mod plausible;
 mod request;
@@ -43,16 +44,14 @@ pub use tool::called_at;
 
 use std::sync::Arc;
 
-use crate::messages::std_msgs::Header;
-use crate::messages::topics;
-use crate::messages::{AlarmEvent, AlarmList, Bands, CdrError, HoleAhead, Residuals, to_cdr_into};
+use crate::messages::{AlarmEvent, Bands, HoleAhead, Residuals};
 use flexdrill_alarms::{
     AlarmSystem, Event, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time,
 };
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
 use flexdrill_core::twin::Snapshot;
 use flexdrill_motion::HazardKind;
-use flexdrill_outputs::{Encoded, ParameterChange};
+use flexdrill_outputs::ParameterChange;
 
 use crate::safe_window::SafeWindow;
 use adjusted::Adjusted;
@@ -60,11 +59,6 @@ use advice::{Ahead, Demand, Operating};
 use changed::Changed;
 use plausible::Plausible;
 use worst_moment::WorstMoment;
-
-/// Step back of the clock beyond which the journal's stamps follow it (ns).
-const SET_BACK: Time = 60_000_000_000;
-/// Longest time between two lists (ns).
-const LIST_INTERVAL: Time = 1_000_000_000;
 
 /// All alarms with their conditions. A copy is the book of a fork: both continue from the same state.
 #[derive(Clone)]
@@ -385,11 +379,6 @@ impl AlarmBook {
         self.system.alarm(id as usize).standing.active()
     }
 
-    /// Takes the new events, for a caller that publishes nothing. [`AlarmBook::publish`] sends them otherwise.
-    pub fn take_events(&mut self) -> Vec<AlarmEvent> {
-        std::mem::take(&mut self.journal)
-    }
-
     /// Carries out a request of an operator at the present time of its clock. Returns what was done.
     ///
     /// # Errors
@@ -400,86 +389,6 @@ impl AlarmBook {
         let answer = request.carry_out(&mut self.system, time, &mut events);
         self.keep(events);
         answer
-    }
-
-    fn keep(&mut self, events: Vec<Event>) {
-        self.advise();
-        let frame_id = &self.config.outputs.frame_id;
-        let normal = WorstMoment::default();
-        for event in &events {
-            let moment = self.moments.get(event.alarm).unwrap_or(&normal);
-            // The tool's events are published shortly after their instants: a larger step back means that the clock was set.
-            self.newest = if self.newest.saturating_sub(event.time) > SET_BACK {
-                event.time
-            } else {
-                self.newest.max(event.time)
-            };
-            if event.from != event.to
-                && let Some(restored) = self.restored.get_mut(event.alarm)
-            {
-                *restored = false;
-            }
-            self.journal.push(fill::event(event, self.newest, moment, frame_id));
-        }
-        for (index, moment) in self.moments.iter_mut().enumerate() {
-            if self.system.alarm(index).standing.priority().is_none() {
-                *moment = WorstMoment::default();
-            }
-        }
-    }
-
-    /// Whether events or the list are due at an instant of any steady clock (ns). The list is published with every event
-    /// and every second.
-    pub fn is_due(&self, clock: Time) -> bool {
-        !self.journal.is_empty() || self.list_is_due(clock)
-    }
-
-    fn list_is_due(&self, clock: Time) -> bool {
-        self.listed.is_none_or(|(at, sequence)| {
-            sequence != self.system.sequence() || !(0..LIST_INTERVAL).contains(&(clock - at))
-        })
-    }
-
-    /// Sends the new events, and the list when it is due. Returns the events.
-    ///
-    /// # Errors
-    /// When a message cannot be encoded, or what `send` says.
-    pub fn publish<E: From<CdrError>>(
-        &mut self,
-        header: Header,
-        clock: Time,
-        mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
-    ) -> Result<Vec<AlarmEvent>, E> {
-        let events = self.take_events();
-        for event in &events {
-            to_cdr_into(event, &mut self.bytes)?;
-            send(Encoded {
-                topic: &topics::ALARM_EVENTS,
-                stamp: event.header.stamp.to_nanoseconds(),
-                cdr: &self.bytes,
-            })?;
-        }
-        if self.list_is_due(clock) {
-            self.listed = Some((clock, self.system.sequence()));
-            let stamp = header.stamp.to_nanoseconds();
-            to_cdr_into(&self.list(header), &mut self.bytes)?;
-            send(Encoded {
-                topic: &topics::ALARMS,
-                stamp,
-                cdr: &self.bytes,
-            })?;
-        }
-        Ok(events)
-    }
-
-    /// The present state of all alarms, the worst first.
-    pub fn list(&self, header: Header) -> AlarmList {
-        fill::list(&self.system, &self.moments, &self.restored, &self.tools, header)
-    }
-
-    /// Events so far.
-    pub fn sequence(&self) -> u64 {
-        self.system.sequence()
     }
 
     /// The state that outlasts a restart.

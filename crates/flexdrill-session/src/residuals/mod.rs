@@ -7,6 +7,7 @@
 
 mod following;
 mod tools;
+mod words;
 
 use flexdrill_calibration::follow::Instant;
 use flexdrill_calibration::monitor::{Compared, Monitor, MonitorSettings, Reading};
