@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import flexdrill
-from flexdrill import _figures
+from flexdrill import _alarms, _figures
 
 BINARY = os.environ.get("FLEXDRILL_BINARY", "")
 
@@ -26,22 +26,7 @@ DURATION_S = 4.0
 def test_a_replay_of_a_field_log(config: str, tmp_path: Path) -> None:
     pytest.importorskip("rosbags")
     twin = flexdrill.Twin(config)
-    (tmp_path / "config.json").write_text(_json(twin))
-    rows = [f"{time},{speed},{weight}\n" for time, speed, weight in zip(TIMES_S, SPEED_RPM, WEIGHT_KN)]
-    (tmp_path / "log.csv").write_text("time_s,rpm,wob\n" + "".join(rows))
-    (tmp_path / "columns.yaml").write_text(
-        "title: samples of a second\nseparator: ','\ncolumns:\n  time: {column: time_s, format: seconds}\n"
-        "  rotary_speed: {column: rpm, unit: r/min}\n  weight_on_bit: {direct: {column: wob, unit: kN}}\n"
-    )
-    subprocess.run(
-        [
-            *(BINARY, "replay", tmp_path / "log.csv", "--mapping", tmp_path / "columns.yaml"),
-            *("--config", tmp_path / "config.json", "--duration", str(DURATION_S), "--out", tmp_path / "run"),
-        ],
-        check=True,
-        capture_output=True,
-        timeout=120,
-    )
+    _replay(twin, TIMES_S, SPEED_RPM, WEIGHT_KN, DURATION_S, tmp_path)
     bag = flexdrill.read_bag(tmp_path / "run")
     run = twin.run(
         DURATION_S,
@@ -81,6 +66,53 @@ def test_a_replay_of_a_field_log(config: str, tmp_path: Path) -> None:
     # Whirl is published at 10 Hz: every fifth sample.
     np.testing.assert_array_equal(bag["twin/whirl"].fields["whirl_rate"], run.whirl.whirl_rate_rad_per_s[::5])
     assert bag["twin/session"].config_hash[0] == twin.configuration_hash
+
+
+@pytest.mark.skipif(not BINARY, reason="FLEXDRILL_BINARY does not name the program")
+def test_the_alarms_of_a_replay(twin: flexdrill.Twin, tmp_path: Path) -> None:
+    pytest.importorskip("rosbags")
+    # Fast and light, so that the pipe whirls; some seconds longer than the longest delay of an alarm.
+    times_s = [float(second) for second in range(12)]
+    _replay(twin, times_s, [115.0] * 12, [5.0] * 12, 12.0, tmp_path)
+    theirs = flexdrill.read_bag(tmp_path / "run")["twin/alarm_events"]
+    run = twin.run(12.0, speed_rpm=115.0, weight_kn=5.0, record="bit", rate_hz=30)
+    assert "backward_whirl" in {event.id for event in run.alarms}
+    for field in ("id", "name", "evidence", "what_to_do", "what_the_engineer_can_do"):
+        assert list(theirs.fields[field]) == [getattr(event, field) for event in run.alarms], field
+    codes = {"change": _alarms.CHANGES, "to_state": _alarms.STATES, "priority": ("", *flexdrill.PRIORITIES)}
+    for field, names in codes.items():
+        ours = [getattr(event, field.removeprefix("to_")) for event in run.alarms]
+        assert [names[int(code)] for code in theirs.fields[field]] == ours, field
+    np.testing.assert_array_equal(theirs.fields["value"], [event.value for event in run.alarms])
+    np.testing.assert_array_equal(theirs.fields["measured_depth"], [event.measured_depth_m for event in run.alarms])
+    np.testing.assert_allclose(theirs.time_s, [event.time_s for event in run.alarms], atol=1e-9)
+
+
+def _replay(
+    twin: flexdrill.Twin,
+    times_s: list[float],
+    speed_rpm: list[float],
+    weight_kn: list[float],
+    duration_s: float,
+    tmp_path: Path,
+) -> None:
+    """A log of these inputs, replayed by the program into tmp_path/run."""
+    (tmp_path / "config.json").write_text(_json(twin))
+    rows = [f"{time},{speed},{weight}\n" for time, speed, weight in zip(times_s, speed_rpm, weight_kn)]
+    (tmp_path / "log.csv").write_text("time_s,rpm,wob\n" + "".join(rows))
+    (tmp_path / "columns.yaml").write_text(
+        "title: samples of a second\nseparator: ','\ncolumns:\n  time: {column: time_s, format: seconds}\n"
+        "  rotary_speed: {column: rpm, unit: r/min}\n  weight_on_bit: {direct: {column: wob, unit: kN}}\n"
+    )
+    subprocess.run(
+        [
+            *(BINARY, "replay", tmp_path / "log.csv", "--mapping", tmp_path / "columns.yaml"),
+            *("--config", tmp_path / "config.json", "--duration", str(duration_s), "--out", tmp_path / "run"),
+        ],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
 
 
 def _json(twin: flexdrill.Twin) -> str:
