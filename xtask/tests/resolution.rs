@@ -52,15 +52,17 @@ fn building_and_testing_resolve_the_same_features() {
     );
 }
 
+/// Whether a package of this name is among these.
+fn has(packages: &BTreeSet<String>, name: &str) -> bool {
+    let begin = format!("{name} v");
+    packages.iter().any(|package| package.starts_with(&begin))
+}
+
 /// What a demonstration does not need is compiled by no first build.
 #[test]
 fn the_default_build_leaves_out_what_features_bring() {
     let built = packages(&["--edges", "normal,build"]);
     let full = packages(&["--edges", "normal,build", "--features", "full"]);
-    let has = |packages: &BTreeSet<String>, name: &str| {
-        let begin = format!("{name} v");
-        packages.iter().any(|package| package.starts_with(&begin))
-    };
     for name in [
         "async-opcua",
         "flexdrill-bench",
@@ -75,5 +77,17 @@ fn the_default_build_leaves_out_what_features_bring() {
     ] {
         assert!(has(&full, name), "{name}: no feature brings it");
         assert!(!has(&built, name), "{name} is in the default build");
+    }
+}
+
+/// The twin for Python is a host of the session, whose alarms need no middleware, no server and no format of recordings.
+#[test]
+fn the_twin_for_python_brings_no_middleware() {
+    let all = packages(&["--edges", "normal,build"]);
+    let python = packages(&["--package", "flexdrill-python", "--edges", "normal"]);
+    assert!(has(&python, "flexdrill-session"));
+    for name in ["flexdrill-ros2", "hyper", "mcap", "rustdds", "socket2", "tokio"] {
+        assert!(has(&all, name), "{name}: the program does not need it either");
+        assert!(!has(&python, name), "{name} comes with the package for Python");
     }
 }
