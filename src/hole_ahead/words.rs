@@ -312,9 +312,13 @@ fn notes(config: &Config, answer: &Answer) -> Vec<String> {
         ));
     }
     if config.tool.guide.closes_slots() {
-        notes.push(
-            "Slots that close (tool.guide.slots_close_at) are left out: the guide bends as with open ones.".to_owned(),
-        );
+        notes.push(if config.tool.guide.has_spine_off_axis() {
+            "Slots that close (tool.guide.slots_close_at) limit the curvature that the weight adds; against the hole the guide \
+             bends as with open ones."
+                .to_owned()
+        } else {
+            "Slots that close (tool.guide.slots_close_at) are left out: the guide bends as with open ones.".to_owned()
+        });
     }
     if config.environment.pressure.is_some() {
         notes.push("Pump pressure (environment.pressure) is left out.".to_owned());

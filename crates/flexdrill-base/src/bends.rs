@@ -115,6 +115,15 @@ impl Bends {
         self
     }
 
+    /// The same tube with a curvature (1/m) more all along.
+    #[must_use]
+    pub fn plus(mut self, curvature: f64) -> Self {
+        for change in &mut self.changes {
+            change.curvature += curvature;
+        }
+        self
+    }
+
     /// Largest size of a curvature (1/m).
     pub fn most(&self, end: f64) -> f64 {
         let sizes = self.changes().iter().map(|change| change.curvature.abs());

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::pipe::{DIAMETER, INNER_DIAMETER, check_tube};
-use flexdrill_core::tool::{Bend, Bends, FreeCurvature, Tube};
+use flexdrill_core::tool::{Bend, Bends, FreeCurvature, Spine, Tube};
 use flexdrill_core::units::deg_to_rad;
 
 const BENDING_FACTOR: Bound = Bound::above(0.0, 10.0);
@@ -16,6 +16,10 @@ const PIECE_LENGTH: Bound = Bound::above(0.0, 1000.0);
 /// A curvature of 10 1/m is that of an arc narrower than a hand.
 const SLOTS_CLOSE_AT: Bound = Bound::above(0.0, 10.0);
 const PHASE: Bound = Bound::within(-360.0, 360.0);
+/// A spine lies in the wall of a tube, and a tube that is 0.3 m wide fits into no arc of this kind.
+const SPINE_OFFSET: Bound = Bound::within(0.0, 0.15);
+/// Toolface of the low side (deg).
+const LOW_SIDE: f64 = 180.0;
 /// A fibre further out than a metre belongs to no guide, even over a small share of its length.
 const OUTER_FIBRE: Bound = Bound::above(0.0, 1.0);
 
@@ -51,9 +55,21 @@ pub struct Guide {
     /// Allowed: above 0, at most 10 1/m
     #[serde(default)]
     pub slots_close_at: SlotsClose,
+    /// Distance (m) between the guide's axis and the spine that slots on one side leave. The spine carries the thrust, which
+    /// bends the guide away from it by the curvature thrust x offset / bending stiffness, as far as `slots_close_at`. Bending
+    /// is about the spine: `bending_factor` is that about its own neutral line. 0 for slots that leave spines on both sides.
+    /// Default 0.
+    #[serde(default)]
+    #[schemars(transform = SPINE_OFFSET.in_schema())]
+    pub spine_offset: f64,
+    /// Toolface of the spine: its angle from the high side, clockwise looking down the hole. Default 180, on the low side, so
+    /// that thrust builds.
+    #[serde(default = "low_side")]
+    #[schemars(transform = PHASE.in_schema())]
+    pub spine_toolface_deg: f64,
     /// Distance (m) from the neutral line of the fibre that bending strains most, over the share of the length that bends:
     /// strain is this times the change of curvature. Only `flexdrill check` reads it. A plain tube has half of its outer
-    /// diameter, which is the default. Slots that leave two ribs of height h at the neutral line, over the share s of the
+    /// diameter, which with `spine_offset` in addition is the default. Slots that leave two ribs of height h at the neutral line, over the share s of the
     /// length, have h / (2 s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = OUTER_FIBRE.in_schema())]
@@ -140,6 +156,10 @@ fn one() -> f64 {
     1.0
 }
 
+fn low_side() -> f64 {
+    LOW_SIDE
+}
+
 impl Guide {
     pub(super) fn check(&self, c: &mut Checker) {
         check_tube(c, self.outer_diameter, self.inner_diameter);
@@ -195,6 +215,48 @@ impl Guide {
             ),
         }
         self.check_slots(c);
+        self.check_spine(c);
+    }
+
+    fn check_spine(&self, c: &mut Checker) {
+        let (offset, toolface) = (self.spine_offset, self.spine_toolface_deg);
+        c.number("spine_offset", offset, SPINE_OFFSET, "m", "a spine lies in the wall of the tube");
+        c.number("spine_toolface_deg", toolface, PHASE, "deg", "one turn");
+        if !self.has_spine_off_axis() {
+            c.require(
+                toolface == LOW_SIDE,
+                "spine_toolface_deg",
+                toolface,
+                "deg",
+                "180 while tool.guide.spine_offset is 0",
+                "a spine on the axis has no toolface",
+            );
+            return;
+        }
+        c.require(
+            offset <= 0.5 * self.outer_diameter,
+            "spine_offset",
+            offset,
+            "m",
+            format!("at most {} m, half of tool.guide.outer_diameter", 0.5 * self.outer_diameter),
+            "a spine lies in the wall of the tube",
+        );
+        c.require(
+            self.bending_factor < 1.0,
+            "spine_offset",
+            offset,
+            "m",
+            format!("0 while tool.guide.bending_factor is {}", self.bending_factor),
+            "a tube as stiff as one without slots bends about its axis",
+        );
+        c.require(
+            !self.fixed,
+            "spine_offset",
+            offset,
+            "m",
+            "0 while tool.guide.fixed is true",
+            "a guide that is held at every node does not bend",
+        );
     }
 
     fn check_slots(&self, c: &mut Checker) {
@@ -232,7 +294,26 @@ impl Guide {
 
     /// Distance of the outermost bent fibre from the neutral line over the share of the length that bends (m).
     pub(super) fn outer_fibre(&self) -> f64 {
-        self.outer_fibre.unwrap_or(0.5 * self.outer_diameter)
+        self.outer_fibre.unwrap_or(0.5 * self.outer_diameter + self.spine_offset)
+    }
+
+    /// Whether thrust bends the guide.
+    pub fn has_spine_off_axis(&self) -> bool {
+        self.spine_offset != 0.0
+    }
+
+    /// Toolface of the bend that thrust adds (deg), opposite to the spine: 0 builds. Whole turns are left out, so that a bend
+    /// in the plane of the build is exactly in it.
+    pub fn thrust_bend_toolface_deg(&self) -> f64 {
+        (self.spine_toolface_deg - LOW_SIDE) % 360.0
+    }
+
+    /// The spine, where it lies off the axis.
+    pub(super) fn spine(&self) -> Option<Spine> {
+        self.has_spine_off_axis().then(|| Spine {
+            offset: self.spine_offset,
+            phase: deg_to_rad(self.thrust_bend_toolface_deg()),
+        })
     }
 
     /// Whether the slots close at some curvature.

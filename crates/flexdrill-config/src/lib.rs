@@ -309,6 +309,7 @@ impl Config {
             tool.guide_free_curvature = guide.free_curvature();
             tool.guide_bends = guide.bends();
             tool.guide_slots_close_at = guide.slots_close_at();
+            tool.guide_spine = guide.spine();
             tool.guide_fixed = guide.fixed;
             tool.joint = self.tool.joint.describe();
             tool.shortening = self.tool.shortening;

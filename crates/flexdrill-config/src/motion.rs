@@ -91,7 +91,7 @@ impl Config {
         {
             contact.remove("wall_friction_factors");
         }
-        self.leave_out_idle_slots(&mut motion);
+        self.leave_out_idle_of_guide(&mut motion);
         leave_out_what_only_judges(&mut motion);
         // Without a string there is no drive that could stall, and no hoist that is asked for a weight.
         if self.string.model != Model::Line {
@@ -151,7 +151,7 @@ impl Config {
                 contact.remove("wall_friction_factors");
             }
         }
-        self.leave_out_idle_slots(&mut tool);
+        self.leave_out_idle_of_guide(&mut tool);
         leave_out_what_only_judges(&mut tool);
         if factor != 1.0 {
             tool.insert("friction_factor".to_owned(), Value::from(factor));
@@ -159,16 +159,24 @@ impl Config {
         sha256(&serde_json::to_vec(&tool).unwrap_or_default())
     }
 
-    /// Removes the slots' key of a guide whose slots do not close.
-    fn leave_out_idle_slots(&self, sections: &mut Map<String, Value>) {
-        if !self.tool.guide.closes_slots()
-            && let Some(guide) = sections.get_mut("tool").and_then(|tool| tool.get_mut("guide"))
+    /// Removes the keys of a guide whose slots do not close, and whose spine is on its axis.
+    fn leave_out_idle_of_guide(&self, sections: &mut Map<String, Value>) {
+        let of_tool = &self.tool.guide;
+        if let Some(guide) = sections.get_mut("tool").and_then(|tool| tool.get_mut("guide"))
             && let Some(guide) = guide.as_object_mut()
         {
-            guide.remove("slots_close_at");
+            if !of_tool.closes_slots() {
+                guide.remove("slots_close_at");
+            }
+            if !of_tool.has_spine_off_axis() {
+                guide.retain(|key, _| !SPINE.contains(&key.as_str()));
+            }
         }
     }
 }
+
+/// Keys of a guide's spine.
+const SPINE: [&str; 2] = ["spine_offset", "spine_toolface_deg"];
 
 /// Keys of the bit that only `flexdrill ahead` reads.
 const HOLE_AHEAD: [&str; 4] = [
@@ -256,6 +264,8 @@ mod tests {
         let soft = small.with_value("tool.guide.bending_factor", 0.5).unwrap();
         let closing = soft.with_value("tool.guide.slots_close_at", 0.4).unwrap();
         assert_ne!(closing.motion_hash(), soft.motion_hash());
+        let bending = soft.with_value("tool.guide.spine_offset", 0.02).unwrap();
+        assert_ne!(bending.motion_hash(), soft.motion_hash());
     }
 
     #[test]

@@ -181,6 +181,15 @@ impl Schema {
             "0, or boundary.supports given psi of the guide",
             "a bend off the high side turns the guide until it lies along the build; the model has small turns only",
         );
+        let toolface = self.tool.guide.spine_toolface_deg;
+        c.require(
+            self.tool.guide.thrust_bend_toolface_deg() == 0.0 || self.boundary.holds_guide_spin(),
+            "tool.guide.spine_toolface_deg",
+            toolface,
+            "deg",
+            "180, or boundary.supports given psi of the guide",
+            "under thrust a spine off the low side turns the guide until it lies there; the model has small turns only",
+        );
         c.below("loads", |c| {
             for (index, load) in self.loads.iter().enumerate() {
                 c.below(index, |c| load.check(c, &mesh));

@@ -591,6 +591,36 @@ fn impossible_pressures_preloads_and_mud_name_both_keys() {
             "tool.guide.fixed",
         ),
         (
+            "spine_offset: 0.02",
+            "tool.guide.spine_offset = 0.02 m",
+            "tool.guide.bending_factor is 1",
+        ),
+        (
+            "bending_factor: 0.05, spine_offset: 0.052",
+            "tool.guide.spine_offset = 0.052 m",
+            "at most 0.051 m",
+        ),
+        (
+            "bending_factor: 0.05, spine_offset: -0.01",
+            "tool.guide.spine_offset = -0.01 m",
+            "0 to 0.15 m",
+        ),
+        (
+            "bending_factor: 0.05, spine_offset: 0.02, fixed: true",
+            "tool.guide.spine_offset = 0.02 m",
+            "tool.guide.fixed",
+        ),
+        (
+            "bending_factor: 0.05, spine_offset: 0.02, spine_toolface_deg: 0",
+            "tool.guide.spine_toolface_deg = 0 deg",
+            "boundary.supports",
+        ),
+        (
+            "spine_toolface_deg: 90",
+            "tool.guide.spine_toolface_deg = 90 deg",
+            "tool.guide.spine_offset is 0",
+        ),
+        (
             "bending_factor: 0.05, slots_close_at: 0",
             "tool.guide.slots_close_at = 0 1/m",
             "above 0, at most 10 1/m",

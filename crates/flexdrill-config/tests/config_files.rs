@@ -138,8 +138,16 @@ fn every_number_reaches_the_mechanics() {
         }
     }
     assert!(changed > 60, "{changed}");
-    // Only with a free curvature and a guide that is held against turning, and only with `scheme: newmark`.
-    assert_eq!(refused, ["tool.guide.free_curvature_phase_deg", "solver.gamma"]);
+    // Only with a free curvature and a guide that is held against turning, with a slotted guide, and with `scheme: newmark`.
+    assert_eq!(
+        refused,
+        [
+            "tool.guide.free_curvature_phase_deg",
+            "tool.guide.spine_offset",
+            "tool.guide.spine_toolface_deg",
+            "solver.gamma"
+        ]
+    );
 }
 
 /// The YAML files of the repository and the YAML in its documents, each with its name.

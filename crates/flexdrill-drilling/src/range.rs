@@ -9,6 +9,8 @@ use super::{Long, Plan, USUAL_WEIGHT, plan, tool};
 
 /// Sine of the inclination of a level hole.
 const LEVEL: f64 = 1.0;
+/// Weights at which a guide that its weight bends is asked for its bounds: they change by some per cent from one to the next.
+const WEIGHTS: u32 = 32;
 
 /// What the guide drills.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +45,9 @@ impl Range {
     pub fn of(config: &Config) -> Option<Self> {
         let guide = &config.tool.guide;
         let is_given = !matches!(guide.free_curvature, FreeBend::Path(_));
-        // A guide rolled out of the plane of the build drills out of it, for which no closed form holds.
-        let is_in_plane = guide.free_curvature_phase_deg == 0.0;
+        // A guide rolled out of the plane of the build, or bent out of it by thrust, drills out of it, for which no closed form
+        // holds.
+        let is_in_plane = guide.free_curvature_phase_deg == 0.0 && guide.thrust_bend_toolface_deg() % 180.0 == 0.0;
         if !is_given || !is_in_plane || guide.fixed || config.tool.bit.axis() == BitAxis::Link {
             return None;
         }
@@ -61,15 +64,20 @@ impl Range {
             .ok()
             .and_then(|law| steady(&tool::guide(config, weight), &law, LEVEL).ok())
             .map(Long::from);
-        // A bent guide presses the harder the larger the weight. One that drops is pressed most without any.
-        let ends = [0.0, largest].map(|weight| bounds(&tool::guide(config, weight), weight, LEVEL));
-        let bounds = match ends {
-            [Ok(without), Ok(most)] => Some(Bounds {
-                low: without.low.min(most.low),
-                high: without.high.max(most.high),
-            }),
-            _ => None,
-        };
+        // A bent guide presses the harder the larger the weight. One that drops is pressed most without any. A weight that
+        // bends the guide moves both bounds with it, so that they may turn between.
+        let steps = if guide.has_spine_off_axis() { WEIGHTS } else { 1 };
+        let bounds = (0..=steps)
+            .map(|step| largest * f64::from(step) / f64::from(steps))
+            .map(|weight| bounds(&tool::guide(config, weight), weight, LEVEL).ok())
+            .reduce(|one, other| {
+                let (one, other) = (one?, other?);
+                Some(Bounds {
+                    low: one.low.min(other.low),
+                    high: one.high.max(other.high),
+                })
+            })
+            .flatten();
         Some(Self {
             weight,
             long,

@@ -3,7 +3,7 @@
 use flexdrill_config::{BitAxis, Config, Drilled, Law, Section};
 use flexdrill_core::tool::{Course, HoleInterval, SectionProperties};
 use flexdrill_core::units::{deg_to_rad, n_to_kn};
-use flexdrill_hole::{BitLaw, Gravity, Guide, Hole, HoleError};
+use flexdrill_hole::{BitLaw, Gravity, Guide, Hole, HoleError, Spine};
 use nalgebra::Vector3;
 
 use super::loads::{bit_torque, weights};
@@ -116,6 +116,11 @@ pub fn guide(config: &Config, weight: f64) -> Guide {
         free_curvature: made.map_or_else(|| curvature_at_bit(config), |free| free.curvature),
         bends: tool.guide_bends,
         roll: deg_to_rad(config.tool.guide.free_curvature_phase_deg),
+        spine: tool.guide_spine.map(|spine| Spine {
+            offset: spine.offset,
+            turn: spine.phase - deg_to_rad(config.tool.guide.free_curvature_phase_deg),
+            most: tool.guide_slots_close_at,
+        }),
         weight_per_metre: weights(&tool).iter().sum(),
         gravity: Gravity::Down,
         gap: config.outer_clearance(),

@@ -9,6 +9,17 @@
 //! integral of  EI/2 |(v'', w'') + y'' + ring - shape|2  +  C y'' . (v, w) - C/2 (v'2 + w'2) - q . (v, w)
 //! ring = -y'' (kb w - ky v): curvature changes across the hole;    shape = kf (sin roll, -cos roll)
 //! ```
+//!
+//! Where the spine of the guide is e off its axis, against the direction m, the thrust bends the guide into m. The spine keeps
+//! its length, so that the axis becomes shorter by e m . K per length, where K is the guide's change of curvature per length of
+//! the axis that is there without a bend. K in the place of k = (v'', w'') + ring, and a load per thrust, have that:
+//!
+//! ```text
+//! K = k - y'' e (m . k) / (1 + e m . y''),      - min(C, C_shut) e m . K
+//! ```
+//!
+//! C_shut is the thrust that shuts the slots. Shut slots limit what the thrust bends; against what else bends the guide it is
+//! as soft as with open ones.
 
 use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
 
@@ -35,13 +46,26 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
-    /// EI times the change of curvature (right, low) in the middle of the piece (N m), from the states of its ends.
-    pub(crate) fn moment(&self, guide: &Guide, start: &Vector4<f64>, end: &Vector4<f64>) -> Vector2<f64> {
+    /// Bending moment about the guide's axis (right, low) in the middle of the piece (N m), from the states of its ends and the
+    /// thrust C (N): EI times the change of curvature, less that of the thrust on the spine.
+    pub(crate) fn moment(&self, guide: &Guide, start: &Vector4<f64>, end: &Vector4<f64>, thrust: f64) -> Vector2<f64> {
         let bend = Vector2::new(end.y - start.y, end.w - start.w) / self.length;
         let offset = Vector2::new(start.x + end.x, start.z + end.z) * 0.5;
         // The middle of the cubic is off the mean of its ends by the slopes' difference.
         let offset = offset - bend * (self.length * self.length / 8.0);
-        (bend + self.turn + self.turn * self.turn.dot(&offset) - shape(guide, self.made)) * guide.bending_stiffness
+        let Some((toward, e)) = guide.thrust_bends() else {
+            return (bend + self.turn + self.turn * self.turn.dot(&offset) - shape(guide, self.made))
+                * guide.bending_stiffness;
+        };
+        let bend = bend + self.turn * self.turn.dot(&offset);
+        let bend = bend - self.turn * (self.shorter(toward, e) * toward.dot(&bend));
+        (bend + self.turn - shape(guide, self.made)) * guide.bending_stiffness
+            - toward * (e * thrust.min(guide.shutting_thrust()))
+    }
+
+    /// By how much the axis of a guide becomes shorter as its curvature changes (m), with its spine `e` (m) off the axis.
+    fn shorter(&self, toward: Vector2<f64>, e: f64) -> f64 {
+        e / (1.0 + e * toward.dot(&self.turn))
     }
 }
 
@@ -132,6 +156,9 @@ pub(crate) struct Beam {
     stiffness: Blocks,
     load: Vec<Vector4<f64>>,
     per_thrust: Vec<Row>,
+    /// Load per thrust on the spine up to the one that shuts the slots; empty for a guide whose spine is on its axis.
+    on_spine: Vec<Row>,
+    shutting_thrust: f64,
 }
 
 impl Beam {
@@ -141,19 +168,24 @@ impl Beam {
             stiffness,
             load,
             per_thrust,
+            on_spine,
+            shutting_thrust,
         } = self;
         stiffness.reset(pieces.len() + 1);
         load.clear();
         load.resize(pieces.len() + 1, Vector4::zeros());
         per_thrust.clear();
+        on_spine.clear();
+        *shutting_thrust = guide.shutting_thrust();
         for (index, piece) in pieces.iter().enumerate() {
-            let (matrix, force, curve) = element(guide, piece);
+            let (matrix, force, curve, spine) = element(guide, piece);
             stiffness.diagonal[index] += matrix.fixed_view::<4, 4>(0, 0);
             stiffness.diagonal[index + 1] += matrix.fixed_view::<4, 4>(4, 4);
             stiffness.upper[index] = Matrix4::from(matrix.fixed_view::<4, 4>(0, 4));
             load[index] += force.fixed_rows::<4>(0);
             load[index + 1] += force.fixed_rows::<4>(4);
             per_thrust.push(curve);
+            on_spine.extend(spine);
         }
     }
 
@@ -184,25 +216,41 @@ impl Beam {
             let curve = &self.per_thrust[index];
             load[index] += curve.fixed_rows::<4>(0) * thrust;
             load[index + 1] += curve.fixed_rows::<4>(4) * thrust;
+            if let Some(spine) = self.on_spine.get(index) {
+                let bending = thrust.min(self.shutting_thrust);
+                load[index] += spine.fixed_rows::<4>(0) * bending;
+                load[index + 1] += spine.fixed_rows::<4>(4) * bending;
+            }
         }
     }
 }
 
-/// Stiffness and load of an element, and its load per thrust, which is the thrust's on the curve of the hole.
-fn element(guide: &Guide, piece: &Piece) -> (SMatrix<f64, 8, 8>, Row, Row) {
+/// Stiffness and load of an element, its load per thrust, which is the thrust's on the curve of the hole, and that per thrust on
+/// a spine off the axis.
+fn element(guide: &Guide, piece: &Piece) -> (SMatrix<f64, 8, 8>, Row, Row, Option<Row>) {
     let h = piece.length;
     let mut matrix = SMatrix::<f64, 8, 8>::zeros();
     let (mut force, mut curve) = (Row::zeros(), Row::zeros());
     let shape = shape(guide, piece.made);
+    let thrust_bends = guide.thrust_bends();
+    let mut on_spine = thrust_bends.map(|_| Row::zeros());
     for xi in GAUSS {
         let (value, second) = shapes(xi, h);
         let [offset_right, offset_low] = [0, 1].map(|plane| row(plane, value));
         // kb w - ky v: by this share a fibre is longer than the axis, and its curvature smaller.
         let longer = -(offset_right * piece.turn.x + offset_low * piece.turn.y);
-        for plane in 0..2 {
+        let mut bends = [0, 1].map(|plane| row(plane, second) - longer * piece.turn[plane]);
+        if let (Some((toward, e)), Some(on_spine)) = (thrust_bends, &mut on_spine) {
+            // The spine keeps its length: a bend shortens the axis, along which the hole turns.
+            let shortening = (bends[0] * toward.x + bends[1] * toward.y) * piece.shorter(toward, e);
+            for (plane, bend) in bends.iter_mut().enumerate() {
+                *bend -= shortening * piece.turn[plane];
+            }
+            *on_spine += (bends[0] * toward.x + bends[1] * toward.y) * (0.5 * h * e);
+        }
+        for (plane, bend) in bends.into_iter().enumerate() {
             let ends = [piece.slopes[0][plane], piece.slopes[1][plane]];
             let hole = second[1] * ends[0] + second[3] * ends[1];
-            let bend = row(plane, second) - longer * piece.turn[plane];
             let stiff = 0.5 * h * guide.bending_stiffness;
             matrix.ger(stiff, &bend, &bend, 1.0);
             force -= bend * (stiff * (hole - shape[plane]));
@@ -218,5 +266,5 @@ fn element(guide: &Guide, piece: &Piece) -> (SMatrix<f64, 8, 8>, Row, Row) {
         force[at[0]] -= couple;
         force[at[2]] += couple;
     }
-    (matrix, force, curve)
+    (matrix, force, curve, on_spine)
 }

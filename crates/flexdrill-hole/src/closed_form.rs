@@ -19,6 +19,8 @@
 //! `Span` solves them. Where a piece ends at the wall, k is between those of both pieces. The pieces above the free span are
 //! taken to lie on the wall.
 //!
+//! A spine off the guide's axis adds e W/EI to the free curvature, up to that at which the slots are shut (`Guide::under`).
+//!
 //! The formulas leave out the thrust on the deflected span (W w'', which lowers l by some per cent) and the change of
 //! curvature across the gap (kb2 w). For guides below 0.1 of a tube's stiffness in a short arc that is 1 % of the
 //! curvature; in level holes, where W l2/EI exceeds 1, use [`Propagation`](crate::Propagation).
@@ -207,6 +209,7 @@ impl Span<'_> {
 pub fn steady(guide: &Guide, law: &BitLaw, sine_of_inclination: f64) -> Result<Steady, HoleError> {
     guide.check()?;
     law.check()?;
+    let guide = &guide.under(law.weight);
     let (curvature, free_length) = if guide.bends.is_none() {
         let curvature = curvature(guide, law.weight, sine_of_inclination, |load| {
             free_span(guide, law, load).0
@@ -237,6 +240,7 @@ pub fn steady(guide: &Guide, law: &BitLaw, sine_of_inclination: f64) -> Result<S
 pub fn bounds(guide: &Guide, weight: f64, sine_of_inclination: f64) -> Result<Bounds, HoleError> {
     guide.check()?;
     flexdrill_base::validation::Bound::NotNegative.check("weight", weight, "N")?;
+    let guide = &guide.under(weight);
     if !guide.bends.is_none() {
         let span = Span {
             guide,
@@ -264,6 +268,7 @@ pub fn bounds(guide: &Guide, weight: f64, sine_of_inclination: f64) -> Result<Bo
 /// [`HoleError::Invalid`] for numbers out of bounds.
 pub fn indifferent_resistance(guide: &Guide, weight: f64, sine_of_inclination: f64) -> Result<f64, HoleError> {
     guide.check()?;
+    let guide = &guide.under(weight);
     let load = load(guide, weight, sine_of_inclination, guide.free_curvature).abs();
     Ok(weight + (1.5 * guide.bending_stiffness * load / guide.gap).sqrt())
 }

@@ -2,6 +2,7 @@
 
 use flexdrill_base::Bends;
 use flexdrill_base::validation::{Bound, ValidationError};
+use nalgebra::Vector2;
 
 /// How the weight of guide and pipe acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -12,6 +13,31 @@ pub enum Gravity {
     /// Towards z of the hole's frame with its full size at every depth: as in a level hole, whatever its inclination. A
     /// hole then reaches a steady curvature, which the closed form has.
     LowSide,
+}
+
+/// The line of a slotted guide that carries the thrust, off the guide's axis. Bending is about it, so that the thrust bends the
+/// guide away from it, as if it had been made with another curvature:
+///
+/// ```text
+/// kf + min(e C / EI, k_c)
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spine {
+    /// e: distance from the guide's axis (m).
+    pub offset: f64,
+    /// Toolface of the bend that the thrust adds, from that of the free curvature (rad): the spine lies on the other side of
+    /// the axis.
+    pub turn: f64,
+    /// k_c: largest curvature that the thrust adds (1/m), at which the slots are shut; none where they stay open.
+    pub most: Option<f64>,
+}
+
+impl Spine {
+    /// Curvature (1/m) that a thrust C (N) adds to a guide of a bending stiffness EI (N m2); below 0 under tension, which opens
+    /// the slots.
+    pub fn bend(&self, thrust: f64, bending_stiffness: f64) -> f64 {
+        (self.offset * thrust / bending_stiffness).min(self.most.unwrap_or(f64::INFINITY))
+    }
 }
 
 /// A guide of one section, with the pipe that lies in it.
@@ -27,6 +53,8 @@ pub struct Guide {
     pub bends: Bends,
     /// Roll of the guide, by which its free curvature is turned clockwise seen down the hole (rad): above 0 to the right.
     pub roll: f64,
+    /// Where the spine lies off the axis.
+    pub spine: Option<Spine>,
     /// q: weight of guide and pipe in mud (N/m).
     pub weight_per_metre: f64,
     /// How that weight acts.
@@ -42,6 +70,41 @@ pub struct Guide {
 }
 
 impl Guide {
+    /// Direction (right, low) into which the thrust bends it, and how far off the axis that acts (m); none for a guide whose
+    /// spine is on its axis.
+    pub(crate) fn thrust_bends(&self) -> Option<(Vector2<f64>, f64)> {
+        let spine = self.spine?;
+        let (sine, cosine) = (self.roll + spine.turn).sin_cos();
+        Some((Vector2::new(sine, -cosine), spine.offset))
+    }
+
+    /// The thrust (N) above which the slots are shut, so that more of it does not bend the guide further.
+    pub(crate) fn shutting_thrust(&self) -> f64 {
+        match self.spine {
+            Some(Spine {
+                offset,
+                most: Some(most),
+                ..
+            }) if offset > 0.0 => self.bending_stiffness * most / offset,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The guide without thrust that has the shape of this one under a thrust (N) without anything that bends it: what the
+    /// closed forms take, in the plane of the build.
+    pub(crate) fn under(&self, thrust: f64) -> Self {
+        let Some(spine) = self.spine else {
+            return *self;
+        };
+        let more = spine.bend(thrust, self.bending_stiffness) * spine.turn.cos();
+        Self {
+            free_curvature: self.free_curvature + more,
+            bends: self.bends.plus(more),
+            spine: None,
+            ..*self
+        }
+    }
+
     /// Checks the guide's numbers.
     ///
     /// # Errors
@@ -53,6 +116,12 @@ impl Guide {
         self.bends.check()?;
         Bound::Within(0.0, 5.0).check("guide.bends", self.bends.most(0.0), "1/m")?;
         Bound::Finite.check("guide.roll", self.roll, "rad")?;
+        if let Some(spine) = self.spine {
+            // A hole of 5 1/m leaves no guide with a spine further out.
+            Bound::Within(0.0, 0.19).check("guide.spine.offset", spine.offset, "m")?;
+            Bound::Finite.check("guide.spine.turn", spine.turn, "rad")?;
+            spine.most.map_or(Ok(()), |most| Bound::Positive.check("guide.spine.most", most, "1/m"))?;
+        }
         Bound::NotNegative.check("guide.weight_per_metre", self.weight_per_metre, "N/m")?;
         Bound::Within(0.0, 2.0).check("guide.wall_friction", self.wall_friction, "")?;
         Bound::Positive.check("guide.wall_stiffness", self.wall_stiffness, "N/m2")?;

@@ -35,7 +35,7 @@ pub use bit_law::BitLaw;
 pub use closed_form::{Bounds, Steady, bounds, indifferent_resistance, steady};
 pub use error::HoleError;
 pub use flexdrill_base::{Bend, Bends};
-pub use guide::{Gravity, Guide};
+pub use guide::{Gravity, Guide, Spine};
 pub use hole::{Frame, Hole};
 pub use propagation::{Advance, Propagation};
 pub use ripple::{RIPPLE_THRESHOLD, Ripple, ripple_of_two_contacts};

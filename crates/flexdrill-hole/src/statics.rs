@@ -383,7 +383,7 @@ impl Statics {
             let of_piece = thrust - 0.5 * rise * piece.length;
             let multiplier = of_piece
                 - piece
-                    .moment(guide, &self.state[index], &self.state[index + 1])
+                    .moment(guide, &self.state[index], &self.state[index + 1], of_piece)
                     .dot(&piece.turn);
             self.change[index] = multiplier - weight - self.excess[index];
             thrust -= rise * piece.length;

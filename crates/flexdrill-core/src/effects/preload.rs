@@ -28,14 +28,10 @@
 
 use crate::chain::{Chain, Effect, Parts, Segment};
 use crate::elements::beam::{ElementMatrix, ElementVector};
+use crate::elements::bend::{PHI_Y, PHI_Z, PSI, second_order};
 use crate::model::Model;
 use crate::tool::FreeCurvature;
 use crate::tool::section::BentTube;
-
-/// Index of (psi, phi_y, phi_z) of both nodes among an element's twelve values.
-const PSI: [usize; 2] = [3, 9];
-const PHI_Y: [usize; 2] = [4, 10];
-const PHI_Z: [usize; 2] = [5, 11];
 
 /// The preload of one guide element, in the frames of its nodes.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,25 +68,9 @@ impl Preload {
         add_force(PHI_Z, [-sideways, sideways]);
         add_force(PSI, [-half, -half]);
 
-        // A preload turns with the guide: its second variation is a stiffness, which may be negative.
-        let mut stiffness = ElementMatrix::zeros();
-        // The second derivatives of factor x a x b, for two linear forms over the nodes.
-        let mut add = |factor: f64, (at, a): ([usize; 2], [f64; 2]), (by, b): ([usize; 2], [f64; 2])| {
-            for (row, a) in at.into_iter().zip(a) {
-                for (column, b) in by.into_iter().zip(b) {
-                    stiffness[(row, column)] += factor * a * b;
-                    stiffness[(column, row)] += factor * a * b;
-                }
-            }
-        };
-        // Means and differences of the two nodes are the modes in which the energy is written.
-        let (mean, change) = ([0.5, 0.5], [-1.0, 1.0]);
-        // The terms of dU at the head of this file.
-        add(excess * cos, (PHI_Z, change), (PSI, mean));
-        add(-0.5 * excess * turned, (PSI, mean), (PSI, mean));
-        add(-0.5 * excess * turned, (PHI_Z, mean), (PHI_Z, mean));
-        add(sideways, (PHI_Y, change), (PSI, mean));
-        add(-0.5 * sideways * turned, (PHI_Y, mean), (PHI_Z, mean));
+        // A preload turns with the guide: its second variation is a stiffness, which may be negative. The terms of dU at the
+        // head of this file are those of the curvature in the tube's axes.
+        let stiffness = second_order(excess, -sideways, turned, cos);
         Self {
             force,
             stiffness,

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::station::{Bore, Station};
 use crate::elements::beam::{Beam, ElementMatrix, ElementVector};
+use crate::elements::spine;
 use crate::tool::{SectionProperties, ToolDescription, frame_along};
 
 /// A pipe element, in its link's frame.
@@ -32,6 +33,8 @@ pub struct GuideElement {
     pub mass: ElementMatrix,
     /// Gamma^T G Gamma, see [`Beam::geometric_along`].
     pub geometric: ElementMatrix,
+    /// Elongation of the spine beyond that of the axis (m) by the nodes' values, where it lies off the axis.
+    spine: Option<ElementVector>,
 }
 
 impl PipeElement {
@@ -72,14 +75,33 @@ impl GuideElement {
         let turn = below.inclination - above.inclination;
         let curvature = chord_curvature(beam.length, turn);
         let turned = |m: ElementMatrix| gamma.transpose() * m * gamma;
-        Self {
+        let mut element = Self {
             rotation,
             weight: gamma.transpose() * beam.weight((frame.transpose() * gravity(d)).into()),
             stiffness: turned(beam.stiffness()),
             mass: turned(beam.mass()),
             geometric: turned(beam.geometric_along(curvature)),
+            spine: None,
             beam,
+        };
+        // What stretches is the spine: stiffness, tension and what tension does all follow it.
+        if let Some(off_axis) = d.guide_spine {
+            element.stiffness += turned(spine::stiffness(off_axis, &beam));
+            element.geometric += spine::geometric(off_axis, beam.length, turn);
+            element.spine = Some(gamma.tr_mul(&spine::beyond_axis(off_axis)));
         }
+        element
+    }
+
+    /// Axial force (N, tension positive) by the twelve values `q` of both nodes, in their frames.
+    pub fn tension(&self, q: impl Fn(usize) -> f64) -> f64 {
+        // Displacement along the chord, from those along and across in the node's frame.
+        let along = |n: usize| self.rotation[n][(0, 0)] * q(6 * n) + self.rotation[n][(0, 2)] * q(6 * n + 2);
+        let mut elongation = along(1) - along(0);
+        if let Some(spine) = &self.spine {
+            elongation += spine.iter().enumerate().map(|(k, row)| row * q(k)).sum::<f64>();
+        }
+        self.beam.tension(elongation)
     }
 }
 

@@ -80,12 +80,7 @@ fn set_axial(model: &Model, [pipe, guide]: [&mut [f64]; 2], q: impl Fn(usize) ->
             .tension(q(ends[1].pipe_above) - q(ends[0].pipe_below) + shorter);
     }
     for ((tension, element), ends) in guide.iter_mut().zip(&model.guide).zip(ends) {
-        // Displacement along the chord, from those along and across in the node's frame.
-        let along = |n: usize| {
-            let (r, node) = (&element.rotation[n], ends[n].guide);
-            r[(0, 0)] * q(node) + r[(0, 2)] * q(node + 2)
-        };
-        *tension = element.beam.tension(along(1) - along(0));
+        *tension = element.tension(|k| q(ends[k / 6].guide + k % 6));
     }
 }
 

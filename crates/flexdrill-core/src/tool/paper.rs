@@ -55,6 +55,7 @@ impl ToolDescription {
             guide_free_curvature: None,
             guide_bends: Bends::default(),
             guide_slots_close_at: None,
+            guide_spine: None,
             guide_fixed: false,
             hole_diameter: 0.118,
             joint: JointDescription::new(JointKind::Universal, deg_to_rad(6.0)),

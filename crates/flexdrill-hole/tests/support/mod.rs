@@ -26,6 +26,7 @@ pub fn guide(factor: f64) -> Guide {
         free_curvature: ARC,
         bends: Bends::default(),
         roll: 0.0,
+        spine: None,
         weight_per_metre: 361.5,
         gravity: Gravity::Down,
         gap: 0.008,

@@ -316,13 +316,8 @@ impl Span<'_> {
             model.pipe[first + e].beam.tension(stretch)
         };
         let of_guide = |e: usize, j: usize| {
-            let (guide, column) = (&model.guide[first + e], slaved[1].column(j));
-            // Displacement along the chord, from those along and across in the node's frame.
-            let end = |n: usize| {
-                let node = 6 * (e + n);
-                guide.rotation[n][(0, 0)] * column[node] + guide.rotation[n][(0, 2)] * column[node + 2]
-            };
-            guide.beam.tension(end(1) - end(0))
+            let column = slaved[1].column(j);
+            model.guide[first + e].tension(|k| column[6 * e + k])
         };
         let mean = |sum: f64| sum / per as f64;
         [

@@ -42,6 +42,9 @@ pub struct ToolDescription {
     /// Curvature against its shape as made at which the slots of the guide close (1/m): beyond it the guide bends with the
     /// stiffness of the whole tube. `None` where they never do.
     pub guide_slots_close_at: Option<f64>,
+    /// The guide's spine, where its slots leave one off the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub guide_spine: Option<Spine>,
     /// Every guide node held in all six directions (the verification cases' fixed outer beam).
     pub guide_fixed: bool,
     /// Diameter of the bore (m), Eq. 31.
@@ -108,6 +111,18 @@ impl ToolDescription {
             require(
                 !self.guide_fixed,
                 "guide_slots_close_at",
+                "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
+            )?;
+        }
+        if let Some(spine) = self.guide_spine {
+            let wall = Bound::Within(0.0, 0.5 * self.guide_section.outer_diameter);
+            wall.check("guide_spine.offset", spine.offset, "m")?;
+            Bound::Finite.check("guide_spine.phase", spine.phase, "rad")?;
+            let needs_slots = "leave it out, or set guide_bending_factor below 1: a tube without slots bends about its axis";
+            require(self.guide_bending_factor < 1.0, "guide_spine", needs_slots)?;
+            require(
+                !self.guide_fixed,
+                "guide_spine",
                 "a guide that is held at every node does not bend; leave it out or set guide_fixed to false",
             )?;
         }
@@ -224,6 +239,17 @@ pub struct FreeCurvature {
     pub curvature: f64,
     /// Toolface of the bend while the tube's spin is 0 (rad): the angle from the high side (-z) to the side that it
     /// bends to, positive towards +y.
+    pub phase: f64,
+}
+
+/// The line of a slotted guide that carries its axial force, off the guide's axis; bending is about it. Thrust bends the guide
+/// away from it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spine {
+    /// Distance from the axis (m).
+    pub offset: f64,
+    /// Toolface of the bend that thrust adds while the guide's spin is 0 (rad), as that of [`FreeCurvature`]: the spine lies
+    /// on the other side of the axis.
     pub phase: f64,
 }
 
