@@ -13,13 +13,13 @@ pub mod table;
 pub mod words;
 
 use flexdrill_config::{Config, sha256};
-use flexdrill_hole::{Bounds, HoleError, bounds, steady};
+use flexdrill_hole::{Bounds, HoleError, steady};
 
 pub use crate::drilling::{
     Band, Drilling, Learnt, Long, Plan, Refusal, SPACING, Spread, Station, Track, USUAL_LENGTH, USUAL_WEIGHT, across,
     along, build, drill, learnt, plan, surveys, tool, turned,
 };
-use crate::drilling::{middle_inclination, spread, unknowns};
+use crate::drilling::{middle_inclination, range::whatever_the_bit, spread, unknowns};
 use crate::runs::{KeepError, Kept, KeptAs, Work, run_all};
 pub use advice::Advice;
 pub use present::Present;
@@ -178,12 +178,10 @@ pub fn answer(
     }
     let sine = libm::sin(middle_inclination(&nominal));
     let long = steady(&drilling.guide, &drilling.law, sine).ok();
-    // The weight across the hole is largest in a level one: the widest range.
-    let widest = tool::guide(config, question.largest_weight);
     Ok(Answer {
         depth: config.well.length(),
         spread: spread(&nominal, &members),
-        bounds: bounds(&widest, question.largest_weight, 1.0).ok(),
+        bounds: whatever_the_bit(config, question.largest_weight),
         long: long.map(Long::from),
         drilling,
         nominal,

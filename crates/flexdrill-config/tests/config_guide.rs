@@ -85,3 +85,26 @@ fn pieces_that_cannot_be_are_refused() {
         assert!(error.contains(expected), "{free}: {error}");
     }
 }
+
+/// A guide that is slotted on one side, its spine 40 mm off the axis on the low side, where thrust bends it with the build. The
+/// fibre that is strained most lies on the other side of the tube, 51 + 40 mm from the neutral line, where it is not given.
+#[test]
+fn a_spine_off_the_axis_bends_towards_the_other_side() {
+    let with = |spine: &str| config(&format!("0.1, spine_offset: 0.04{spine}")).unwrap();
+    let plain = with("");
+    let spine = plain.tool().guide_spine.unwrap();
+    assert_eq!((spine.offset, spine.phase), (0.04, 0.0));
+    assert!((plain.guide_bending_strain() - 0.091 * 0.2125).abs() < 1e-12);
+    let given = with(", outer_fibre: 0.009");
+    assert!((given.guide_bending_strain() - 0.009 * 0.2125).abs() < 1e-12);
+    // One turn back it is the same side, to the bit.
+    assert_eq!(with(", spine_toolface_deg: -180").tool().guide_spine, Some(spine));
+    assert_eq!(config("0.1").unwrap().tool().guide_spine, None);
+    // It is a number like any other: a prior may draw it.
+    let prior = "\nuncertainty: {keys: [{key: tool.guide.spine_offset, form: factor, source: a test, distribution: {normal: \
+                 {low: 0.9, high: 1.1}}}]}\n";
+    let yaml = include_str!("../../../tests/data/ahead.yaml");
+    let yaml = yaml.replace("free_curvature: 0.3125", "free_curvature: 0.3, spine_offset: 0.04");
+    let uncertain = Config::from_text("tool.yaml", &(yaml + prior)).unwrap();
+    assert!(uncertain.uncertainty.unwrap().position("tool.guide.spine_offset").is_some());
+}

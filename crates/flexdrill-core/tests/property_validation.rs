@@ -14,7 +14,7 @@ use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
     AddedMass, Body, DepthOfCut, Direction, Feed, FreeCurvature, FrictionLaw, Hoist, LoadHistory, Location, MudDamping,
     MudDescription, MudFilm, Piece, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw,
-    SectionProperties, SpeedController, StringDescription, Support, ToolDescription, TopDrive, Tube, WallFriction,
+    SectionProperties, SpeedController, Spine, StringDescription, Support, ToolDescription, TopDrive, Tube, WallFriction,
     Weakening, WellSection,
 };
 use flexdrill_core::twin::{BuildError, Simulation, SimulationSettings};
@@ -63,6 +63,11 @@ fn with_everything() -> ToolDescription {
         eccentricity: 0.01,
         eccentricity_phase: 0.5,
     }];
+    tool.guide_bending_factor = 0.5;
+    tool.guide_spine = Some(Spine {
+        offset: 0.01,
+        phase: 0.0,
+    });
     tool
 }
 

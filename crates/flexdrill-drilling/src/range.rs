@@ -40,6 +40,28 @@ pub enum Excluded {
     },
 }
 
+/// Curvatures that no bit and no rock leaves in a long arc, from no weight to the largest (N); none where the thrust bends the
+/// guide without limit.
+pub fn whatever_the_bit(config: &Config, largest: f64) -> Option<Bounds> {
+    // A bent guide presses the harder the larger the weight. One that drops is pressed most without any. A weight that bends
+    // the guide moves both bounds with it, so that the extremes may lie between.
+    let steps = if config.tool.guide.has_spine_off_axis() {
+        WEIGHTS
+    } else {
+        1
+    };
+    let weights = (0..=steps).map(|step| largest * f64::from(step) / f64::from(steps));
+    let all = weights.map(|weight| bounds(&tool::guide(config, weight), weight, LEVEL).ok());
+    all.reduce(|one, other| {
+        let (one, other) = (one?, other?);
+        Some(Bounds {
+            low: one.low.min(other.low),
+            high: one.high.max(other.high),
+        })
+    })
+    .flatten()
+}
+
 impl Range {
     /// Of a configuration whose guide has a free curvature as a number or in pieces, in the plane of the build, and holds the bit's axis.
     pub fn of(config: &Config) -> Option<Self> {
@@ -64,25 +86,11 @@ impl Range {
             .ok()
             .and_then(|law| steady(&tool::guide(config, weight), &law, LEVEL).ok())
             .map(Long::from);
-        // A bent guide presses the harder the larger the weight. One that drops is pressed most without any. A weight that
-        // bends the guide moves both bounds with it, so that they may turn between.
-        let steps = if guide.has_spine_off_axis() { WEIGHTS } else { 1 };
-        let bounds = (0..=steps)
-            .map(|step| largest * f64::from(step) / f64::from(steps))
-            .map(|weight| bounds(&tool::guide(config, weight), weight, LEVEL).ok())
-            .reduce(|one, other| {
-                let (one, other) = (one?, other?);
-                Some(Bounds {
-                    low: one.low.min(other.low),
-                    high: one.high.max(other.high),
-                })
-            })
-            .flatten();
         Some(Self {
             weight,
             long,
             largest_weight: largest,
-            bounds,
+            bounds: whatever_the_bit(config, largest),
         })
     }
 
@@ -181,6 +189,34 @@ mod tests {
             range.excluded(&curved, Some(&level))[..],
             [Excluded::Plan { .. }]
         ));
+    }
+
+    /// A straight guide that thrust bends drills the arc at some weight, and with shut slots it does not reach the arc: bounds
+    /// of the closed form with kf = min(e W / EI, k_c).
+    #[test]
+    fn the_weight_bends_a_guide_with_a_spine_off_its_axis() {
+        let straight = "bending_factor: 0.05, free_curvature: 0.3125";
+        let with = |guide: &str| config(&[(straight, guide)], "");
+        let guide = "bending_factor: 0.01, free_curvature: 0, spine_offset: 0.045";
+        assert!(
+            Range::of(&with(guide))
+                .unwrap()
+                .excluded(&with(guide), None)
+                .is_empty()
+        );
+        let shut = with(&format!("{guide}, slots_close_at: 0.05"));
+        let range = Range::of(&shut).unwrap();
+        // (2 c/EI)(W kb + q) = (kb - k_c)2 with W 60 kN, and k_c from 7.6 kN on.
+        let high = range.bounds.unwrap().high;
+        let reach = (2.0 * 0.008 * (60e3 * high + 361.5) / (0.01 * 6.8037e5)).sqrt();
+        assert!((high - 0.05 - reach).abs() < 1e-3 * high, "{range:?}");
+        let stiff = with("bending_factor: 0.05, free_curvature: 0, spine_offset: 0.045, slots_close_at: 0.05");
+        let range = Range::of(&stiff).unwrap();
+        assert_eq!(range.excluded(&stiff, None), [Excluded::Arc(3.2)], "{range:?}");
+        // The weight does not act in the plane of the build alone.
+        let aside = "bending_factor: 0.01, free_curvature: 0, spine_offset: 0.045, spine_toolface_deg: 90";
+        let held = "boundary: {supports: [{at: top, body: guide, fix: [psi]}]}\n";
+        assert_eq!(Range::of(&config(&[(straight, aside)], held)), None);
     }
 
     #[test]

@@ -28,9 +28,10 @@ pub const WELL: usize = 12;
 pub const GUIDE: usize = 13;
 pub const WEIGHT_AT: usize = 14;
 pub const JOINT: usize = 15;
+pub const SPINE: usize = 16;
 
 /// The switches. A hoist is there with a string and the rock law `depth_of_cut`.
-pub const FACTORS: [Factor; 16] = [
+pub const FACTORS: [Factor; 17] = [
     factor("string", &["none", "line"]),
     factor("rock", &["paper", "weakening", "depth_of_cut"]),
     factor("outer", &["separate", "vector", "bristle"]),
@@ -47,6 +48,7 @@ pub const FACTORS: [Factor; 16] = [
     factor("guide", &["free", "tied"]),
     factor("weight", &["bit", "kickoff"]),
     factor("joint", &["universal", "ball_cage", "revolute"]),
+    factor("spine", &["on_axis", "off_axis"]),
 ];
 
 const fn factor(name: &'static str, levels: &'static [&'static str]) -> Factor {

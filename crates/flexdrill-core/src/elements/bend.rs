@@ -7,7 +7,7 @@
 //! k_1 = phi_y' + phi_z' psi - kb (psi^2 + phi_z^2) / 2,      k_2 = phi_z' - kb psi - phi_y' psi + kb phi_y phi_z / 2,
 //! ```
 //!
-//! primes along the node frames. What is proportional to such a curvature, the energy of a bend as made or of a thrust beside
+//! primes along the node frames. What is proportional to such a curvature, the energy of a bend as made or of an axial force off
 //! the axis, has the second derivatives below: a stiffness that turns with the tube. Signs: phi_y = -dw/dx and
 //! phi_z = dv/dx; kb > 0 builds towards the high side, against z; psi turns y towards z. SI.
 

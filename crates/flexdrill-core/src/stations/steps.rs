@@ -18,7 +18,7 @@ use crate::step::{Forcing, SolverKind, Stepper, StepperSettings};
 use crate::support::small;
 use crate::tool::{
     AddedMass, FreeCurvature, FrictionLaw, JointKind, MudDamping, MudDescription, MudFilm, PressureDescription,
-    PressureEnd, PressureSource, Shortening, ToolDescription, WobPath,
+    PressureEnd, PressureSource, Shortening, Spine, ToolDescription, WobPath,
 };
 
 /// Step size (s).
@@ -212,7 +212,11 @@ fn steps_with_what_acts_inside_spans() {
         });
         tool.guide_slots_close_at = Some(0.15);
     };
-    let mut tools = [0; 5].map(|_| small());
+    let off_axis = Some(Spine {
+        offset: 0.03,
+        phase: 0.7,
+    });
+    let mut tools = [0; 6].map(|_| small());
     tools[0].mud = Some(mud);
     tools[1].pressure = Some(pressure);
     tools[2].shortening = Shortening::SecondOrder;
@@ -220,6 +224,8 @@ fn steps_with_what_acts_inside_spans() {
     let all = &mut tools[4];
     (all.mud, all.pressure, all.shortening) = (Some(mud), Some(pressure), Shortening::SecondOrder);
     soft(all);
+    all.guide_spine = off_axis;
+    (tools[5].guide_bending_factor, tools[5].guide_spine) = (0.05, off_axis);
     for tool in &tools {
         check_small(tool);
     }

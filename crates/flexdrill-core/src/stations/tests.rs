@@ -14,7 +14,7 @@ use crate::step::{SolverKind, Stepper, StepperSettings};
 use crate::support::{Random, small};
 use crate::tool::{
     AddedMass, Body, FreeCurvature, FrictionLaw, JointKind, Location, MudDamping, MudDescription, MudFilm, PointMass,
-    PressureDescription, PressureEnd, PressureSource, RockLaw, Shortening, ToolDescription, Weakening, WobPath,
+    PressureDescription, PressureEnd, PressureSource, RockLaw, Shortening, Spine, ToolDescription, Weakening, WobPath,
 };
 
 /// A state with every term active: tilts, spins, contacts in both layers, stops, multipliers, axial forces.
@@ -277,6 +277,16 @@ fn a_preloaded_guide() {
         phase: 0.7,
     });
     check(&tool);
+}
+
+/// The tangent of the stations has the geometric stiffness too.
+#[test]
+fn a_spine_off_the_axis() {
+    for phase in [0.0, 0.7] {
+        let mut tool = small();
+        (tool.guide_bending_factor, tool.guide_spine) = (0.05, Some(Spine { offset: 0.04, phase }));
+        check(&tool);
+    }
 }
 
 /// Some of the slots are closed, some open.

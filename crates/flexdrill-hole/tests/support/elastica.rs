@@ -8,6 +8,10 @@
 //! a' = -kappa,   x' = -d,   n' = q e_r,   M' = d x n,   kappa = kf + M/EI;   n = (-F, -W), M = 0, a = -t at the bit
 //! ```
 //!
+//! With the spine of the guide e off its axis towards the low side, M/EI has the couple e N of the tension N = n . d in
+//! addition, and the axis becomes shorter by e times what the guide is more curved than the hole: rates are per length of the
+//! axis that is there in the hole without a bend, and x' = -(1 + e (kb - kappa)) d.
+//!
 //! Unknown are t, F, the free length l, and kb; at l the guide is on the wall, along it, and as curved as it; and the bit
 //! drills along its tangent. Nothing is linear here, and nothing is taken from the crate but the description of the guide.
 
@@ -19,25 +23,35 @@ const STEPS: usize = 400;
 /// a, x, y, n_x, n_y, M.
 type State = [f64; 6];
 
-/// Rates where the guide was made with a curvature.
-fn rates(guide: &Guide, made: f64, [a, x, y, nx, ny, moment]: State) -> State {
+/// Curvature where the guide was made with one (1/m).
+fn curvature(guide: &Guide, made: f64, [a, .., nx, ny, moment]: State) -> f64 {
+    let (sine, cosine) = a.sin_cos();
+    let thrust = sine * nx - cosine * ny;
+    let e = guide.spine.map_or(0.0, |spine| spine.offset);
+    made + (moment + e * thrust) / guide.bending_stiffness
+}
+
+/// Rates where the guide was made with a curvature, in a hole of another one (1/m).
+fn rates(guide: &Guide, hole: f64, made: f64, state: State) -> State {
+    let [a, x, y, nx, ny, _] = state;
     let (sine, cosine) = a.sin_cos();
     let radius = x.hypot(y);
-    let kappa = made + moment / guide.bending_stiffness;
+    let kappa = curvature(guide, made, state);
+    let stretch = guide.spine.map_or(1.0, |spine| 1.0 + spine.offset * (hole - kappa));
     let q = guide.weight_per_metre;
     [
         -kappa,
-        sine,
-        -cosine,
+        stretch * sine,
+        -stretch * cosine,
         q * x / radius,
         q * y / radius,
-        -sine * ny - cosine * nx,
+        stretch * (-sine * ny - cosine * nx),
     ]
 }
 
 fn misfit(guide: &Guide, law: &BitLaw, unknown: Vector4<f64>) -> Vector4<f64> {
-    let [tilt, force, length, curvature] = [unknown.x, unknown.y, unknown.z, unknown.w];
-    let radius = 1.0 / curvature;
+    let [tilt, force, length, hole] = [unknown.x, unknown.y, unknown.z, unknown.w];
+    let radius = 1.0 / hole;
     let mut state = [-tilt, radius, 0.0, -force, -law.weight, 0.0];
     // Each piece of the guide has its own steps, so that its curvature is constant within one.
     let mut made = guide.free_curvature;
@@ -51,10 +65,10 @@ fn misfit(guide: &Guide, law: &BitLaw, unknown: Vector4<f64>) -> Vector4<f64> {
         for _ in 0..STEPS {
             let shifted =
                 |rate: State, share: f64| -> State { std::array::from_fn(|i| state[i] + share * h * rate[i]) };
-            let first = rates(guide, made, state);
-            let second = rates(guide, made, shifted(first, 0.5));
-            let third = rates(guide, made, shifted(second, 0.5));
-            let fourth = rates(guide, made, shifted(third, 1.0));
+            let first = rates(guide, hole, made, state);
+            let second = rates(guide, hole, made, shifted(first, 0.5));
+            let third = rates(guide, hole, made, shifted(second, 0.5));
+            let fourth = rates(guide, hole, made, shifted(third, 1.0));
             state = std::array::from_fn(|i| state[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]));
         }
         from = to;
@@ -62,12 +76,15 @@ fn misfit(guide: &Guide, law: &BitLaw, unknown: Vector4<f64>) -> Vector4<f64> {
             made = next;
         }
     }
-    let [a, x, y, .., moment] = state;
+    let [a, x, y, ..] = state;
+    let stretch = guide.spine.map_or(1.0, |spine| {
+        1.0 + spine.offset * (hole - curvature(guide, made, state))
+    });
     let (sine, cosine) = a.sin_cos();
     Vector4::new(
         x.hypot(y) - radius - guide.gap,
         (-sine * x + cosine * y) / x.hypot(y),
-        made + moment / guide.bending_stiffness - 1.0 / (radius + guide.gap),
+        curvature(guide, made, state) / stretch - 1.0 / (radius + guide.gap),
         law.turn(Vector2::new(0.0, tilt), Vector2::new(0.0, force)).y,
     )
 }

@@ -334,6 +334,16 @@ fn slots_that_close() {
     }
 }
 
+/// Guides that thrust bends with the path, against it and out of it.
+#[test]
+fn spines_off_the_axis() {
+    for (elements, seed) in [(1, 3), (4, 11)] {
+        for tool in with_spine(&small(5, elements)) {
+            check(&with_soft_contacts(tool), 5e-4, seed);
+        }
+    }
+}
+
 /// Mud around pipes with and without joints, of two diameters, in free and fixed guides, with masses.
 #[test]
 fn mud_around_the_pipes() {

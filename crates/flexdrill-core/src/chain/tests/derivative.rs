@@ -108,7 +108,8 @@ fn the_tangent_over_all_stations_has_the_geometric_stiffness() {
     tied.wob_path = WobPath::Shared;
     let mut soft = small(6, 2);
     soft.guide_bending_factor = 0.05;
-    for tool in [small(6, 2), with_shortening(small(6, 2)), tied, soft] {
+    let [low, high, aside] = with_spine(&small(6, 2));
+    for tool in [small(6, 2), with_shortening(small(6, 2)), tied, soft, low, high, aside] {
         let model = Model::new(&tool).unwrap();
         let chain = Chain::over_stations(&model, &Tolerances::default(), &acting(&model), Instructions::best());
         check_chain(&tool, &model, chain, 2e5, 4e-4);
@@ -133,6 +134,9 @@ fn the_tangent_is_the_derivative_of_the_residual() {
     }
     check_derivative(&with_shortening(small(6, 3)));
     for tool in with_slots(&small(6, 3)) {
+        check_derivative(&tool);
+    }
+    for tool in with_spine(&small(6, 3)) {
         check_derivative(&tool);
     }
     for rock in ROCKS {

@@ -29,7 +29,7 @@ use crate::tool::description::LiveParameters;
 use crate::tool::{
     AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
     MudDescription, MudFilm, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw,
-    Shortening, Support, ToolDescription, WallFrictionFactors, Weakening, WellSection, WobPath,
+    Shortening, Spine, Support, ToolDescription, WallFrictionFactors, Weakening, WellSection, WobPath,
 };
 
 fn random(seed: &mut u64) -> f64 {
@@ -64,6 +64,23 @@ fn with_slots(tool: &ToolDescription) -> [ToolDescription; 3] {
         (tool.guide_bending_factor, tool.guide_free_curvature) = (0.05, free);
         tool.guide_slots_close_at = Some(0.3);
         if free.is_some() {
+            tool.supports.push(Support {
+                location: Location::Top,
+                body: Body::Guide,
+                directions: vec![Direction::Psi],
+            });
+        }
+        tool
+    })
+}
+
+/// Soft guides whose spine lies on the low side, on the high side, and aside of a guide that is bent as made.
+fn with_spine(tool: &ToolDescription) -> [ToolDescription; 3] {
+    [0.0, std::f64::consts::PI, 0.7].map(|phase| {
+        let mut tool = tool.clone();
+        (tool.guide_bending_factor, tool.guide_spine) = (0.05, Some(Spine { offset: 0.04, phase }));
+        if phase == 0.7 {
+            tool.guide_free_curvature = Some(FreeCurvature { curvature: 0.2, phase });
             tool.supports.push(Support {
                 location: Location::Top,
                 body: Body::Guide,

@@ -43,7 +43,6 @@ pub struct ToolDescription {
     /// stiffness of the whole tube. `None` where they never do.
     pub guide_slots_close_at: Option<f64>,
     /// The guide's spine, where its slots leave one off the axis.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub guide_spine: Option<Spine>,
     /// Every guide node held in all six directions (the verification cases' fixed outer beam).
     pub guide_fixed: bool,
