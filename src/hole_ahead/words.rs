@@ -311,6 +311,20 @@ fn notes(config: &Config, answer: &Answer) -> Vec<String> {
              that the next metres differ from a long arc."
         ));
     }
+    let (guide, weight) = (&answer.drilling.guide, answer.drilling.law.weight);
+    if let Some(spine) = guide.spine {
+        let bend = spine.bend(weight, guide.bending_stiffness);
+        let is_shut = spine.most.is_some_and(|most| bend >= most);
+        notes.push(format!(
+            "{:.2} kN of weight bend the guide by {bend:.3} 1/m in addition to its shape as made (tool.guide.spine_offset){}.",
+            n_to_kn(weight),
+            if is_shut {
+                "; its slots are shut, and more weight bends it no further"
+            } else {
+                ""
+            }
+        ));
+    }
     if config.tool.guide.closes_slots() {
         notes.push(if config.tool.guide.has_spine_off_axis() {
             "Slots that close (tool.guide.slots_close_at) limit the curvature that the weight adds; against the hole the guide \
