@@ -38,7 +38,7 @@ fn load(direction: Direction, history: LoadHistory) -> PointLoad {
 
 /// A guide of 1 m that is built in at its top, with its spine 40 mm off its axis, under a thrust on its axis (N).
 fn cantilever(phase: f64, thrust: f64) -> ToolDescription {
-    let mut tool = alone(ToolDescription::paper().with_mesh(2, 5));
+    let mut tool = alone(ToolDescription::paper().with_mesh(1, 10));
     tool.well.sections = vec![WellSection::Straight { length: 1.0 }];
     (tool.guide_bending_factor, tool.guide_spine) = (0.05, Some(Spine { offset: 0.04, phase }));
     let all = vec![
