@@ -220,7 +220,13 @@ impl Guide {
 
     fn check_spine(&self, c: &mut Checker) {
         let (offset, toolface) = (self.spine_offset, self.spine_toolface_deg);
-        c.number("spine_offset", offset, SPINE_OFFSET, "m", "a spine lies in the wall of the tube");
+        c.number(
+            "spine_offset",
+            offset,
+            SPINE_OFFSET,
+            "m",
+            "a spine lies in the wall of the tube",
+        );
         c.number("spine_toolface_deg", toolface, PHASE, "deg", "one turn");
         if !self.has_spine_off_axis() {
             c.require(
@@ -238,7 +244,10 @@ impl Guide {
             "spine_offset",
             offset,
             "m",
-            format!("at most {} m, half of tool.guide.outer_diameter", 0.5 * self.outer_diameter),
+            format!(
+                "at most {} m, half of tool.guide.outer_diameter",
+                0.5 * self.outer_diameter
+            ),
             "a spine lies in the wall of the tube",
         );
         c.require(
@@ -294,7 +303,8 @@ impl Guide {
 
     /// Distance of the outermost bent fibre from the neutral line over the share of the length that bends (m).
     pub(super) fn outer_fibre(&self) -> f64 {
-        self.outer_fibre.unwrap_or(0.5 * self.outer_diameter + self.spine_offset)
+        self.outer_fibre
+            .unwrap_or(0.5 * self.outer_diameter + self.spine_offset)
     }
 
     /// Whether thrust bends the guide.

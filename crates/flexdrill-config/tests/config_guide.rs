@@ -106,5 +106,11 @@ fn a_spine_off_the_axis_bends_towards_the_other_side() {
     let yaml = include_str!("../../../tests/data/ahead.yaml");
     let yaml = yaml.replace("free_curvature: 0.3125", "free_curvature: 0.3, spine_offset: 0.04");
     let uncertain = Config::from_text("tool.yaml", &(yaml + prior)).unwrap();
-    assert!(uncertain.uncertainty.unwrap().position("tool.guide.spine_offset").is_some());
+    assert!(
+        uncertain
+            .uncertainty
+            .unwrap()
+            .position("tool.guide.spine_offset")
+            .is_some()
+    );
 }

@@ -84,7 +84,10 @@ fn thrust_bends_a_guide_away_from_its_spine() {
             let slope = 0.04 * k * (k * length).tan();
             let row = |what: &str, expected: f64, got: f64, scale: f64| {
                 println!("{solver:?}, {phase:.1} rad, {thrust} N: {what} {got:e} for {expected:e}");
-                assert!((got - expected).abs() < 1e-5 * scale, "{what}: {got:e} for {expected:e}");
+                assert!(
+                    (got - expected).abs() < 1e-5 * scale,
+                    "{what}: {got:e} for {expected:e}"
+                );
             };
             // phi_y turns to the high side, which is -w.
             row("w (m)", -across * phase.cos(), end(Direction::W), across);
@@ -131,7 +134,10 @@ fn a_guide_that_swings_freely_keeps_its_energy() {
         let (gone, audit) = (gone.unwrap(), *simulation.energy());
         println!("{phase}: {audit:?}");
         assert!(audit.loads > 0.1, "{audit:?}");
-        assert!((audit.loads - gone.loads).abs() < 1e-9 * audit.loads, "the loads have not ended");
+        assert!(
+            (audit.loads - gone.loads).abs() < 1e-9 * audit.loads,
+            "the loads have not ended"
+        );
         // Newton leaves up to 1 N of the 20 kN.
         let without_law = audit.error - audit.axial_foresight;
         assert!(without_law.abs() < 1e-4 * audit.loads, "{audit:?}");

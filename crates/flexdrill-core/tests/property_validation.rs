@@ -14,8 +14,8 @@ use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{
     AddedMass, Body, DepthOfCut, Direction, Feed, FreeCurvature, FrictionLaw, Hoist, LoadHistory, Location, MudDamping,
     MudDescription, MudFilm, Piece, PointLoad, PointMass, PressureDescription, PressureEnd, PressureSource, RockLaw,
-    SectionProperties, SpeedController, Spine, StringDescription, Support, ToolDescription, TopDrive, Tube, WallFriction,
-    Weakening, WellSection,
+    SectionProperties, SpeedController, Spine, StringDescription, Support, ToolDescription, TopDrive, Tube,
+    WallFriction, Weakening, WellSection,
 };
 use flexdrill_core::twin::{BuildError, Simulation, SimulationSettings};
 use flexdrill_core::validation::ValidationError;

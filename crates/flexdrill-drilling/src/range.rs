@@ -198,12 +198,7 @@ mod tests {
         let straight = "bending_factor: 0.05, free_curvature: 0.3125";
         let with = |guide: &str| config(&[(straight, guide)], "");
         let guide = "bending_factor: 0.01, free_curvature: 0, spine_offset: 0.045";
-        assert!(
-            Range::of(&with(guide))
-                .unwrap()
-                .excluded(&with(guide), None)
-                .is_empty()
-        );
+        assert!(Range::of(&with(guide)).unwrap().excluded(&with(guide), None).is_empty());
         let shut = with(&format!("{guide}, slots_close_at: 0.05"));
         let range = Range::of(&shut).unwrap();
         // (2 c/EI)(W kb + q) = (kb - k_c)2 with W 60 kN, and k_c from 7.6 kN on.

@@ -120,7 +120,9 @@ impl Guide {
             // A hole of 5 1/m leaves no guide with a spine further out.
             Bound::Within(0.0, 0.19).check("guide.spine.offset", spine.offset, "m")?;
             Bound::Finite.check("guide.spine.turn", spine.turn, "rad")?;
-            spine.most.map_or(Ok(()), |most| Bound::Positive.check("guide.spine.most", most, "1/m"))?;
+            spine
+                .most
+                .map_or(Ok(()), |most| Bound::Positive.check("guide.spine.most", most, "1/m"))?;
         }
         Bound::NotNegative.check("guide.weight_per_metre", self.weight_per_metre, "N/m")?;
         Bound::Within(0.0, 2.0).check("guide.wall_friction", self.wall_friction, "")?;

@@ -115,10 +115,7 @@ const FILES: &[(&str, &str)] = &[
         include_str!("../../../config/verify/slots_couples.yaml"),
     ),
     ("slots_wall", include_str!("../../../config/verify/slots_wall.yaml")),
-    (
-        "spine_column",
-        include_str!("../../../config/verify/spine_column.yaml"),
-    ),
+    ("spine_column", include_str!("../../../config/verify/spine_column.yaml")),
     ("stuck_guide", include_str!("../../../config/verify/stuck_guide.yaml")),
     ("tied_rods", include_str!("../../../config/verify/tied_rods.yaml")),
     ("tilted_link", include_str!("../../../config/verify/tilted_link.yaml")),

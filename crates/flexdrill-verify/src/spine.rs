@@ -17,7 +17,9 @@ pub(super) fn between_pinned_ends() -> Result<Vec<Row>, VerifyError> {
         (180.0, "on the low side", Direction::W, Direction::PhiY),
         (90.0, "on the right", Direction::V, Direction::PhiZ),
     ] {
-        let twin = CaseTwin::with(case, |config| config.with_value("tool.guide.spine_toolface_deg", toolface))?;
+        let twin = CaseTwin::with(case, |config| {
+            config.with_value("tool.guide.spine_toolface_deg", toolface)
+        })?;
         let tool = twin.config.tool();
         let bending = SectionProperties::of(tool.guide_section, tool.material, tool.guide_bending_factor).bending;
         let offset = tool.guide_spine.map_or(f64::NAN, |spine| spine.offset);

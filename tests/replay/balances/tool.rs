@@ -1,8 +1,8 @@
 //! The configuration of a row of the covering array: eight links of three elements in a short, crooked hole.
 
 use super::covering::{
-    FILM, GUIDE, INNER, JOINT, MUD, OUTER, PINS, PLAY, PRELOAD, PRESSURE, ROCK, Row, SHORTENING, SLOTS, SPINE,
-    STRING, WEIGHT_AT, WELL,
+    FILM, GUIDE, INNER, JOINT, MUD, OUTER, PINS, PLAY, PRELOAD, PRESSURE, ROCK, Row, SHORTENING, SLOTS, SPINE, STRING,
+    WEIGHT_AT, WELL,
 };
 
 /// What a run of a row has besides its switches.

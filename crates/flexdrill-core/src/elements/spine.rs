@@ -195,14 +195,20 @@ mod tests {
                 let (first, second) = (row.dot(&q), 0.5 * q.dot(&(second * q)));
                 let scale = spine.offset * TURN * size;
                 assert!((odd - first).abs() < 1e-4 * scale, "{phase}: {first} for {odd}");
-                assert!((even - second).abs() < 1e-3 * scale * size, "{phase}: {second} for {even}");
+                assert!(
+                    (even - second).abs() < 1e-3 * scale * size,
+                    "{phase}: {second} for {even}"
+                );
             }
         }
     }
 
     #[test]
     fn a_spine_on_the_axis_adds_nothing() {
-        let none = Spine { offset: 0.0, phase: 0.4 };
+        let none = Spine {
+            offset: 0.0,
+            phase: 0.4,
+        };
         assert_eq!(stiffness(none, &beam()).amax(), 0.0);
         assert_eq!(geometric(none, beam().length, TURN).amax(), 0.0);
     }

@@ -77,9 +77,9 @@ fn misfit(guide: &Guide, law: &BitLaw, unknown: Vector4<f64>) -> Vector4<f64> {
         }
     }
     let [a, x, y, ..] = state;
-    let stretch = guide.spine.map_or(1.0, |spine| {
-        1.0 + spine.offset * (hole - curvature(guide, made, state))
-    });
+    let stretch = guide
+        .spine
+        .map_or(1.0, |spine| 1.0 + spine.offset * (hole - curvature(guide, made, state)));
     let (sine, cosine) = a.sin_cos();
     Vector4::new(
         x.hypot(y) - radius - guide.gap,

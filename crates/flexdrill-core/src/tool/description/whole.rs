@@ -117,7 +117,8 @@ impl ToolDescription {
             let wall = Bound::Within(0.0, 0.5 * self.guide_section.outer_diameter);
             wall.check("guide_spine.offset", spine.offset, "m")?;
             Bound::Finite.check("guide_spine.phase", spine.phase, "rad")?;
-            let needs_slots = "leave it out, or set guide_bending_factor below 1: a tube without slots bends about its axis";
+            let needs_slots =
+                "leave it out, or set guide_bending_factor below 1: a tube without slots bends about its axis";
             require(self.guide_bending_factor < 1.0, "guide_spine", needs_slots)?;
             require(
                 !self.guide_fixed,
