@@ -118,7 +118,15 @@ fn errors(sensor: &Sensor) -> Option<String> {
     let unit = sensor.channel.unit();
     let mut parts = Vec::new();
     if sensor.factor_error > 0.0 {
-        parts.push(format!("factor within {} %", six_digits(100.0 * sensor.factor_error)));
+        // A factor other than 1 is one that a calibration has found.
+        let about = match sensor.expected_factor {
+            1.0 => String::new(),
+            found => format!(" of {}", six_digits(found)),
+        };
+        parts.push(format!(
+            "factor within {} %{about}",
+            six_digits(100.0 * sensor.factor_error)
+        ));
     }
     for (name, value) in [
         ("tare within", sensor.tare_range),

@@ -1,10 +1,12 @@
 //! From windows and surrogates to estimates.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
+use crate::explain::{self, Explained, QuantityCheck};
 use crate::identify::{CombinedPair, Estimate, identify};
 use crate::noise::{ErrorSource, covariance};
 use crate::random::Random;
+use crate::sensor::Sensor;
 use crate::smoother::{SmootherSettings, smooth, standard_normal};
 use crate::surrogate::Surrogate;
 use crate::unknown::Unknown;
@@ -13,8 +15,6 @@ use crate::{BAND, CalibrationError};
 
 /// Standardised value up to which the twin is run on both sides of the prior's median: 98.8 % of the prior.
 pub const DESIGN: f64 = 2.5;
-/// Mean square of the standardised residuals above which the twin does not explain the log: twice the stated error.
-pub const EXPLAINS: f64 = 4.0;
 
 /// Members of the prior over which the covariance of the surrogates' errors is a mean. Where a variance differs by half
 /// of itself from member to member, the mean of so many is known to an eighth.
@@ -27,10 +27,12 @@ pub struct Predicted {
     pub channel: Channel,
     /// In which state of motion.
     pub motion: Activity,
-    /// The twin's figure: inputs are the standardised modelled unknowns, then speed (rad/s) and, while drilling, weight (N).
+    /// The modelled unknowns that the twin's runs in this state of motion depend on.
+    pub acting: Vec<usize>,
+    /// The twin's figure: inputs are the standardised unknowns of `acting`, then speed (rad/s) and, while drilling, weight (N).
     pub surrogate: Surrogate,
-    /// The unknown that is added to the twin's figure: the tare of the sensor.
-    pub tare: Option<usize>,
+    /// What the sensor shows of that figure.
+    pub sensor: Sensor,
 }
 
 /// A window's mean of a quantity.
@@ -42,8 +44,10 @@ pub struct Observation {
     pub window: usize,
     /// Middle of the window (s from the beginning of the log).
     pub time: f64,
-    /// Speed (rad/s) and, while drilling, weight (N).
-    pub load: Vec<f64>,
+    /// Speed (rad/s).
+    pub rotary_speed: f64,
+    /// Weight that the indicator shows (N).
+    pub shown_weight: f64,
     /// Mean.
     pub value: f64,
     /// Standard deviation of the mean.
@@ -59,23 +63,15 @@ pub struct Problem {
     pub modelled: usize,
     /// Quantities.
     pub quantities: Vec<Predicted>,
+    /// The weight indicator, which the weight of every load comes from.
+    pub indicator: Sensor,
     /// Standard deviation of each channel's drift after an hour, in the order of [`Channel::ALL`].
-    pub drift: [f64; 4],
+    pub drift: [f64; Channel::COUNT],
+    /// Error of the twin's figure of each channel that is another one in each window, as a share of what was measured (standard
+    /// deviation). What all windows share is an unknown.
+    pub discrepancy: [f64; Channel::COUNT],
     /// What was observed.
     pub observations: Vec<Observation>,
-}
-
-/// How an observation is explained.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Explained {
-    /// Prediction with all unknowns at the medians of their priors.
-    pub prior: f64,
-    /// Mean prediction of the posterior.
-    pub predicted: f64,
-    /// Half of the width of the 90 % band of a measurement of this window.
-    pub band: f64,
-    /// Measured less predicted over its standard deviation.
-    pub standardised: f64,
 }
 
 /// What was found.
@@ -87,6 +83,8 @@ pub struct Outcome {
     pub pairs: Vec<CombinedPair>,
     /// Per observation.
     pub explained: Vec<Explained>,
+    /// Per quantity that was observed.
+    pub checks: Vec<QuantityCheck>,
     /// Mean square of the standardised residuals: about 1 or less where the twin explains the log.
     pub misfit: f64,
     /// The posterior ensemble of standardised unknowns, one column per member.
@@ -96,7 +94,7 @@ pub struct Outcome {
 impl Outcome {
     /// Whether the twin explains the log within the stated errors.
     pub fn explains(&self) -> bool {
-        self.misfit <= EXPLAINS
+        self.misfit <= explain::EXPLAINS && self.checks.iter().all(QuantityCheck::is_explained)
     }
 }
 
@@ -145,7 +143,8 @@ pub fn observations(windows: &Windows, quantities: &[Predicted]) -> Vec<Observat
                     quantity: number,
                     window: index,
                     time: 0.5 * (window.span[0] + window.span[1]),
-                    load: load(window.motion, window.rotary_speed, window.weight),
+                    rotary_speed: window.rotary_speed,
+                    shown_weight: window.weight,
                     value: mean.value,
                     scatter: mean.scatter,
                 });
@@ -190,20 +189,35 @@ fn correlations(covariance: &DMatrix<f64>) -> DMatrix<f64> {
 impl Problem {
     /// The predictions of all observations from standardised unknowns.
     pub fn predict(&self, z: &[f64]) -> Vec<f64> {
+        let of = |unknown: usize| self.unknowns[unknown].value(z[unknown]);
         self.observations
             .iter()
             .map(|observation| {
                 let quantity = &self.quantities[observation.quantity];
-                let tare = quantity.tare.map_or(0.0, |tare| self.unknowns[tare].value(z[tare]));
-                quantity.surrogate.predict(&self.inputs(z, observation)) + tare
+                let figure = quantity.surrogate.predict(&self.inputs(z, observation));
+                quantity.sensor.shows(figure, of)
             })
             .collect()
     }
 
+    /// The weight (N) that acts where the indicator shows one, with standardised unknowns.
+    pub fn acting_weight(&self, z: &[f64], shown: f64) -> f64 {
+        self.indicator
+            .acting(shown, |unknown| self.unknowns[unknown].value(z[unknown]))
+    }
+
+    /// What the sensor of a quantity shows of a figure of the twin, with standardised unknowns.
+    pub fn shown(&self, z: &[f64], quantity: usize, figure: f64) -> f64 {
+        let of = |unknown: usize| self.unknowns[unknown].value(z[unknown]);
+        self.quantities[quantity].sensor.shows(figure, of)
+    }
+
     /// Inputs of the surrogate of an observation.
     fn inputs(&self, z: &[f64], observation: &Observation) -> Vec<f64> {
-        let mut inputs = z[..self.modelled].to_vec();
-        inputs.extend(&observation.load);
+        let quantity = &self.quantities[observation.quantity];
+        let weight = self.acting_weight(z, observation.shown_weight);
+        let mut inputs: Vec<f64> = quantity.acting.iter().map(|unknown| z[*unknown]).collect();
+        inputs.extend(load(quantity.motion, observation.rotary_speed, weight));
         inputs
     }
 
@@ -233,7 +247,19 @@ impl Problem {
             })
             .collect();
         let prior = standard_normal(self.unknowns.len(), PRIOR_MEMBERS, &mut Random::new(seed));
-        Ok(covariance(&sources)? + self.surrogate_errors(&prior))
+        Ok(covariance(&sources)? + self.surrogate_errors(&prior) + self.discrepancies())
+    }
+
+    /// The covariance of the twin's own errors, as shares of what was measured.
+    fn discrepancies(&self) -> DMatrix<f64> {
+        let of = |observation: &Observation| {
+            let channel = self.quantities[observation.quantity].channel;
+            (self.discrepancy[channel as usize] * observation.value).powi(2)
+        };
+        DMatrix::from_diagonal(&DVector::from_iterator(
+            self.observations.len(),
+            self.observations.iter().map(of),
+        ))
     }
 
     /// The covariance of the surrogates' errors, as a mean over members of standardised unknowns, one column each. The
@@ -317,11 +343,23 @@ impl Problem {
                 }
             })
             .collect();
+        let residuals: Vec<f64> = observed
+            .iter()
+            .zip(&explained)
+            .map(|(observed, explained)| observed - explained.predicted)
+            .collect();
+        let quantity_of: Vec<usize> = self
+            .observations
+            .iter()
+            .map(|observation| observation.quantity)
+            .collect();
+        let checks = explain::check(&quantity_of, &residuals, &errors, &explained);
         let squares: f64 = explained.iter().map(|explained| explained.standardised.powi(2)).sum();
         Ok(Outcome {
             estimates,
             pairs,
             misfit: squares / observed.len() as f64,
+            checks,
             explained,
             posterior,
         })

@@ -1,6 +1,6 @@
 //! What the data determine.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::BAND;
 use crate::unknown::{Shape, Unknown};
@@ -24,14 +24,15 @@ pub enum Verdict {
     Bounded,
     /// Only together with another one.
     InCombination,
-    /// Not at all: it is left at its prior.
+    /// Hardly at all: it is left at its prior.
     NotIdentifiable,
 }
 
 /// What was found of an unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// Median; the prior's for an unknown that is not identifiable.
+    /// Median, given that the unknowns that are not identifiable have the medians of their priors; of one of these, that of
+    /// its prior.
     pub value: f64,
     /// Ends of the 90 % band.
     pub band: [f64; 2],
@@ -39,6 +40,13 @@ pub struct Estimate {
     pub variance_ratio: f64,
     /// How far the data determine it.
     pub verdict: Verdict,
+}
+
+impl Estimate {
+    /// Width of the posterior over that of the prior. Near 1 the data can hardly move the prior.
+    pub fn width_ratio(&self) -> f64 {
+        self.variance_ratio.sqrt()
+    }
 }
 
 /// Two unknowns of which the data show one combination only.
@@ -67,6 +75,7 @@ pub fn identify(unknowns: &[Unknown], posterior: &DMatrix<f64>) -> (Vec<Estimate
         products.sum::<f64>() / divisor
     });
     let pairs = pairs(&covariance);
+    let medians = medians(&covariance, &mean);
     let estimates = unknowns
         .iter()
         .enumerate()
@@ -74,6 +83,7 @@ pub fn identify(unknowns: &[Unknown], posterior: &DMatrix<f64>) -> (Vec<Estimate
             // The prior variance is 1, so the posterior variance is the ratio of both.
             let ratio = covariance[(index, index)];
             let paired = pairs.iter().any(|pair| pair.unknowns.contains(&index));
+            let value = unknown.value(medians[index]);
             // Without information of the data the ensemble's own mean and
             // deviation are noise; the prior is the honest answer.
             let (middle, deviation) = if ratio > NOT_IDENTIFIABLE {
@@ -81,7 +91,6 @@ pub fn identify(unknowns: &[Unknown], posterior: &DMatrix<f64>) -> (Vec<Estimate
             } else {
                 (mean[index], ratio.sqrt())
             };
-            let value = unknown.value(middle);
             // The ends are transformed and not the deviation: the band of a logarithmic normal is not symmetrical.
             let band = [-BAND, BAND].map(|z| unknown.value(middle + deviation * z));
             let [low, high] = unknown.prior();
@@ -111,6 +120,33 @@ pub fn identify(unknowns: &[Unknown], posterior: &DMatrix<f64>) -> (Vec<Estimate
         })
         .collect();
     (estimates, pairs)
+}
+
+/// The standardised medians, given that unknowns which the data do not determine are at 0: their keys keep their values, and
+/// those of the others must fit to that. With the covariance C and mean m of the ensemble, K of the kept ones:
+/// m - C_.K C_KK^-1 m_K.
+fn medians(covariance: &DMatrix<f64>, mean: &DVector<f64>) -> DVector<f64> {
+    let kept: Vec<usize> = (0..mean.len())
+        .filter(|k| covariance[(*k, *k)] > NOT_IDENTIFIABLE)
+        .collect();
+    let between = DMatrix::from_fn(kept.len(), kept.len(), |i, j| covariance[(kept[i], kept[j])]);
+    let of_kept = DVector::from_iterator(kept.len(), kept.iter().map(|k| mean[*k]));
+    let mut medians = mean.clone();
+    // Without scatter in a direction the kept ones are as good as one of them.
+    if let Some(factor) = between.cholesky() {
+        let weights = factor.solve(&of_kept);
+        for index in 0..mean.len() {
+            let change = kept
+                .iter()
+                .zip(weights.iter())
+                .map(|(k, w)| covariance[(index, *k)] * w);
+            medians[index] -= change.sum::<f64>();
+        }
+    }
+    for k in kept {
+        medians[k] = 0.0;
+    }
+    medians
 }
 
 fn pairs(covariance: &DMatrix<f64>) -> Vec<CombinedPair> {

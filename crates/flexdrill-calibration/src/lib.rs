@@ -19,6 +19,7 @@
 //! - [`noise`]: the covariance of what is measured: scatter of a window, drift of a sensor.
 //! - [`smoother`]: the ensemble smoother with multiple data assimilation (ES-MDA).
 //! - [`identify`]: what the data determine, what they do not, and pairs of which they determine one combination only.
+//! - [`sensor`]: what a sensor shows of a figure. [`explain`]: whether the twin explains what each of them showed.
 //! - [`fit`]: all of it in one call, with the error of the surrogate.
 //! - [`study`](mod@study): the whole, from windows of a log to what was found, with its parts: what is fitted of a
 //!   configuration, one run of the twin, all runs of a design on threads, full runs with what was found, which decide
@@ -30,6 +31,7 @@
 
 pub mod design;
 mod error;
+pub mod explain;
 pub mod fit;
 pub mod follow;
 pub mod following;
@@ -39,6 +41,7 @@ pub mod noise;
 pub mod plausible;
 mod random;
 pub mod residual;
+pub mod sensor;
 pub mod smoother;
 mod stated;
 pub mod study;

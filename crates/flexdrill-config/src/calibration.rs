@@ -26,6 +26,15 @@ section! {
         joint_friction: Range = Range::new(0.05, 0.3);
         /// Range of the bit's friction over the configured one. Default 0.5 to 2.
         bit: Range = Range::new(0.5, 2.0);
+        /// Range of the inclination of the cutters over the configured one. Default a fifth to each side.
+        cutter_inclination: Range = Range::new(0.8333, 1.2);
+        /// Range of the force that the wear flats carry over the configured one. Default half to each side.
+        wear_flat_force: Range = Range::new(0.6667, 1.5);
+        /// Range of the rock's specific energy over the configured one. Default half to each side.
+        specific_energy: Range = Range::new(0.6667, 1.5);
+        /// Error of the twin's rate of penetration, as a share (standard deviation). A half of its variance is that of all
+        /// windows of a log, a half that of each, since rock changes from metre to metre.
+        rate_of_penetration_error: f64 = 0.15, above(0.0, 1.0), "", "no rock is exact; an error of 1 compares nothing";
         /// Distance from the configured tare within which 90 % of the torque sensor's offsets lie (N m).
         torque_tare_range_nm: f64 = 50.0, above(0.0, 1e5), "N m", "without a range nothing is fitted";
         /// Distance from the configured tare within which 90 % of the hook load's offsets lie (kN).
@@ -91,6 +100,9 @@ impl Calibration {
             ("friction", &self.friction),
             ("joint_friction", &self.joint_friction),
             ("bit", &self.bit),
+            ("cutter_inclination", &self.cutter_inclination),
+            ("wear_flat_force", &self.wear_flat_force),
+            ("specific_energy", &self.specific_energy),
             ("follow_limits", &self.follow_limits),
         ] {
             c.below(key, |c| range.check_numbers(c));

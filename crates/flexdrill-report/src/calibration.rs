@@ -8,7 +8,7 @@ use flexdrill_calibration::BAND;
 use flexdrill_calibration::fit::{Outcome, Problem};
 use flexdrill_calibration::identify::{Estimate, Verdict};
 use flexdrill_calibration::windows::{Activity, Channel, Windows};
-use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
+use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, pa_to_mpa, rad_per_s_to_rpm};
 use flexdrill_plot::{Figure, Line, Panel};
 
 /// Largest number of windows in the table; the figures have all.
@@ -86,6 +86,7 @@ pub fn html(about: &About, windows: &Windows, problem: &Problem, outcome: &Outco
             Blue: the 90 % band with the log.")?)
         (fit(windows, problem, outcome)?)
         (checked(about, windows))
+        (quantities(windows, problem, outcome))
         (surrogates(problem, about))
         (left_out(windows))
         (window_table(windows, problem, outcome))
@@ -109,16 +110,18 @@ fn tiles(about: &About, problem: &Problem, outcome: &Outcome) -> Markup {
             div.tile { b { (count(Verdict::Identified)) " of " (problem.unknowns.len()) } "unknowns identified" small { "to 5 %" } }
             div.tile { b { (count(Verdict::Bounded)) } "bounded" small { "known better than before, not to 5 %" } }
             div.tile { b { (count(Verdict::InCombination)) } "known in combination only" }
-            div.tile.unknown { b { (count(Verdict::NotIdentifiable)) } "not identifiable" small { "left as they are" } }
+            div.tile.unknown { b { (count(Verdict::NotIdentifiable)) } "hardly moved" small { "left as they are" } }
             div.tile { b { (problem.observations.len()) } "means of steady windows" }
         }
     }
 }
 
-/// A value of an unknown whose unit is `unit` (SI, empty for a number alone), as page and command show it: newtons as kN.
+/// A value of an unknown whose unit is `unit` (SI, empty for a number alone), as page and command show it: newtons as kN,
+/// pascals as MPa.
 pub fn shown(unit: &str, value: f64) -> String {
     match unit {
         "N" => format!("{} kN", text::number(n_to_kn(value))),
+        "Pa" => format!("{} MPa", text::number(pa_to_mpa(value))),
         "" => text::number(value),
         unit => format!("{} {unit}", text::number(value)),
     }
@@ -129,7 +132,7 @@ fn verdict(estimate: &Estimate) -> Markup {
         Verdict::Identified => html! { "identified" },
         Verdict::Bounded => html! { "bounded" },
         Verdict::InCombination => html! { "only in combination" },
-        Verdict::NotIdentifiable => html! { b.warning { "not identifiable" } ", left as it is" },
+        Verdict::NotIdentifiable => html! { b.warning { "hardly moved" } " by this log, left as it is" },
     }
 }
 
@@ -138,7 +141,7 @@ fn parameters(about: &About, problem: &Problem, outcome: &Outcome) -> Markup {
         section {
             h2 { "What was found" }
             table {
-                thead { tr { th { "unknown" } th { "expected, 90 %" } th { "found" } th { "90 % band" } th.n { "posterior over prior variance" } th {} } }
+                thead { tr { th { "unknown" } th { "expected, 90 %" } th { "found" } th { "90 % band" } th.n { "posterior over prior width" } th {} } }
                 tbody {
                     @for (unknown, estimate) in problem.unknowns.iter().zip(&outcome.estimates) {
                         @let [low, high] = unknown.prior();
@@ -149,7 +152,7 @@ fn parameters(about: &About, problem: &Problem, outcome: &Outcome) -> Markup {
                             td { @if estimate.verdict != Verdict::NotIdentifiable {
                                 (shown(unknown.unit, estimate.band[0])) " to " (shown(unknown.unit, estimate.band[1]))
                             } }
-                            td.n { (text::number(estimate.variance_ratio)) }
+                            td.n { (text::number(estimate.width_ratio())) }
                             td { (verdict(estimate)) }
                         }
                     }
@@ -158,7 +161,8 @@ fn parameters(about: &About, problem: &Problem, outcome: &Outcome) -> Markup {
                     }
                 }
             }
-            p.note { "An unknown whose posterior over prior variance is above 0.8 is not identifiable from this log." }
+            p.note { "This log can hardly move an unknown whose posterior is above 0.9 of its prior's width: it keeps its prior. Factors and \
+                tares of the weight indicator are those of plausible tools; the twin itself takes the weight as the rig shows it." }
             @for pair in &outcome.pairs {
                 @let [a, b] = pair.unknowns.map(|index| problem.unknowns[index].name.as_str());
                 p {
@@ -204,6 +208,7 @@ fn unit(channel: Channel) -> (&'static str, f64) {
     match channel {
         Channel::SurfaceTorque | Channel::BitTorque => ("N m", 1.0),
         Channel::HookLoad | Channel::BitWeight => ("kN", n_to_kn(1.0)),
+        Channel::RateOfPenetration => ("m/h", m_per_s_to_m_per_h(1.0)),
     }
 }
 
@@ -325,6 +330,32 @@ fn checked(about: &About, windows: &Windows) -> Markup {
                     } }
                 }
             }
+        }
+    }
+}
+
+/// Whether the twin explains each quantity.
+fn quantities(windows: &Windows, problem: &Problem, outcome: &Outcome) -> Markup {
+    html! {
+        section {
+            h2 { "What the twin explains" }
+            table {
+                thead { tr { th { "quantity" } th.n { "windows" } th.n { "residuals over their stated errors" } th.n { "at most" } th { "largest in rows" } th {} } }
+                tbody { @for check in &outcome.checks {
+                    @let quantity = &problem.quantities[check.quantity];
+                    @let window = &windows.steady[problem.observations[check.worst].window];
+                    tr {
+                        td { (quantity.channel.name_and_unit().0) ", " (state(quantity.motion)) }
+                        td.n { (check.windows) }
+                        td.n { (text::number(check.times)) }
+                        td.n { (text::number(check.most)) }
+                        td { (window.rows[0]) " to " (window.rows[1]) }
+                        td { @if check.is_explained() { "explained" } @else { b.warning { "not explained" } } }
+                    }
+                } }
+            }
+            p.note { "Root mean square, with the correlation of the errors. The bound is twice the stated error, and more for few windows: \
+                what chance gives in one quantity of 10,000." }
         }
     }
 }

@@ -67,7 +67,9 @@ impl Channel {
 pub struct Sensor {
     /// What it measures.
     pub channel: Channel,
-    /// Distance from 1 within which 90 % of the factors lie.
+    /// Expected factor, around which the factors lie.
+    pub expected_factor: f64,
+    /// Distance from it within which 90 % of the factors lie.
     pub factor_error: f64,
     /// Configured tare, around which the tares lie.
     pub tare: f64,
@@ -91,10 +93,10 @@ pub struct SensorError {
 }
 
 impl Sensor {
-    /// Distribution of the factor; none where there is one value, 1.
+    /// Distribution of the factor; none where there is one value, the expected one.
     pub fn factor(&self) -> Option<Law> {
         // A reading has the sign of the truth.
-        around(1.0, self.factor_error, f64::MIN_POSITIVE)
+        around(self.expected_factor, self.factor_error, f64::MIN_POSITIVE)
     }
 
     /// Distribution of the tare; none where there is one value, the configured one.
@@ -106,7 +108,9 @@ impl Sensor {
     pub(crate) fn error(&self, [of_factor, of_tare]: [f64; 2]) -> SensorError {
         SensorError {
             channel: self.channel,
-            factor: self.factor().map_or(1.0, |law| law.quantile(of_factor)),
+            factor: self
+                .factor()
+                .map_or(self.expected_factor, |law| law.quantile(of_factor)),
             tare: self.tare().map_or(self.tare, |law| law.quantile(of_tare)),
         }
     }
@@ -124,14 +128,16 @@ fn around(middle: f64, range: f64, low: f64) -> Option<Law> {
 /// All sensors, joined from both sections.
 pub(crate) fn sensors(config: &Config, stated: &Uncertainty) -> Vec<Sensor> {
     let (of, known) = (&stated.sensors, &config.calibration);
-    let sensor = |channel, factor_error, [tare, tare_range, noise, drift]: [f64; 4]| Sensor {
-        channel,
-        factor_error,
-        tare,
-        tare_range,
-        noise,
-        drift,
-    };
+    let sensor =
+        |channel, [expected_factor, factor_error]: [f64; 2], [tare, tare_range, noise, drift]: [f64; 4]| Sensor {
+            channel,
+            expected_factor,
+            factor_error,
+            tare,
+            tare_range,
+            noise,
+            drift,
+        };
     // The inputs drive the twin and are compared with nothing: all of their errors are in `uncertainty`.
     let weight = of.weight_indicator;
     let (torque, below) = (of.downhole_torque, of.downhole_weight);
@@ -139,18 +145,18 @@ pub(crate) fn sensors(config: &Config, stated: &Uncertainty) -> Vec<Sensor> {
     vec![
         sensor(
             Channel::WeightIndicator,
-            weight.factor_error,
-            [0.0, weight.tare_range_kn, weight.noise_kn, weight.drift_kn].map(kn_to_n),
+            [weight.factor, weight.factor_error],
+            [weight.tare_kn, weight.tare_range_kn, weight.noise_kn, weight.drift_kn].map(kn_to_n),
         ),
         sensor(
             Channel::RotarySpeed,
-            of.rotary_speed.factor_error,
+            [of.rotary_speed.factor, of.rotary_speed.factor_error],
             [0.0, 0.0, rpm_to_rad_per_s(of.rotary_speed.noise_rpm), 0.0],
         ),
         // A comparison without priors needs tare, noise and drift of these two, so that `calibration` has them.
         sensor(
             Channel::SurfaceTorque,
-            of.surface_torque.factor_error,
+            [of.surface_torque.factor, of.surface_torque.factor_error],
             [
                 known.torque_tare_nm,
                 known.torque_tare_range_nm,
@@ -160,7 +166,7 @@ pub(crate) fn sensors(config: &Config, stated: &Uncertainty) -> Vec<Sensor> {
         ),
         sensor(
             Channel::HookLoad,
-            of.hook_load.factor_error,
+            [of.hook_load.factor, of.hook_load.factor_error],
             [
                 known.hook_load_tare_kn,
                 known.hook_load_tare_range_kn,
@@ -172,14 +178,14 @@ pub(crate) fn sensors(config: &Config, stated: &Uncertainty) -> Vec<Sensor> {
         // The sensors in the hole have their noise there, and the rest here.
         sensor(
             Channel::DownholeSpeed,
-            of.downhole_speed.factor_error,
+            [of.downhole_speed.factor, of.downhole_speed.factor_error],
             [0.0, 0.0, rpm_to_rad_per_s(known.downhole_speed_noise_rpm), 0.0],
         ),
         sensor(
             Channel::DownholeTorque,
-            torque.factor_error,
+            [torque.factor, torque.factor_error],
             [
-                0.0,
+                torque.tare_nm,
                 torque.tare_range_nm,
                 known.downhole_torque_noise_nm,
                 torque.drift_nm,
@@ -187,8 +193,14 @@ pub(crate) fn sensors(config: &Config, stated: &Uncertainty) -> Vec<Sensor> {
         ),
         sensor(
             Channel::DownholeWeight,
-            below.factor_error,
-            [0.0, below.tare_range_kn, known.downhole_weight_noise_kn, below.drift_kn].map(kn_to_n),
+            [below.factor, below.factor_error],
+            [
+                below.tare_kn,
+                below.tare_range_kn,
+                known.downhole_weight_noise_kn,
+                below.drift_kn,
+            ]
+            .map(kn_to_n),
         ),
     ]
 }

@@ -24,7 +24,7 @@ use flexdrill_calibration::study::points::{self, Cover, Point};
 use flexdrill_calibration::study::posterior::sample;
 use flexdrill_calibration::study::unknowns::Unknowns;
 use flexdrill_calibration::study::{self, Study, StudySettings};
-use flexdrill_calibration::windows::{self, Activity, Sample, WindowSettings, Windows};
+use flexdrill_calibration::windows::{self, Activity, Channel, Sample, WindowSettings, Windows};
 use flexdrill_config::Config;
 use flexdrill_text::{counted, printable};
 
@@ -33,7 +33,7 @@ const POINTS: &str = "points.csv";
 /// File of the sample that plausible tools are drawn from.
 const POSTERIOR: &str = flexdrill_uncertainty::posterior::FILE;
 
-/// Fit friction, the bit's coefficient and the sensors' tares to a field log or a bag with what the rig measured.
+/// Fit friction, bit, rock and the sensors' factors and tares to a field log or a bag with what the rig measured.
 ///
 /// The steady parts of the log are compared with runs of the twin. What the log does not determine is left as it is and
 /// said so. Full runs check what was found: where they contradict it, the values are not to be used, and the exit code
@@ -88,7 +88,7 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
     }
     // The check costs nothing, and the runs that follow take minutes to hours.
     let usable = windows.steady.iter().any(|window| {
-        let mut measured = windows::Channel::ALL
+        let mut measured = Channel::ALL
             .into_iter()
             .filter(|channel| window.measured[*channel as usize].is_some());
         measured.any(|channel| !refused.iter().any(|(known, _)| *known == channel))
@@ -101,12 +101,13 @@ pub(super) fn run(args: &CalibrateArgs) -> anyhow::Result<()> {
             None => why,
         });
     }
+    check_weight(&config, &windows)?;
     let unknowns = Unknowns::of(&config)?;
     // Off bottom and drilling need separate designs: off bottom the
     // weight is zero and the bit has no part in the torque.
     let covers: Vec<Cover> = [Activity::OffBottom, Activity::Drilling]
         .into_iter()
-        .filter_map(|motion| study::cover(&windows, motion, unknowns.modelled.len()))
+        .filter_map(|motion| study::cover(&config, &unknowns, &windows, motion))
         .collect();
     check_covers(&config, &covers)?;
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
@@ -162,10 +163,17 @@ fn read(args: &CalibrateArgs, config: &Config) -> anyhow::Result<Vec<Sample>> {
     } else {
         samples::of_log(&args.source.log(&args.log)?)
     };
-    anyhow::ensure!(
-        samples
+    // The rate of penetration alone shows neither friction nor tares, and every log has it as an input.
+    let enough = Channel::ALL.map(|channel| channel != Channel::RateOfPenetration);
+    let has_enough = |sample: &Sample| {
+        sample
+            .measured
             .iter()
-            .any(|sample| sample.measured.iter().any(|value| value.is_finite())),
+            .zip(enough)
+            .any(|(value, is)| is && value.is_finite())
+    };
+    anyhow::ensure!(
+        samples.iter().any(has_enough),
         "{}: it has no measured torque, hook load, or torque or weight at the bit; a field log needs columns.torque, \
          a hookload or columns.measured in its mapping, a bag the topic rig/measured",
         args.log.display()
@@ -187,23 +195,31 @@ fn tell_windows(samples: &[Sample], windows: &Windows) {
     }
 }
 
-/// The twin must be able to run at the loads of the log.
+/// The twin must be able to run with the weights of the log.
+fn check_weight(config: &Config, windows: &Windows) -> anyhow::Result<()> {
+    let drilling = windows
+        .steady
+        .iter()
+        .filter(|window| window.motion == Activity::Drilling);
+    let kn = flexdrill_core::units::n_to_kn(drilling.map(|window| window.weight).fold(0.0, f64::max));
+    let most = config.inputs.weight_on_bit.max_kn;
+    anyhow::ensure!(
+        kn <= most,
+        "the log drills with up to {kn:.0} kN: must be at most inputs.weight_on_bit.max_kn, {most} kN; scale the weight in the \
+         mapping or change the configuration"
+    );
+    Ok(())
+}
+
+/// The twin must be able to run at the speeds of the design.
 fn check_covers(config: &Config, covers: &[Cover]) -> anyhow::Result<()> {
-    let (speed, weight) = (&config.inputs.rotary_speed, &config.inputs.weight_on_bit);
+    let most = config.inputs.rotary_speed.max_rpm;
     for cover in covers {
         let rpm = flexdrill_core::units::rad_per_s_to_rpm(cover.rotary_speed[1]);
-        let kn = flexdrill_core::units::n_to_kn(cover.weight[1]);
         anyhow::ensure!(
-            rpm <= speed.max_rpm,
-            "the log drills at up to {rpm:.0} r/min: must be at most inputs.rotary_speed.max_rpm, {} r/min; scale the speed \
-             in the mapping or change the configuration",
-            speed.max_rpm
-        );
-        anyhow::ensure!(
-            cover.motion == Activity::OffBottom || kn <= weight.max_kn,
-            "the log drills with up to {kn:.0} kN: must be at most inputs.weight_on_bit.max_kn, {} kN; scale the weight in \
-             the mapping or change the configuration",
-            weight.max_kn
+            rpm <= most,
+            "the log drills at up to {rpm:.0} r/min: must be at most inputs.rotary_speed.max_rpm, {most} r/min; scale the speed \
+             in the mapping or change the configuration"
         );
     }
     Ok(())
@@ -217,7 +233,7 @@ fn run_points(
 ) -> anyhow::Result<Vec<Point>> {
     let mut all: Vec<Point> = covers
         .iter()
-        .flat_map(|cover| points::design(unknowns.modelled.len(), cover, args.seed))
+        .flat_map(|cover| points::design(unknowns, cover, args.seed))
         .collect();
     let path = args.out.join(POINTS);
     if let Ok(text) = std::fs::read_to_string(&path) {
@@ -342,9 +358,9 @@ fn tell_result(study: &Study) {
                 unknown.name
             ),
             Verdict::NotIdentifiable => say!(
-                "{}: not identifiable (posterior over prior variance {:.2}), left as it is",
+                "{}: this log can hardly move it (posterior over prior width {:.2}), left as it is",
                 unknown.name,
-                estimate.variance_ratio
+                estimate.width_ratio()
             ),
         }
     }

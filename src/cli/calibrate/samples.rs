@@ -20,6 +20,7 @@ pub(super) const fn kind(channel: Channel) -> MeasuredKind {
         Channel::HookLoad => MeasuredKind::HookLoad,
         Channel::BitTorque => MeasuredKind::DownholeTorque,
         Channel::BitWeight => MeasuredKind::DownholeWeightOnBit,
+        Channel::RateOfPenetration => MeasuredKind::RateOfPenetration,
     }
 }
 
@@ -29,7 +30,7 @@ fn empty(time: f64, row: u64) -> Sample {
         row,
         rotary_speed: f64::NAN,
         weight: f64::NAN,
-        measured: [f64::NAN; Channel::ALL.len()],
+        measured: [f64::NAN; Channel::COUNT],
     }
 }
 
@@ -120,14 +121,7 @@ pub(super) fn of_bag(path: &Path, holds: f64) -> Result<Vec<Sample>, BagError> {
                         set(&mut sample, kind, value);
                     }
                 }
-                // The order is that of `windows::Channel`.
-                sample.measured = [
-                    MeasuredKind::SurfaceTorque,
-                    MeasuredKind::HookLoad,
-                    MeasuredKind::DownholeTorque,
-                    MeasuredKind::DownholeWeightOnBit,
-                ]
-                .map(|kind| measured.value(kind).unwrap_or(f64::NAN));
+                sample.measured = Channel::ALL.map(|channel| measured.value(kind(channel)).unwrap_or(f64::NAN));
                 samples.push(sample);
             }
             RigInputs::ROS_TYPE => {

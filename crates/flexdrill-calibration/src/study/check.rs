@@ -4,11 +4,12 @@
 use std::fmt;
 
 use super::Study;
+use super::overlay::shown;
 use super::point;
 use super::point::Load;
 use super::points::{self, Point};
 use crate::BAND;
-use crate::fit::EXPLAINS;
+use crate::explain::EXPLAINS;
 use crate::windows::{Activity, Channel};
 use flexdrill_config::Config;
 
@@ -20,6 +21,10 @@ const MEMBERS: usize = 2;
 /// times the stated error. Of three independent differences it is above in one of 20,000 calibrations; with
 /// [`EXPLAINS`] it would be in one of 140, and there are six quantities.
 const OF_ONE: f64 = 9.0;
+
+/// Standard deviations of its prior from which on the mean of an unknown's posterior speaks against the values: a prior has
+/// one value of a thousand there, and the posterior is nearer to its middle than the truth is.
+const FARTHEST: f64 = 3.3;
 
 /// Unknowns with which a full run was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +46,7 @@ pub struct Checked {
     pub at: At,
     /// Mean of the log (SI).
     pub measured: f64,
-    /// The twin's figure in a full run, with the tare of the sensor, or why there is none.
+    /// What the sensor shows of the twin's figure in a full run, or why there is none.
     pub run: Result<f64, String>,
     /// The surrogate's, with the same unknowns.
     pub surrogate: f64,
@@ -73,6 +78,34 @@ pub enum Objection {
         /// How many times.
         times: f64,
     },
+    /// The residuals of one quantity are so many times their stated errors (root mean square, with the correlation of these).
+    QuantityUnexplained {
+        /// Quantity.
+        channel: Channel,
+        /// State of motion.
+        motion: Activity,
+        /// Windows in which it was measured.
+        windows: usize,
+        /// How many times.
+        times: f64,
+        /// Bound of that.
+        most: f64,
+        /// Rows of the window with the largest residual over its error.
+        rows: [u64; 2],
+        /// What was measured in it less what the twin computes (SI).
+        residual: f64,
+    },
+    /// An unknown was found so far from what was expected that the prior hardly has such values.
+    BeyondPrior {
+        /// The unknown.
+        name: String,
+        /// Its value (SI).
+        value: f64,
+        /// Ends of the 90 % that were expected (SI).
+        expected: [f64; 2],
+        /// Standard deviations of the prior from its middle.
+        deviations: f64,
+    },
     /// Full runs differ from the surrogates by so many times the stated errors.
     Misled {
         /// Quantity, where one alone differs.
@@ -98,7 +131,8 @@ impl Objection {
     /// As in the results for other programs.
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Unexplained { .. } => "unexplained",
+            Self::Unexplained { .. } | Self::QuantityUnexplained { .. } => "unexplained",
+            Self::BeyondPrior { .. } => "beyond_prior",
             Self::Misled { .. } => "surrogate_misled",
             Self::RunsDiffer { .. } => "full_runs_differ",
             Self::NoRun { .. } => "no_full_run",
@@ -117,6 +151,41 @@ impl fmt::Display for Objection {
                 f,
                 "the twin does not explain the log: the residuals are {times:.1} times their stated errors (root mean \
                  square). The values fit this configuration to another tool or another well, or a sensor is wrong"
+            ),
+            Self::QuantityUnexplained {
+                channel,
+                motion,
+                windows,
+                times,
+                most,
+                rows: [first, last],
+                residual,
+            } => {
+                let (unit, factor) = shown(*channel);
+                write!(
+                    f,
+                    "the twin does not explain the {} {}: the residuals of {windows} windows are {times:.1} times their stated \
+                     errors (root mean square; at most {most:.1}). The largest is {:+.3} {unit}, measured less computed, in \
+                     rows {first} to {last}. No values of what is fitted describe this tool in this well, or that sensor is \
+                     wrong",
+                    channel.name_and_unit().0,
+                    match motion {
+                        Activity::OffBottom => "off bottom",
+                        Activity::Drilling => "while drilling",
+                    },
+                    factor * residual
+                )
+            }
+            Self::BeyondPrior {
+                name,
+                value,
+                expected: [low, high],
+                deviations,
+            } => write!(
+                f,
+                "{name} was found at {value:.4}, {deviations:.1} standard deviations from the middle of what is expected \
+                 ({low:.4} to {high:.4}, SI, 90 %). It stands for something else that the fit does not have, such as another \
+                 rock; or state a wider range, if such a value is possible"
             ),
             Self::Misled { channel, times } => write!(
                 f,
@@ -142,11 +211,25 @@ impl fmt::Display for Objection {
 /// What speaks against the values, the fit itself first.
 pub(super) fn objections(study: &Study) -> Vec<Objection> {
     let mut all = Vec::new();
-    if !study.outcome.explains() {
+    if study.outcome.misfit > EXPLAINS {
         all.push(Objection::Unexplained {
             times: study.outcome.misfit.sqrt(),
         });
     }
+    for check in study.outcome.checks.iter().filter(|check| !check.is_explained()) {
+        let (quantity, worst) = (&study.problem.quantities[check.quantity], check.worst);
+        let observation = &study.problem.observations[worst];
+        all.push(Objection::QuantityUnexplained {
+            channel: quantity.channel,
+            motion: quantity.motion,
+            windows: check.windows,
+            times: check.times,
+            most: check.most,
+            rows: study.windows.steady[observation.window].rows,
+            residual: observation.value - study.outcome.explained[worst].predicted,
+        });
+    }
+    all.extend(beyond_prior(study));
     if let Some((channel, times)) = beyond(&study.checked, Checked::misled) {
         all.push(Objection::Misled { channel, times });
     }
@@ -165,6 +248,20 @@ pub(super) fn objections(study: &Study) -> Vec<Objection> {
         });
     }
     all
+}
+
+/// Unknowns that ran away from what was expected of them.
+fn beyond_prior(study: &Study) -> impl Iterator<Item = Objection> {
+    let middles: Vec<f64> = study.outcome.posterior.row_iter().map(|row| row.mean()).collect();
+    let known = study.problem.unknowns.iter().zip(&study.outcome.estimates);
+    known.zip(middles).filter_map(|((unknown, estimate), middle)| {
+        (middle.abs() > FARTHEST).then(|| Objection::BeyondPrior {
+            name: unknown.name.clone(),
+            value: estimate.value,
+            expected: unknown.prior(),
+            deviations: middle.abs(),
+        })
+    })
 }
 
 /// The root mean square of standardised differences, of all or of the worst quantity, where it is beyond its bound.
@@ -236,7 +333,7 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
     for (at, z) in &places {
         for &window in &chosen {
             let of_log = &study.windows.steady[window];
-            // Coefficients of the model alone: tares act on the measurement and not on the run.
+            // Unknowns of the model alone: those of sensors act on the measurement and on the weight.
             let point = Point {
                 z: z[..modelled].to_vec(),
                 load: Load {
@@ -246,7 +343,8 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
                     // Off bottom the log's weight is that of its sensor's error.
                     weight: match of_log.motion {
                         Activity::OffBottom => 0.0,
-                        Activity::Drilling => of_log.weight,
+                        // The indicator's errors are among what was found.
+                        Activity::Drilling => study.problem.acting_weight(z, of_log.weight),
                     },
                 },
                 found: None,
@@ -266,10 +364,6 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
                 continue;
             }
             let quantity = &study.problem.quantities[observation.quantity];
-            // The run has no tare, and the measurement has, so it is added before they are compared.
-            let tare = quantity
-                .tare
-                .map_or(0.0, |tare| study.problem.unknowns[tare].value(z[tare]));
             let found: Result<point::Figures, String> = point
                 .found
                 .clone()
@@ -280,7 +374,11 @@ pub(super) fn check(config: &Config, study: &Study, jobs: usize) -> Vec<Checked>
                 channel: quantity.channel,
                 at: *at,
                 measured: observation.value,
-                run: found.map(|figures| figures[quantity.channel as usize] + tare),
+                // The run has no sensor, and the measurement has one.
+                run: found.map(|figures| {
+                    let figure = figures[quantity.channel as usize];
+                    study.problem.shown(z, observation.quantity, figure)
+                }),
                 surrogate: predicted[index],
                 band: study.outcome.explained[index].band,
                 // The band of a difference: both errors are independent.

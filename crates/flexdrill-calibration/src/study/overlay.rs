@@ -10,9 +10,10 @@ use sha2::{Digest, Sha256};
 use super::Study;
 use super::check::At;
 use crate::identify::{Estimate, Verdict};
+use crate::sensor::Sensor;
 use crate::windows::Channel;
 use flexdrill_config::{Config, ConfigError};
-use flexdrill_core::units::n_to_kn;
+use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn};
 
 /// Where the values come from.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,21 +91,19 @@ fn entries(study: &Study) -> Vec<Entry<'_>> {
             });
         }
     }
-    let tares = [
-        ("calibration.torque_tare_nm", &study.unknowns.torque_tare, 1.0),
-        (
-            "calibration.hook_load_tare_kn",
-            &study.unknowns.hook_load_tare,
-            n_to_kn(1.0),
-        ),
-    ];
-    for ((key, unknown, factor), estimate) in tares.into_iter().zip(&estimates[study.unknowns.modelled.len()..]) {
+    for (known, estimate) in study
+        .unknowns
+        .sensors
+        .iter()
+        .zip(&estimates[study.unknowns.modelled.len()..])
+    {
+        let Some(key) = known.key else { continue };
         all.push(Entry {
             key,
-            value: factor * estimate.value,
-            band: estimate.band.map(|end| factor * end),
+            value: known.per_value * estimate.value,
+            band: estimate.band.map(|end| known.per_value * end),
             estimate,
-            name: &unknown.name,
+            name: &known.unknown.name,
             is_factor: false,
         });
     }
@@ -167,6 +166,12 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
     // Warnings stand above the values, as this file is applied by hand.
     text.push_str(&warnings(study));
     text.push_str("# Values with the ends of their 90 % bands. Keys that the log does not determine are at the end.\n");
+    if study.problem.indicator != Sensor::default() {
+        text.push_str(
+            "# A twin takes the weight as the rig shows it. Plausible tools have the indicator's factor and tare; for the twin \
+             itself,\n# correct the indicator, or scale the column of the weight in the mapping.\n",
+        );
+    }
     let mut path: Vec<&str> = Vec::new();
     let mut all = changes(study);
     // Keys of one section stand together.
@@ -186,7 +191,6 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
         } else {
             ""
         };
-        // A factor alone does not give the coefficient that was fitted.
         // A factor alone does not show the coefficient that was fitted.
         let coefficient = if entry.is_factor {
             format!("; {} {:.4}", entry.name, entry.estimate.value)
@@ -202,15 +206,37 @@ pub fn yaml(study: &Study, provenance: &Provenance) -> String {
         );
         path = names;
     }
-    // Keys that the data do not determine are comments, so that applying the file leaves them as they are.
+    // What has no key, and keys that the data do not determine, are comments, so that applying the file leaves them as they
+    // are.
+    for (known, estimate) in study
+        .unknowns
+        .sensors
+        .iter()
+        .zip(&study.outcome.estimates[study.unknowns.modelled.len()..])
+    {
+        if known.key.is_none() && estimate.verdict != Verdict::NotIdentifiable {
+            let [value, low, high] =
+                [estimate.value, estimate.band[0], estimate.band[1]].map(|value| known.per_value * value);
+            let _ = writeln!(
+                text,
+                "# {}: {value:.4}, {low:.4} to {high:.4}; no key, as `uncertainty.sensors` does not state it",
+                known.unknown.name
+            );
+        }
+    }
     for entry in entries(study) {
         if entry.estimate.verdict == Verdict::NotIdentifiable {
             let _ = writeln!(
                 text,
-                "# not identifiable, left as it is: {} ({}; posterior over prior variance {:.2})",
-                entry.key, entry.name, entry.estimate.variance_ratio
+                "# hardly moved by this log, left as it is: {} ({}; posterior over prior width {:.2})",
+                entry.key,
+                entry.name,
+                entry.estimate.width_ratio()
             );
         }
+    }
+    for (name, why) in &study.unknowns.left_out {
+        let _ = writeln!(text, "# not fitted: {name}, {why}");
     }
     text
 }
@@ -239,7 +265,7 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "why": objection.name(),
             "text": objection.to_string(),
         })).collect::<Vec<_>>(),
-        // The order is that of the fit, to which indexes in pairs refer. A tare has no keys, as it is not in the model.
+        // The order is that of the fit, to which indexes in pairs refer. What is of a sensor has no keys of the model.
         "unknowns": problem.unknowns.iter().zip(&study.outcome.estimates).enumerate().map(|(index, (unknown, estimate))| json!({
             "name": unknown.name,
             "keys": study.unknowns.modelled.get(index).map(|modelled| modelled.keys.clone()),
@@ -249,6 +275,8 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "value": estimate.value,
             "band": estimate.band,
             "variance_ratio": estimate.variance_ratio,
+            "width_ratio": estimate.width_ratio(),
+            "of_sensor": study.unknowns.sensors.get(index.wrapping_sub(study.unknowns.modelled.len())).map(|known| known.key),
             "verdict": match estimate.verdict {
                 Verdict::Identified => "identified",
                 Verdict::Bounded => "bounded",
@@ -275,6 +303,20 @@ pub fn json(study: &Study, provenance: &Provenance) -> Value {
             "error_over_stated": quantity.surrogate.over_stated(),
             "range": quantity.surrogate.range,
         })).collect::<Vec<_>>(),
+        // Whether the twin explains each quantity: residuals over their stated errors, with the correlation of these.
+        "quantities": study.outcome.checks.iter().map(|check| {
+            let quantity = &problem.quantities[check.quantity];
+            let worst = problem.observations[check.worst].window;
+            json!({
+                "channel": quantity.channel.name_and_unit().0,
+                "motion": format!("{:?}", quantity.motion),
+                "windows": check.windows,
+                "residuals_over_stated": check.times,
+                "at_most": check.most,
+                "explained": check.is_explained(),
+                "largest_in_rows": study.windows.steady[worst].rows,
+            })
+        }).collect::<Vec<_>>(),
         // Both lists have one entry per observation.
         "windows": problem.observations.iter().zip(&study.outcome.explained).map(|(observation, explained)| {
             let window = &study.windows.steady[observation.window];
@@ -321,5 +363,6 @@ pub fn shown(channel: Channel) -> (&'static str, f64) {
     match channel {
         Channel::SurfaceTorque | Channel::BitTorque => ("N m", 1.0),
         Channel::HookLoad | Channel::BitWeight => ("kN", n_to_kn(1.0)),
+        Channel::RateOfPenetration => ("m/h", m_per_s_to_m_per_h(1.0)),
     }
 }

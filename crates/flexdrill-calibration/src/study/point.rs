@@ -33,7 +33,7 @@ pub struct Load {
 }
 
 /// Settled means in the order of [`Channel::ALL`]; NaN where the tool has no such figure.
-pub type Figures = [f64; Channel::ALL.len()];
+pub type Figures = [f64; Channel::COUNT];
 
 /// Runs the twin and returns its settled means.
 ///
@@ -78,7 +78,7 @@ pub fn run(config: &Config, load: &Load) -> Result<Figures, String> {
     };
     advance_by(&mut simulation, steps(settled))?;
     let mut snapshot = simulation.new_snapshot();
-    let mut sum = [0.0; Channel::ALL.len()];
+    let mut sum = [0.0; Channel::COUNT];
     // Several windows in a row average the slow drift of whirl, which one window would show as its mean.
     for _ in 0..MEANS {
         advance_by(&mut simulation, steps(window))?;
@@ -90,7 +90,15 @@ pub fn run(config: &Config, load: &Load) -> Result<Figures, String> {
         } else {
             KICK_OFF
         };
-        let figures = [mean.torque[top], mean.hook_load, mean.torque[BIT], mean.weight[BIT]];
+        // Without a rock that answers the advance, the rate is an input and no result.
+        let drilled = if hoist { mean.rate_of_penetration } else { f64::NAN };
+        let figures = [
+            mean.torque[top],
+            mean.hook_load,
+            mean.torque[BIT],
+            mean.weight[BIT],
+            drilled,
+        ];
         for (sum, figure) in sum.iter_mut().zip(figures) {
             *sum += figure / MEANS as f64;
         }

@@ -18,7 +18,7 @@ use flexdrill_config::Config;
 /// A point: standardised unknowns and load, with the twin's figures or why there are none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// Standardised modelled unknowns.
+    /// Standardised modelled unknowns; those that runs in its state of motion do not depend on are 0.
     pub z: Vec<f64>,
     /// Load.
     pub load: Load,
@@ -27,9 +27,9 @@ pub struct Point {
 }
 
 impl Point {
-    /// Inputs of the surrogate of its state of motion.
-    pub fn inputs(&self) -> Vec<f64> {
-        let mut inputs = self.z.clone();
+    /// Inputs of the surrogate of its state of motion, which depends on the unknowns `acting`.
+    pub fn inputs(&self, acting: &[usize]) -> Vec<f64> {
+        let mut inputs: Vec<f64> = acting.iter().map(|unknown| self.z[*unknown]).collect();
         inputs.extend(crate::fit::load(
             self.load.motion,
             self.load.rotary_speed,
@@ -53,27 +53,32 @@ pub struct Cover {
 }
 
 /// The points of a design: a Latin hypercube over the priors and the loads.
-pub fn design(unknowns: usize, cover: &Cover, seed: u64) -> Vec<Point> {
+pub fn design(unknowns: &Unknowns, cover: &Cover, seed: u64) -> Vec<Point> {
+    let acting = unknowns.acting(cover.motion);
     let loads = crate::fit::load(cover.motion, 1.0, 1.0).len();
     // The states of motion get different hypercubes.
     let seed = seed.wrapping_mul(2).wrapping_add(cover.motion as u64);
     let between = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
-    latin_hypercube(cover.points, unknowns + loads, seed)
+    latin_hypercube(cover.points, acting.len() + loads, seed)
         .into_iter()
-        .map(|shares| Point {
-            z: shares[..unknowns]
-                .iter()
-                .map(|share| between([-DESIGN, DESIGN], *share))
-                .collect(),
-            load: Load {
-                motion: cover.motion,
-                rotary_speed: between(cover.rotary_speed, shares[unknowns]),
-                weight: match cover.motion {
-                    Activity::OffBottom => 0.0,
-                    Activity::Drilling => between(cover.weight, shares[unknowns + 1]),
+        .map(|shares| {
+            let (of_unknowns, of_loads) = shares.split_at(acting.len());
+            let mut z = vec![0.0; unknowns.modelled.len()];
+            for (unknown, share) in acting.iter().zip(of_unknowns) {
+                z[*unknown] = between([-DESIGN, DESIGN], *share);
+            }
+            Point {
+                z,
+                load: Load {
+                    motion: cover.motion,
+                    rotary_speed: between(cover.rotary_speed, of_loads[0]),
+                    weight: match cover.motion {
+                        Activity::OffBottom => 0.0,
+                        Activity::Drilling => between(cover.weight, of_loads[1]),
+                    },
                 },
-            },
-            found: None,
+                found: None,
+            }
         })
         .collect()
 }
@@ -176,7 +181,7 @@ pub fn to_csv(config: &Config, unknowns: &Unknowns, seed: u64, points: &[Point])
             }
             Err(problem) => {
                 let plain = problem.replace([',', '\n', '"'], ";");
-                let _ = writeln!(text, ",,,,,{plain}");
+                let _ = writeln!(text, "{},{plain}", ",".repeat(Channel::COUNT));
             }
         }
     }
@@ -273,7 +278,7 @@ pub fn parsed(text: &str, modelled: usize) -> Result<Vec<Point>, usize> {
 fn point_of(line: &str, modelled: usize) -> Option<Point> {
     let fields: Vec<&str> = line.split(',').collect();
     let (inputs, figures) = fields.split_at_checked(3 + modelled)?;
-    let (figures, problem) = figures.split_at_checked(Channel::ALL.len())?;
+    let (figures, problem) = figures.split_at_checked(Channel::COUNT)?;
     let [problem] = problem else {
         return None;
     };
@@ -287,7 +292,7 @@ fn point_of(line: &str, modelled: usize) -> Option<Point> {
     let found = if figures[0].is_empty() {
         Err((*problem).to_owned())
     } else {
-        let mut values = [f64::NAN; Channel::ALL.len()];
+        let mut values = [f64::NAN; Channel::COUNT];
         for (value, field) in values.iter_mut().zip(figures) {
             *value = field.parse().ok()?;
         }
@@ -318,11 +323,11 @@ mod tests {
             weight: [8e3, 15e3],
             points: 6,
         };
-        let mut points = design(unknowns.modelled.len(), &cover, 1);
-        points[0].found = Some(Ok([300.0, f64::NAN, 80.0, 9e3]));
+        let mut points = design(&unknowns, &cover, 1);
+        points[0].found = Some(Ok([300.0, f64::NAN, 80.0, 9e3, 1e-3]));
         points[1].found = Some(Err("the step failed, at 3 s".to_owned()));
         let text = to_csv(&config, &unknowns, 1, &points);
-        let mut again = design(unknowns.modelled.len(), &cover, 1);
+        let mut again = design(&unknowns, &cover, 1);
         let path = Path::new("points.csv");
         assert_eq!(fill(path, &text, &config, &unknowns, 1, &mut again).unwrap(), 2);
         assert_eq!(again[0].found.as_ref().unwrap().as_ref().unwrap()[0], 300.0);
@@ -330,7 +335,11 @@ mod tests {
         assert!(again[2].found.is_none());
         let other = fill(path, &text, &config, &unknowns, 2, &mut again).unwrap_err();
         assert!(matches!(other, PointsError::Other { .. }));
-        for (damage, line) in [("drilling,4.0,oops", 5), ("", 0), ("drilling,1,2,3,4,5,6,x,2,3,4,", 5)] {
+        for (damage, line) in [
+            ("drilling,4.0,oops", 5),
+            ("", 0),
+            ("drilling,1,2,3,4,5,6,7,8,9,10,11,12,x,2,3,4,5,", 5),
+        ] {
             let damaged = format!("{text}{damage}\n");
             let result = fill(path, &damaged, &config, &unknowns, 1, &mut again);
             match result {
@@ -348,12 +357,15 @@ mod tests {
             weight: [0.0, 0.0],
             points: 40,
         };
-        let points = design(3, &cover, 1);
-        assert!(
-            points
-                .iter()
-                .all(|point| point.load.weight == 0.0 && point.inputs().len() == 4)
-        );
+        let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
+        let unknowns = Unknowns::of(&config).unwrap();
+        let acting = unknowns.acting(Activity::OffBottom);
+        let points = design(&unknowns, &cover, 1);
+        for point in &points {
+            assert!(point.load.weight == 0.0 && point.inputs(&acting).len() == acting.len() + 1);
+            // The rock's unknowns do nothing off bottom.
+            assert!(point.z[2..6].iter().all(|z| *z == 0.0));
+        }
         let least = points.iter().map(|point| point.z[1]).fold(f64::MAX, f64::min);
         assert!((-DESIGN..-0.9 * DESIGN).contains(&least), "{least}");
     }

@@ -5,7 +5,7 @@ use crate::fit::Outcome;
 use crate::identify::Verdict;
 use crate::unknown::Unknown;
 use flexdrill_config::NumberKey;
-use flexdrill_core::units::n_to_kn;
+use nalgebra::DVector;
 
 /// A sample of the posterior in the units of the configuration's keys. All members have the same weight.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,10 @@ pub struct Sampled {
     pub beyond_limits: usize,
 }
 
+/// Correlation with an unknown that the log determines, from which on an unknown is in the sample: more than 1000 members show
+/// by chance (0.03), and enough that a draw from its prior would contradict them.
+const DEPENDS: f64 = 0.25;
+
 /// A key that gets a value of an unknown.
 struct Column<'a> {
     key: &'static str,
@@ -27,8 +31,39 @@ struct Column<'a> {
     factor: f64,
 }
 
+/// Whether each unknown is in the sample: it is determined, alone or in combination, or depends on one that is.
+fn in_the_sample(outcome: &Outcome) -> Vec<bool> {
+    let determined = |index: usize| {
+        let alone = outcome.estimates[index].verdict != Verdict::NotIdentifiable;
+        alone || outcome.pairs.iter().any(|pair| pair.unknowns.contains(&index))
+    };
+    let posterior = &outcome.posterior;
+    let from: Vec<DVector<f64>> = posterior
+        .row_iter()
+        .map(|row| {
+            let middle = row.mean();
+            row.transpose().map(|value| value - middle)
+        })
+        .collect();
+    let alike = |a: usize, b: usize| {
+        let size = from[a].norm() * from[b].norm();
+        if size > 0.0 {
+            from[a].dot(&from[b]).abs() / size
+        } else {
+            0.0
+        }
+    };
+    (0..outcome.estimates.len())
+        .map(|index| {
+            let others = (0..outcome.estimates.len()).filter(|other| determined(*other));
+            determined(index) || others.into_iter().any(|other| alike(index, other) > DEPENDS)
+        })
+        .collect()
+}
+
 /// The sample of an outcome. An unknown that the log does not determine is left out: its members are noise about its prior,
-/// which the prior has without noise. Unknowns of a pair are in it, as only their joint sample has what the log says of them.
+/// which the prior has without noise. One on which others depend is in it, as only their joint sample has what the log says
+/// of them.
 pub fn sample(numbers: &[NumberKey], unknowns: &Unknowns, outcome: &Outcome) -> Sampled {
     let mut columns = Vec::new();
     for (index, modelled) in unknowns.modelled.iter().enumerate() {
@@ -39,25 +74,17 @@ pub fn sample(numbers: &[NumberKey], unknowns: &Unknowns, outcome: &Outcome) -> 
             factor: modelled.per_value,
         }));
     }
-    // The tares follow the modelled unknowns, in this order.
-    let tares = [
-        ("calibration.torque_tare_nm", &unknowns.torque_tare, 1.0),
-        ("calibration.hook_load_tare_kn", &unknowns.hook_load_tare, n_to_kn(1.0)),
-    ];
-    for (after, (key, unknown, factor)) in tares.into_iter().enumerate() {
-        let index = unknowns.modelled.len() + after;
-        columns.push(Column {
+    // Those of the sensors follow the modelled unknowns, in this order.
+    for (after, known) in unknowns.sensors.iter().enumerate() {
+        columns.extend(known.key.map(|key| Column {
             key,
-            unknown,
-            index,
-            factor,
-        });
+            unknown: &known.unknown,
+            index: unknowns.modelled.len() + after,
+            factor: known.per_value,
+        }));
     }
-    columns.retain(|column| {
-        let alone = outcome.estimates.get(column.index);
-        let alone = alone.is_some_and(|estimate| estimate.verdict != Verdict::NotIdentifiable);
-        alone || outcome.pairs.iter().any(|pair| pair.unknowns.contains(&column.index))
-    });
+    let known = in_the_sample(outcome);
+    columns.retain(|column| known[column.index]);
     let limits: Vec<Option<&NumberKey>> = columns
         .iter()
         .map(|column| numbers.iter().find(|number| number.key == column.key))
@@ -89,25 +116,36 @@ mod tests {
     fn members_have_what_the_log_determines_in_the_units_of_the_keys() {
         let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml")).unwrap();
         let unknowns = Unknowns::of(&config).unwrap();
-        let mut all: Vec<Unknown> = unknowns.modelled.iter().map(|of| of.unknown.clone()).collect();
-        all.extend([unknowns.torque_tare.clone(), unknowns.hook_load_tare.clone()]);
-        // Pipe in guide, wall, bit, joints, two tares. The pipe's and the wall's have a known sum, the bit's is known, that of
-        // the joints and the torque's tare are as before, and the hook load's tare is known.
-        let wave = |k: usize, phase: f64| 2.0_f64.sqrt() * (std::f64::consts::TAU * (k as f64 / 40.0 + phase)).sin();
-        let posterior = DMatrix::from_fn(6, 40, |row, k| match row {
-            0 => 0.7 * wave(k, 0.0),
-            1 => -0.7 * wave(k, 0.0),
-            2 => 0.5 + 0.02 * wave(k, 0.2),
+        let all: Vec<Unknown> = unknowns.all();
+        let [inner, wall, bit] = [0, 1, 2];
+        let place = |name: &str| all.iter().position(|unknown| unknown.name == name).unwrap();
+        let (joints, hook) = (place("friction in the joints"), place("tare of the hook load"));
+        let (force, weight) = (
+            place("force that the wear flats carry"),
+            place("factor of the weight indicator"),
+        );
+        // The pipe's and the wall's have a known sum, the bit's is known and the hook load's tare is. That of the joints and all
+        // others are as before; the wear flats' force is, too, but depends on the bit's friction.
+        let wave = |k: usize, turns: usize, phase: f64| {
+            2.0_f64.sqrt() * (std::f64::consts::TAU * (turns as f64 * k as f64 / 80.0 + phase)).sin()
+        };
+        let posterior = DMatrix::from_fn(all.len(), 80, |row, k| match row {
+            _ if row == inner => 0.7 * wave(k, 1, 0.0),
+            _ if row == wall => -0.7 * wave(k, 1, 0.0),
+            _ if row == bit => 0.5 + 0.02 * wave(k, 2, 0.0),
+            _ if row == force => 0.94 * wave(k, 2, 0.0) + 0.34 * wave(k, 2, 0.25),
             // One member has pins of a friction above 1, the limit of the key.
-            3 if k == 7 => 9.0,
-            3 | 4 => wave(k, 0.3),
-            _ => -0.1 * wave(k, 0.4),
+            _ if row == joints && k == 7 => 9.0,
+            _ if row == hook => -0.1 * wave(k, 3, 0.0),
+            _ if row == weight => 0.5 * wave(k, 4, 0.0),
+            _ => wave(k, 5 + row, 0.0),
         });
         let (estimates, pairs) = identify(&all, &posterior);
         let outcome = Outcome {
             estimates,
             pairs,
             explained: Vec::new(),
+            checks: Vec::new(),
             misfit: 1.0,
             posterior: posterior.clone(),
         };
@@ -120,18 +158,21 @@ mod tests {
                 "contact.outer.friction_tangential",
                 "contact.outer.friction_axial",
                 "rock.depth_of_cut.wear_flat_friction",
+                "rock.depth_of_cut.wear_flat_force",
                 "calibration.hook_load_tare_kn",
+                "uncertainty.sensors.weight_indicator.factor",
             ]
         );
         // The joints are not in the sample, so that no member is beyond a limit.
-        assert_eq!((found.members.len(), found.beyond_limits), (40, 0));
+        assert_eq!((found.members.len(), found.beyond_limits), (80, 0));
         for (member, z) in found.members.iter().zip(posterior.column_iter()) {
-            assert_eq!(member[0], all[0].value(z[0]));
+            assert_eq!(member[0], all[inner].value(z[inner]));
             assert_eq!(member[3], member[2]);
-            assert!((member[5] - 1e-3 * all[5].value(z[5])).abs() < 1e-12);
+            assert!((member[6] - 1e-3 * all[hook].value(z[hook])).abs() < 1e-12);
+            assert_eq!(member[7], all[weight].value(z[weight]));
         }
         let mut far = outcome;
-        far.posterior[(2, 3)] = 1e3;
+        far.posterior[(bit, 3)] = 1e3;
         assert_eq!(sample(&config.numbers(), &unknowns, &far).beyond_limits, 1);
     }
 }

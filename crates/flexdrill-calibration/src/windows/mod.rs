@@ -21,11 +21,21 @@ pub enum Channel {
     BitTorque,
     /// Weight measured above the bit (N).
     BitWeight,
+    /// Rate at which the hole deepens (m/s).
+    RateOfPenetration,
 }
 
 impl Channel {
     /// All channels.
-    pub const ALL: [Self; 4] = [Self::SurfaceTorque, Self::HookLoad, Self::BitTorque, Self::BitWeight];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::SurfaceTorque,
+        Self::HookLoad,
+        Self::BitTorque,
+        Self::BitWeight,
+        Self::RateOfPenetration,
+    ];
+    /// Their number.
+    pub const COUNT: usize = 5;
 
     /// Name and SI unit.
     pub const fn name_and_unit(self) -> (&'static str, &'static str) {
@@ -34,7 +44,13 @@ impl Channel {
             Self::HookLoad => ("hook load", "N"),
             Self::BitTorque => ("torque at the bit", "N m"),
             Self::BitWeight => ("weight at the bit", "N"),
+            Self::RateOfPenetration => ("rate of penetration", "m/s"),
         }
+    }
+
+    /// Whether it says something only while the bit drills.
+    pub const fn is_of_the_bit(self) -> bool {
+        matches!(self, Self::BitTorque | Self::BitWeight | Self::RateOfPenetration)
     }
 }
 
@@ -47,10 +63,10 @@ pub struct Sample {
     pub row: u64,
     /// Speed of the top drive (rad/s).
     pub rotary_speed: f64,
-    /// Weight slacked off at the surface (N).
+    /// Weight that the indicator shows (N).
     pub weight: f64,
     /// What was measured, in the order of [`Channel::ALL`].
-    pub measured: [f64; 4],
+    pub measured: [f64; Channel::COUNT],
 }
 
 /// State of motion of a window. It decides which contacts slide in which direction.
@@ -127,10 +143,10 @@ pub struct Window {
     pub motion: Activity,
     /// Mean speed (rad/s).
     pub rotary_speed: f64,
-    /// Mean weight at the surface (N).
+    /// Mean weight that the indicator shows (N).
     pub weight: f64,
     /// Means in the order of [`Channel::ALL`]; `None` where a channel is not measured, frozen or not steady.
-    pub measured: [Option<Mean>; 4],
+    pub measured: [Option<Mean>; Channel::COUNT],
 }
 
 /// Why a part of a log is in no window.
@@ -348,8 +364,12 @@ impl Windows {
             return;
         };
         let of = |of: fn(&Sample) -> f64| mean(&part.iter().map(of).collect::<Vec<_>>());
-        let mut measured = [None; 4];
+        let mut measured = [None; Channel::COUNT];
         for channel in Channel::ALL {
+            // Off bottom nothing is drilled: a rate there is the block's, or a value that was held.
+            if channel == Channel::RateOfPenetration && motion == Activity::OffBottom {
+                continue;
+            }
             let values: Vec<f64> = part
                 .iter()
                 .map(|sample| sample.measured[channel as usize])

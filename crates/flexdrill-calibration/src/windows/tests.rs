@@ -9,7 +9,13 @@ fn sample(second: u64, rpm: f64, weight: f64, torque: f64) -> Sample {
         rotary_speed: rpm * std::f64::consts::TAU / 60.0,
         weight,
         // Ripple, so that no sensor counts as frozen.
-        measured: [torque + (second as f64 * 2.4).sin(), f64::NAN, f64::NAN, f64::NAN],
+        measured: [
+            torque + (second as f64 * 2.4).sin(),
+            f64::NAN,
+            f64::NAN,
+            f64::NAN,
+            f64::NAN,
+        ],
     }
 }
 
@@ -136,4 +142,22 @@ fn correlated_samples_count_less() {
     let seen = (means.iter().map(|m| m * m).sum::<f64>() / means.len() as f64).sqrt();
     // The correlation is estimated from 60 samples; a figure that ignored it would be 2.4 times too small.
     assert!((0.7..1.3).contains(&(stated / seen)), "{stated} {seen}");
+}
+
+#[test]
+fn a_rate_of_penetration_counts_while_the_bit_drills() {
+    let log: Vec<Sample> = (0..200)
+        .map(|second| {
+            let mut sample = sample(second, 40.0, if second < 100 { 0.0 } else { 15e3 }, 300.0);
+            sample.measured[Channel::RateOfPenetration as usize] = 1e-3 * (1.0 + 0.1 * (second as f64 * 1.7).sin());
+            sample
+        })
+        .collect();
+    let found = find(&log, &WindowSettings::default());
+    let has = found.steady.iter().map(|window| {
+        let rate = window.measured[Channel::RateOfPenetration as usize];
+        (window.motion, rate.is_some())
+    });
+    let has: Vec<_> = has.collect();
+    assert_eq!(has, [(Activity::OffBottom, false), (Activity::Drilling, true)]);
 }

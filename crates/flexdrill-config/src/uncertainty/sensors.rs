@@ -1,7 +1,8 @@
 //! `uncertainty.sensors`: factors of all sensors, and tare, noise and drift of those that `calibration` does not state.
 //!
-//! A sensor shows factor x truth + tare + drift + noise. The factor lies around 1 and is drawn once per plausible tool, as
-//! is the tare; drift and noise are the standard deviations of what changes with time.
+//! A sensor shows factor x truth + tare + drift + noise. The factor lies around 1, or around what a calibration has found,
+//! and is drawn once per plausible tool, as is the tare; drift and noise are the standard deviations of what changes with
+//! time.
 
 use super::super::section::section;
 
@@ -31,7 +32,9 @@ section! {
     /// Error of a factor.
     #[derive(Copy)]
     pub struct Factor(this) {
-        /// Distance from 1 within which 90 % of the factors between reading and truth lie. Default 0: not drawn.
+        /// The likeliest factor between reading and truth, as `flexdrill calibrate` has found it. Default 1.
+        factor: f64 = 1.0, within(0.7, 1.3), "", "a sensor that errs by more is defective";
+        /// Distance from `factor` within which 90 % of the factors lie. Default 0: not drawn.
         factor_error: f64 = 0.0, within(0.0, 0.3), "", "a sensor that errs by more is defective";
     }
 }
@@ -40,9 +43,13 @@ section! {
     /// Errors of the weight indicator.
     #[derive(Copy)]
     pub struct WeightIndicator(this) {
-        /// Distance from 1 within which 90 % of the factors between reading and truth lie. Default 0: not drawn.
+        /// The likeliest factor between reading and truth, as `flexdrill calibrate` has found it. Default 1.
+        factor: f64 = 1.0, within(0.7, 1.3), "", "a sensor that errs by more is defective";
+        /// Distance from `factor` within which 90 % of the factors lie. Default 0: not drawn.
         factor_error: f64 = 0.0, within(0.0, 0.3), "", "a sensor that errs by more is defective";
-        /// Distance from 0 within which 90 % of the offsets lie (kN). Default 0: not drawn.
+        /// The likeliest offset, as `flexdrill calibrate` has found it (kN). Default 0.
+        tare_kn: f64 = 0.0, within(-1e4, 1e4), "kN", "an offset beyond any rig's load is a defect";
+        /// Distance from it within which 90 % of the offsets lie (kN). Default 0: not drawn.
         tare_range_kn: f64 = 0.0, within(0.0, 1e4), "kN", "0 is a sensor without offset";
         /// Scatter from second to second (kN, standard deviation).
         noise_kn: f64 = 0.0, within(0.0, 1e4), "kN", "0 is a sensor without noise";
@@ -55,7 +62,9 @@ section! {
     /// Errors of the rotary speed.
     #[derive(Copy)]
     pub struct SpeedSensor(this) {
-        /// Distance from 1 within which 90 % of the factors between reading and truth lie. Default 0: not drawn.
+        /// The likeliest factor between reading and truth, as `flexdrill calibrate` has found it. Default 1.
+        factor: f64 = 1.0, within(0.7, 1.3), "", "a sensor that errs by more is defective";
+        /// Distance from `factor` within which 90 % of the factors lie. Default 0: not drawn.
         factor_error: f64 = 0.0, within(0.0, 0.3), "", "a sensor that errs by more is defective";
         /// Scatter from second to second (r/min, standard deviation).
         noise_rpm: f64 = 0.0, within(0.0, 1e3), "r/min", "0 is a sensor without noise";
@@ -66,9 +75,13 @@ section! {
     /// Errors of the torque that is measured in the hole.
     #[derive(Copy)]
     pub struct DownholeTorque(this) {
-        /// Distance from 1 within which 90 % of the factors between reading and truth lie. Default 0: not drawn.
+        /// The likeliest factor between reading and truth, as `flexdrill calibrate` has found it. Default 1.
+        factor: f64 = 1.0, within(0.7, 1.3), "", "a sensor that errs by more is defective";
+        /// Distance from `factor` within which 90 % of the factors lie. Default 0: not drawn.
         factor_error: f64 = 0.0, within(0.0, 0.3), "", "a sensor that errs by more is defective";
-        /// Distance from 0 within which 90 % of the offsets lie (N m). Default 0: not drawn.
+        /// The likeliest offset, as `flexdrill calibrate` has found it (N m). Default 0.
+        tare_nm: f64 = 0.0, within(-1e5, 1e5), "N m", "an offset beyond any rig's load is a defect";
+        /// Distance from it within which 90 % of the offsets lie (N m). Default 0: not drawn.
         tare_range_nm: f64 = 0.0, within(0.0, 1e5), "N m", "0 is a sensor without offset";
         /// Drift after an hour (N m, standard deviation); it grows with the root of time.
         drift_nm: f64 = 0.0, within(0.0, 1e5), "N m", "0 is a sensor without drift";
@@ -79,9 +92,13 @@ section! {
     /// Errors of the weight on bit that is measured in the hole.
     #[derive(Copy)]
     pub struct DownholeWeight(this) {
-        /// Distance from 1 within which 90 % of the factors between reading and truth lie. Default 0: not drawn.
+        /// The likeliest factor between reading and truth, as `flexdrill calibrate` has found it. Default 1.
+        factor: f64 = 1.0, within(0.7, 1.3), "", "a sensor that errs by more is defective";
+        /// Distance from `factor` within which 90 % of the factors lie. Default 0: not drawn.
         factor_error: f64 = 0.0, within(0.0, 0.3), "", "a sensor that errs by more is defective";
-        /// Distance from 0 within which 90 % of the offsets lie (kN). Default 0: not drawn.
+        /// The likeliest offset, as `flexdrill calibrate` has found it (kN). Default 0.
+        tare_kn: f64 = 0.0, within(-1e4, 1e4), "kN", "an offset beyond any rig's load is a defect";
+        /// Distance from it within which 90 % of the offsets lie (kN). Default 0: not drawn.
         tare_range_kn: f64 = 0.0, within(0.0, 1e4), "kN", "0 is a sensor without offset";
         /// Drift after an hour (kN, standard deviation); it grows with the root of time.
         drift_kn: f64 = 0.0, within(0.0, 1e4), "kN", "0 is a sensor without drift";

@@ -60,8 +60,8 @@ pub enum PosteriorError {
     },
     /// A column without a distribution, in which renewed members would have no scale.
     #[error(
-        "{file}: {key}: must be in uncertainty.keys, or the tare of a sensor with a range in calibration: members near it \
-         are drawn by its distribution. 90 % of its values are {low} to {high}; state a distribution that is wider"
+        "{file}: {key}: must be in uncertainty.keys, or the factor or tare of a sensor with a range in uncertainty.sensors or \
+         calibration: members near it are drawn by its distribution. 90 % of its values are {low} to {high}; state a distribution that is wider"
     )]
     NoPrior {
         /// The file.

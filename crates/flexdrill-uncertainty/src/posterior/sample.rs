@@ -36,8 +36,8 @@ const SAME: f64 = 1e-6;
 enum Place {
     /// The score of an entry.
     Entry(usize),
-    /// The score of the tare of a sensor.
-    Tare(usize),
+    /// The score of the factor (0) or of the tare (1) of a sensor.
+    Sensor(usize, usize),
 }
 
 /// A sample in scores.
@@ -171,8 +171,8 @@ impl Sample {
             scores[..count].copy_from_slice(independent.as_slice());
         }
         for (column, place) in self.places.iter().enumerate() {
-            if let Place::Tare(sensor) = place {
-                scores[count + 2 * sensor + 1] = wanted[column];
+            if let Place::Sensor(sensor, part) = place {
+                scores[count + 2 * sensor + part] = wanted[column];
             }
         }
     }
@@ -182,7 +182,7 @@ impl Sample {
 fn entries(places: &[Place]) -> Vec<(usize, usize)> {
     let of = |(column, place): (usize, &Place)| match place {
         Place::Entry(entry) => Some((column, *entry)),
-        Place::Tare(_) => None,
+        Place::Sensor(..) => None,
     };
     places.iter().enumerate().filter_map(of).collect()
 }
@@ -203,15 +203,12 @@ fn column<'a>(priors: &Priors, key: &'a str, index: usize) -> Option<Column<'a>>
         })
     });
     of_entry.or_else(|| {
-        let (channel, factor, unit) = match key {
-            "calibration.torque_tare_nm" => (Channel::SurfaceTorque, 1.0, "N m"),
-            "calibration.hook_load_tare_kn" => (Channel::HookLoad, kn_to_n(1.0), "kN"),
-            _ => return None,
-        };
+        let (channel, part, factor, unit) = of_a_sensor(key)?;
         let at = priors.sensors().iter().position(|sensor| sensor.channel == channel)?;
+        let sensor = &priors.sensors()[at];
         Some(Column {
-            place: Place::Tare(at),
-            law: priors.sensors()[at].tare()?,
+            place: Place::Sensor(at, part),
+            law: if part == 0 { sensor.factor() } else { sensor.tare() }?,
             form: Form::Value,
             configured: 0.0,
             factor,
@@ -220,6 +217,25 @@ fn column<'a>(priors: &Priors, key: &'a str, index: usize) -> Option<Column<'a>>
             index,
         })
     })
+}
+
+/// The sensor that a key is of, whether it is the factor (0) or the tare (1), and the SI units per unit of the key with its
+/// name.
+fn of_a_sensor(key: &str) -> Option<(Channel, usize, f64, &'static str)> {
+    // Tares of what is compared with the twin in every configuration are in `calibration`.
+    match key {
+        "calibration.torque_tare_nm" => return Some((Channel::SurfaceTorque, 1, 1.0, "N m")),
+        "calibration.hook_load_tare_kn" => return Some((Channel::HookLoad, 1, kn_to_n(1.0), "kN")),
+        _ => {}
+    }
+    let (name, part) = key.strip_prefix("uncertainty.sensors.")?.split_once('.')?;
+    let channel = Channel::ALL.into_iter().find(|channel| channel.name() == name)?;
+    match part {
+        "factor" => Some((channel, 0, 1.0, "")),
+        "tare_kn" => Some((channel, 1, kn_to_n(1.0), "kN")),
+        "tare_nm" => Some((channel, 1, 1.0, "N m")),
+        _ => None,
+    }
 }
 
 /// Weights over their sum.

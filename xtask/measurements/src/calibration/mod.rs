@@ -1,6 +1,7 @@
 //! `--cases calibration`: how often the bands of a calibration hold the truth. The truth comes from full runs of the
-//! twin with unknowns and loads that the design has not seen; to their figures come the noise, the drift and the tares
-//! of a rig's sensors. The weights of every log lie on both sides of the one at which the bit begins to cut.
+//! twin with unknowns and loads that the design has not seen; to their figures come the noise, the drift, the factors and
+//! the tares of a rig's sensors, its weight indicator with them. The weights of every log lie on both sides of the one at
+//! which the bit begins to cut.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -9,11 +10,13 @@ use anyhow::Context as _;
 use flexdrill_bench::table::Table;
 use flexdrill_calibration::fit::{Outcome, Problem};
 use flexdrill_calibration::identify::Verdict;
+use flexdrill_calibration::sensor::LEAST_WEIGHT;
 use flexdrill_calibration::smoother::SmootherSettings;
 use flexdrill_calibration::study::check::{Checked, Objection};
 use flexdrill_calibration::study::point::{Figures, Load};
 use flexdrill_calibration::study::points::{self, Cover, Point, design};
-use flexdrill_calibration::study::unknowns::Unknowns;
+use flexdrill_calibration::study::unknowns::sensors::Of;
+use flexdrill_calibration::study::unknowns::{Modelled, Unknowns};
 use flexdrill_calibration::study::{StudySettings, study};
 use flexdrill_calibration::surrogate::usual_points;
 use flexdrill_calibration::windows::{Activity, Channel, Sample, WindowSettings, Windows, find};
@@ -22,9 +25,9 @@ use flexdrill_core::units::{kn_to_n, n_to_kn, rad_per_s_to_rpm, rpm_to_rad_per_s
 
 /// Speeds (r/min) of design and logs.
 const SPEEDS: [f64; 2] = [35.0, 65.0];
-/// Weights at the surface of design and logs, over the force of the wear flats. Below 1 no tool cuts; at 2.2 each does
-/// that passes on half.
-const WEIGHTS: [f64; 2] = [0.9, 2.2];
+/// Weights at the surface of the logs, over the configured force of the wear flats. At 1 no usual tool cuts; at 2.2 each does
+/// that passes on half. The design covers what an indicator may show of them.
+const WEIGHTS: [f64; 2] = [1.0, 2.2];
 /// Parts of a log in which the bit drills, each with a weight of its own fifth of the range, and their duration (s).
 const DRILLING: usize = 5;
 const DRILLING_TIME: u32 = 200;
@@ -32,6 +35,8 @@ const DRILLING_TIME: u32 = 200;
 const OFF_BOTTOM_TIME: u32 = 90;
 /// Noise from second to second of a sub above the bit (N m, N); it is tared in the hole and does not drift.
 const IN_THE_HOLE: [f64; 2] = [10.0, 400.0];
+/// Noise of the rate of penetration from second to second (m/s): 1.8 m/h, a block that is read to 5 mm over ten seconds.
+const RATE_NOISE: f64 = 5e-4;
 /// Standardised unknowns of the truth: beyond this lie 5 % of the prior.
 const TRUTH: f64 = 2.0;
 /// Seed of the design. The logs have their own numbers.
@@ -79,21 +84,29 @@ fn normal(random: &mut fastrand::Rng) -> f64 {
     radius * (TAU * random.f64()).cos()
 }
 
+/// Weights of the logs (N).
+fn weights(config: &Config) -> [f64; 2] {
+    WEIGHTS.map(|share| share * config.rock.depth_of_cut.wear_flat_force)
+}
+
 fn covers(config: &Config, unknowns: &Unknowns) -> [Cover; 2] {
-    let modelled = unknowns.modelled.len();
     let rotary_speed = SPEEDS.map(rpm_to_rad_per_s);
+    let usual = |motion: Activity, loads: usize| usual_points(unknowns.acting(motion).len() + loads);
+    let most = kn_to_n(config.inputs.weight_on_bit.max_kn);
     [
         Cover {
             motion: Activity::OffBottom,
             rotary_speed,
             weight: [0.0; 2],
-            points: usual_points(modelled + 1),
+            points: usual(Activity::OffBottom, 1),
         },
         Cover {
             motion: Activity::Drilling,
             rotary_speed,
-            weight: WEIGHTS.map(|share| share * config.rock.depth_of_cut.wear_flat_force),
-            points: usual_points(modelled + 2),
+            weight: unknowns
+                .acting_range(weights(config))
+                .map(|weight| weight.clamp(LEAST_WEIGHT, most)),
+            points: usual(Activity::Drilling, 2),
         },
     ]
 }
@@ -103,15 +116,21 @@ impl Log {
     fn new(config: &Config, unknowns: &Unknowns, number: usize) -> Self {
         let mut random = fastrand::Rng::with_seed(1_000 + number as u64);
         let modelled = unknowns.modelled.len();
-        let truth: Vec<f64> = (0..modelled + 2)
+        let truth: Vec<f64> = (0..modelled + unknowns.sensors.len())
             .map(|_| normal(&mut random).clamp(-TRUTH, TRUTH))
             .collect();
+        Self::of(config, unknowns, truth, random)
+    }
+
+    /// The log of a truth, before its runs.
+    fn of(config: &Config, unknowns: &Unknowns, truth: Vec<f64>, mut random: fastrand::Rng) -> Self {
+        let modelled = unknowns.modelled.len();
         let [_, drilling] = covers(config, unknowns);
         let mut points = Vec::new();
         for part in 0..=DRILLING {
             let [slow, fast] = drilling.rotary_speed;
             let rotary_speed = slow + random.f64() * (fast - slow);
-            let [low, high] = drilling.weight;
+            let [low, high] = weights(config);
             let load = match part.checked_sub(1) {
                 None => Load {
                     motion: Activity::OffBottom,
@@ -138,22 +157,27 @@ impl Log {
         let given = &config.calibration;
         // The noise is that of the configuration, so that the fit assumes the truth about the sensors.
         let [torque, weight] = IN_THE_HOLE;
-        let noise = [given.torque_noise_nm, kn_to_n(given.hook_load_noise_kn), torque, weight];
-        // A random walk by the second: the deviation after an hour, over the root of 3600.
-        let drift = [given.torque_drift_nm, kn_to_n(given.hook_load_drift_kn), 0.0, 0.0].map(|hour| hour / 60.0);
-        let modelled = unknowns.modelled.len();
-        // Tares follow the modelled unknowns in the order of the truth.
-        let tares = [
-            unknowns.torque_tare.value(self.truth[modelled]),
-            unknowns.hook_load_tare.value(self.truth[modelled + 1]),
-            0.0,
-            0.0,
+        let noise = [
+            given.torque_noise_nm,
+            kn_to_n(given.hook_load_noise_kn),
+            torque,
+            weight,
+            RATE_NOISE,
         ];
+        // A random walk by the second: the deviation after an hour, over the root of 3600.
+        let drift = [given.torque_drift_nm, kn_to_n(given.hook_load_drift_kn), 0.0, 0.0, 0.0].map(|hour| hour / 60.0);
+        let all = unknowns.all();
+        let of = |unknown: usize| all[unknown].value(self.truth[unknown]);
+        let hanging = self.hanging();
+        let sensors = Channel::ALL.map(|channel| unknowns.sensor(Of::Channel(channel), hanging));
+        let indicator = unknowns.sensor(Of::Indicator, 0.0);
+        // From part to part the rock differs; that it differs in the whole log is among the unknowns.
+        let rock = config.calibration.rate_of_penetration_error / 2.0_f64.sqrt();
         // Off bottom comes first and last, as on a rig. The loads between come
         // in random order, or the drift would follow the weight.
         let (off_bottom, drilling) = self.points.split_at_mut(1);
         self.random.shuffle(drilling);
-        let (mut walk, mut samples) = ([0.0; Channel::ALL.len()], Vec::new());
+        let (mut walk, mut samples) = ([0.0; Channel::COUNT], Vec::new());
         for point in off_bottom.iter().chain(drilling.iter()).chain(off_bottom.iter()) {
             let figures: &Figures = match &point.found {
                 Some(Ok(figures)) => figures,
@@ -164,12 +188,15 @@ impl Log {
                 Activity::OffBottom => OFF_BOTTOM_TIME,
                 Activity::Drilling => DRILLING_TIME,
             };
+            let of_part = 1.0 + rock * normal(&mut self.random);
+            let mut exact = *figures;
+            exact[Channel::RateOfPenetration as usize] *= of_part;
             for _ in 0..seconds {
                 // Channels start as NaN, so that one that is forgotten counts as not measured.
-                let mut measured = [f64::NAN; Channel::ALL.len()];
+                let mut measured = [f64::NAN; Channel::COUNT];
                 for k in 0..measured.len() {
                     walk[k] += drift[k] * normal(&mut self.random);
-                    measured[k] = figures[k] + tares[k] + walk[k] + noise[k] * normal(&mut self.random);
+                    measured[k] = sensors[k].shows(exact[k], of) + walk[k] + noise[k] * normal(&mut self.random);
                 }
                 let row = samples.len() as u64;
                 // The header is row 1 and rows are counted from 1, so the first sample is row 2.
@@ -177,12 +204,23 @@ impl Log {
                     time: row as f64,
                     row: row + 2,
                     rotary_speed: point.load.rotary_speed,
-                    weight: point.load.weight,
+                    weight: match point.load.motion {
+                        Activity::OffBottom => 0.0,
+                        Activity::Drilling => indicator.shows(point.load.weight, of),
+                    },
                     measured,
                 });
             }
         }
         Ok(samples)
+    }
+
+    /// Hook load of the tool that hangs (N).
+    fn hanging(&self) -> f64 {
+        match self.points.first().map(|point| &point.found) {
+            Some(Some(Ok(figures))) => figures[Channel::HookLoad as usize],
+            _ => 0.0,
+        }
     }
 
     /// Weights at the bit (N) while drilling.
@@ -195,13 +233,10 @@ impl Log {
 }
 
 /// The runs of design and logs.
-fn runs(plan: &Plan, unknowns: &Unknowns) -> anyhow::Result<(Vec<Point>, Vec<Log>)> {
-    let mut logs: Vec<Log> = (0..plan.logs)
-        .map(|number| Log::new(plan.config, unknowns, number))
-        .collect();
+fn runs(plan: &Plan, unknowns: &Unknowns, mut logs: Vec<Log>) -> anyhow::Result<(Vec<Point>, Vec<Log>)> {
     let mut all: Vec<Point> = covers(plan.config, unknowns)
         .iter()
-        .flat_map(|cover| design(unknowns.modelled.len(), cover, SEED))
+        .flat_map(|cover| design(unknowns, cover, SEED))
         .collect();
     let of_design = all.len();
     all.extend(logs.iter().flat_map(|log| log.points.iter().cloned()));
@@ -234,16 +269,25 @@ fn runs(plan: &Plan, unknowns: &Unknowns) -> anyhow::Result<(Vec<Point>, Vec<Log
     Ok((all, logs))
 }
 
+/// Force that the wear flats carry (N), with standardised unknowns.
+fn flats(config: &Config, unknowns: &Unknowns, z: &[f64]) -> f64 {
+    let of = |modelled: &Modelled| modelled.keys.contains(&"rock.depth_of_cut.wear_flat_force");
+    match unknowns.modelled.iter().position(of) {
+        Some(at) => unknowns.modelled[at].unknown.value(z[at]),
+        None => config.rock.depth_of_cut.wear_flat_force,
+    }
+}
+
 fn windows(log: &mut Log, config: &Config, unknowns: &Unknowns) -> anyhow::Result<Windows> {
     Ok(find(&log.samples(config, unknowns)?, &WindowSettings::default()))
 }
 
 /// The calibration of every log.
 fn trials(plan: &Plan, unknowns: &Unknowns, points: &[Point], logs: Vec<Log>) -> anyhow::Result<Vec<Trial>> {
-    let flats = plan.config.rock.depth_of_cut.wear_flat_force;
     let mut all = Vec::new();
     for (number, mut log) in logs.into_iter().enumerate() {
         let windows = windows(&mut log, plan.config, unknowns)?;
+        let flats = flats(plan.config, unknowns, &log.truth);
         let straddles =
             log.bit_weights().any(|weight| weight < flats) && log.bit_weights().any(|weight| weight > flats);
         let seed = 1 + number as u64;
@@ -336,7 +380,10 @@ fn shown(holds: usize, of: usize) -> String {
 pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
     let unknowns = Unknowns::of(plan.config)?;
     // All runs of the twin come first and are kept; fitting takes seconds and can be repeated.
-    let (points, logs) = runs(plan, &unknowns)?;
+    let logs = (0..plan.logs)
+        .map(|number| Log::new(plan.config, &unknowns, number))
+        .collect();
+    let (points, logs) = runs(plan, &unknowns, logs)?;
     let trials = trials(plan, &unknowns, &points, logs)?;
     let Some(first) = trials.first() else {
         return Ok(String::new());
@@ -396,7 +443,7 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
     }
     let [_, drilling] = covers(plan.config, &unknowns);
     let [slow, fast] = drilling.rotary_speed.map(rad_per_s_to_rpm);
-    let [light, heavy] = drilling.weight.map(n_to_kn);
+    let [light, heavy] = weights(plan.config).map(n_to_kn);
     let explained = trials.iter().filter(|trial| trial.outcome.explains()).count();
     let mut text = format!(
         "{} logs at {slow:.0} to {fast:.0} r/min and {light:.1} to {heavy:.1} kN, {straddling} of them on both sides of the \

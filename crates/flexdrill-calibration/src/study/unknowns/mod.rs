@@ -1,10 +1,16 @@
 //! What is fitted of a configuration.
 
+mod made;
+mod rock;
+pub mod sensors;
+
 use crate::CalibrationError;
+use crate::sensor::Sensor;
 use crate::unknown::{Shape, Unknown};
-use flexdrill_config::{Config, ConfigError, Law, Model};
+use crate::windows::Activity;
+use flexdrill_config::{Config, ConfigError, Model};
 use flexdrill_core::tool::HoleInterval;
-use flexdrill_core::units::kn_to_n;
+use sensors::{Of, OfSensor};
 
 /// An unknown that the twin's runs depend on.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +21,8 @@ pub struct Modelled {
     pub keys: Vec<&'static str>,
     /// What a key gets per value of the unknown: 1 where the keys are the unknown itself.
     pub per_value: f64,
+    /// Whether it acts on a bit that drills alone: runs off bottom do not depend on it.
+    pub drilling_alone: bool,
 }
 
 impl Modelled {
@@ -24,6 +32,7 @@ impl Modelled {
             unknown: Unknown::new(name, "", Shape::LogNormal, range)?,
             keys: keys.to_vec(),
             per_value: 1.0,
+            drilling_alone: false,
         })
     }
 
@@ -38,10 +47,8 @@ impl Modelled {
 pub struct Unknowns {
     /// Those that the twin's runs depend on.
     pub modelled: Vec<Modelled>,
-    /// Offset of the surface torque's sensor (N m).
-    pub torque_tare: Unknown,
-    /// Offset of the hook load's sensor (N).
-    pub hook_load_tare: Unknown,
+    /// Those of the rig's sensors, which follow the modelled ones in the order of all unknowns.
+    pub sensors: Vec<OfSensor>,
     /// Unknowns of the issue that this configuration does not have, with the reason.
     pub left_out: Vec<(&'static str, &'static str)>,
 }
@@ -81,25 +88,7 @@ impl Unknowns {
         )?);
         // The wall has one unknown per interval of the hole, whose lengths of contact differ.
         modelled.extend(of_the_wall(config, &mut left_out)?);
-        // The law of the rock decides which key the torque at the bit depends on.
-        let (key, configured) = match config.rock.law {
-            Law::DepthOfCut => (
-                "rock.depth_of_cut.wear_flat_friction",
-                config.rock.depth_of_cut.wear_flat_friction,
-            ),
-            _ => ("tool.bit.friction_factor", config.tool.bit.friction_factor),
-        };
-        if configured > 0.0 {
-            modelled.push(Modelled::of(
-                "friction of the bit on the rock",
-                &[key],
-                // The prior is relative to the configured value, since the
-                // friction of bits differs by much more than its range.
-                ranges.bit.ends().map(|factor| factor * configured),
-            )?);
-        } else {
-            left_out.push(("friction of the bit on the rock", "the configured coefficient is 0"));
-        }
+        modelled.extend(rock::of(config, &mut left_out)?);
         if config.tool.joint.friction > 0.0 {
             modelled.push(Modelled::of(
                 "friction in the joints",
@@ -109,30 +98,35 @@ impl Unknowns {
         } else {
             left_out.push(("friction in the joints", "tool.joint.friction is 0: the model has none"));
         }
-        // The tares are bounded by the sensor, not by the mechanics, so
-        // their priors are normal around the configured ones.
-        let around = |middle: f64, distance: f64| [middle - distance, middle + distance];
+        modelled.extend(made::of(config, &mut left_out)?);
         Ok(Self {
             modelled,
-            // Sensors' tares follow the coefficients in the order of the
-            // unknowns; they act on the measurement and need no runs.
-            torque_tare: Unknown::new(
-                "tare of the surface torque",
-                "N m",
-                Shape::Normal,
-                around(ranges.torque_tare_nm, ranges.torque_tare_range_nm),
-            )?,
-            hook_load_tare: Unknown::new(
-                "tare of the hook load",
-                "N",
-                Shape::Normal,
-                around(
-                    kn_to_n(ranges.hook_load_tare_kn),
-                    kn_to_n(ranges.hook_load_tare_range_kn),
-                ),
-            )?,
+            sensors: sensors::of(config)?,
             left_out,
         })
+    }
+
+    /// All unknowns: those that the twin's runs depend on, then those of the sensors.
+    pub fn all(&self) -> Vec<Unknown> {
+        let modelled = self.modelled.iter().map(|modelled| &modelled.unknown);
+        let of_sensors = self.sensors.iter().map(|known| &known.unknown);
+        modelled.chain(of_sensors).cloned().collect()
+    }
+
+    /// Numbers of the modelled unknowns that runs in a state of motion depend on.
+    pub fn acting(&self, motion: Activity) -> Vec<usize> {
+        let acts = |modelled: &Modelled| motion == Activity::Drilling || !modelled.drilling_alone;
+        (0..self.modelled.len()).filter(|k| acts(&self.modelled[*k])).collect()
+    }
+
+    /// The sensor of what is measured; `hanging` is the hook load (N) of a tool that hangs.
+    pub fn sensor(&self, of: Of, hanging: f64) -> Sensor {
+        sensors::sensor(&self.sensors, self.modelled.len(), of, hanging)
+    }
+
+    /// Range of the weights (N) that may act where the indicator shows these, over the part of the prior that a design covers.
+    pub fn acting_range(&self, shown: [f64; 2]) -> [f64; 2] {
+        sensors::acting_range(&self.sensors, shown, crate::fit::DESIGN)
     }
 
     /// The configuration with values of the modelled unknowns.
@@ -228,15 +222,30 @@ mod tests {
                 "friction of pipe in guide",
                 "friction of guide on wall",
                 "friction of the bit on the rock",
-                "friction in the joints"
+                "inclination of the cutters",
+                "force that the wear flats carry",
+                "specific energy of the rock",
+                "friction in the joints",
+                "limit of the joints",
+                "bending stiffness of the guide",
+                "free curvature of the guide"
             ]
         );
+        // Off bottom the bit does nothing.
+        assert_eq!(unknowns.acting(Activity::OffBottom), [0, 1, 6, 7, 8, 9]);
+        assert_eq!(unknowns.acting(Activity::Drilling).len(), 10);
+        let [low, high] = unknowns.modelled[7].unknown.prior();
+        assert_eq!([low, high], [5.5, 6.5]);
         assert_eq!(unknowns.left_out[0].0, "friction of the string above");
-        let changed = unknowns.apply(&config, &[0.31, 0.33, 0.12, 0.2]).unwrap();
+        let changed = unknowns
+            .apply(&config, &[0.31, 0.33, 0.12, 1.2, 3300.0, 31e6, 0.2, 6.1, 0.009, 0.28])
+            .unwrap();
         assert_eq!(changed.contact.inner.friction_axial, 0.31);
         assert_eq!(changed.contact.outer.friction_tangential, 0.33);
         assert_eq!(changed.rock.depth_of_cut.wear_flat_friction, 0.12);
+        assert_eq!(changed.rock.depth_of_cut.wear_flat_force, 3300.0);
         assert_eq!(changed.tool.joint.friction, 0.2);
+        assert_eq!(changed.tool.joint.limit_deg, 6.1);
         // An inclined string leans on the wall.
         let text = config
             .to_yaml()
@@ -256,6 +265,7 @@ mod tests {
         let names: Vec<&str> = unknowns
             .modelled
             .iter()
+            .take(4)
             .map(|modelled| modelled.unknown.name.as_str())
             .collect();
         assert_eq!(
@@ -264,8 +274,7 @@ mod tests {
                 "friction of pipe in guide",
                 "friction of guide on wall in the arc",
                 "friction of guide on wall after the arc",
-                "friction of the bit on the rock",
-                "friction in the joints"
+                "friction of the bit on the rock"
             ]
         );
         for wall in &unknowns.modelled[1..3] {
@@ -283,7 +292,7 @@ mod tests {
         assert!((of(HoleInterval::Arc) - 0.24).abs() < 1e-15 && (of(HoleInterval::AfterArc) - 0.39).abs() < 1e-15);
         let frictionless = longer.with_value("contact.outer.friction_axial", 0.0).unwrap();
         let none = Unknowns::of(&frictionless).unwrap();
-        assert_eq!(none.modelled.len(), 3);
+        assert_eq!(none.modelled.len(), unknowns.modelled.len() - 2);
         assert!(none.left_out.iter().any(|(name, _)| name.ends_with("after the arc")));
     }
 
