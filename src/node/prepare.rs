@@ -29,7 +29,6 @@ use crate::bag::{RecordingThread, Topic};
 use crate::drilling::live::{Point, SharedPoints, split};
 use crate::ensemble::{self, Ensemble, Pace, Running};
 use crate::live::{Hub, LiveServer, Steering};
-use crate::rig_inputs::Driver;
 use crate::safe_window::SafeWindow;
 use crate::session::Session;
 use flexdrill_config::Config;
@@ -134,7 +133,7 @@ impl PreparedNode {
             node_name.clone(),
             parameters::declare(&config, &setup.config_file, setup.use_sim_time),
             Box::new(move |candidate, changed, requester| applying.apply(candidate, changed, requester)),
-            |client| Driver::from(client).to_string(),
+            |client| receive::driver(client).to_string(),
         );
 
         // All endpoints are declared on `port` before DDS starts: the DDS process gets them as one list.

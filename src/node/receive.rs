@@ -55,8 +55,7 @@ impl SampleReceiver {
         }
         queried.insert(id, now);
         let peer = self.dds.writers().into_iter().flatten().find(|peer| peer.id == id.0);
-        self.inputs
-            .describe(peer.map_or_else(|| Driver::unknown(id), Driver::from));
+        self.inputs.describe(peer.map_or_else(|| Driver::unknown(id), driver));
     }
 
     fn record(&self, received: Received) {
@@ -93,14 +92,13 @@ impl SampleReceiver {
     }
 }
 
-impl From<Peer> for Driver {
-    fn from(peer: Peer) -> Self {
-        Self {
-            id: DriverId(peer.id),
-            node: peer.node,
-            host: peer.address,
-            source: String::new(),
-        }
+/// A program of the network as the publisher of an input.
+pub(super) fn driver(peer: Peer) -> Driver {
+    Driver {
+        id: DriverId(peer.id),
+        node: peer.node,
+        host: peer.address,
+        source: String::new(),
     }
 }
 

@@ -7,8 +7,9 @@ use futures::FutureExt as _;
 use futures::future::BoxFuture;
 
 use super::inputs::RigInputs;
+use super::receive;
 use crate::live::{InputTopic, OfferedService, Setting, Steered, Steering, Viewer};
-use crate::rig_inputs::{Driver, DriverId};
+use crate::rig_inputs::DriverId;
 use flexdrill_messages::find_type;
 use flexdrill_messages::topics::TopicInfo;
 use flexdrill_ros2::dds::frames::Peer;
@@ -112,7 +113,7 @@ impl Steered for Viewers {
         let id = peer.id;
         // Discovery does not know viewers.
         if !self.rig_inputs.is_described(DriverId(id)) {
-            self.rig_inputs.describe(Driver::from(peer));
+            self.rig_inputs.describe(receive::driver(peer));
         }
         inbox.push(Sample::Body { writer: id, body });
     }
@@ -240,12 +241,7 @@ mod tests {
         };
         let (one, two) = (peer(viewer(1)), peer(viewer(2)));
         assert!(!DriverId(one.id).same_process(&DriverId(two.id)));
-        let driver = Driver {
-            id: DriverId(one.id),
-            node: one.node.clone(),
-            host: one.address.clone(),
-            source: String::new(),
-        };
+        let driver = receive::driver(one.clone());
         let id = "000076696577657200000001";
         assert_eq!(
             driver.to_string(),

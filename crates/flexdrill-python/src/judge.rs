@@ -1,7 +1,7 @@
 //! The alarms of a run. The twin is a host of a session, as node and replay are: the session judges, and the twin gives the
 //! events to its caller, next to the columns.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, Run, Schedule, Timeline};
@@ -11,7 +11,8 @@ use flexdrill_session::alarms::AlarmBook;
 
 /// Judges the alarms of one run. Their clock is model time, which begins at 0 with the run.
 pub(crate) struct Judge {
-    session: Session,
+    /// Python shares a twin between threads, and the ends of channels in a session are for one thread at a time.
+    session: Mutex<Session>,
     /// Used again by each look.
     frame: Frame,
 }
@@ -21,16 +22,17 @@ impl Judge {
     pub fn new(config: &Arc<Config>, run: &Run) -> Self {
         let book = AlarmBook::fresh(Arc::clone(config), stamp(config, run));
         Self {
-            session: Session::new(Arc::clone(config), book),
+            session: Mutex::new(Session::new(Arc::clone(config), book)),
             frame: run.new_frame(),
         }
     }
 
     /// Another one in the same state, for a fork of the run.
     pub fn fork(&self) -> Self {
-        let config = Arc::clone(self.session.config());
+        let session = self.session.lock().unwrap_or_else(PoisonError::into_inner);
+        let config = Arc::clone(session.config());
         Self {
-            session: Session::new(config, self.session.alarms().clone()),
+            session: Mutex::new(Session::new(config, session.alarms().clone())),
             frame: self.frame.clone(),
         }
     }
@@ -42,8 +44,9 @@ impl Judge {
         }
         // The schedule has no other output, so that the intervals of peaks and means remain those of the columns.
         run.capture(&mut self.frame);
-        let stamp = stamp(self.session.config(), run);
-        self.session.judge(&self.frame.snapshot, stamp)
+        let session = self.session.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let stamp = stamp(session.config(), run);
+        session.judge(&self.frame.snapshot, stamp)
     }
 }
 

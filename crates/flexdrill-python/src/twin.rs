@@ -57,6 +57,12 @@ pub struct Twin {
     period: u64,
 }
 
+/// Python shares a twin between threads.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    shared::<Twin>();
+};
+
 impl Twin {
     /// A run at its start.
     ///

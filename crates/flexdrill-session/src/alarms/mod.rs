@@ -45,9 +45,7 @@ pub use tool::called_at;
 use std::sync::Arc;
 
 use crate::messages::{AlarmEvent, Bands, HoleAhead, Residuals};
-use flexdrill_alarms::{
-    AlarmSystem, Event, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time,
-};
+use flexdrill_alarms::{AlarmSystem, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time};
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
 use flexdrill_core::twin::Snapshot;
 use flexdrill_motion::HazardKind;

@@ -85,7 +85,7 @@ fn published(config: &Arc<Config>) -> Vec<AlarmEvent> {
             let stamp = session.instant(frame.ticks).unwrap();
             session.publish_alarms(session.header(stamp), stamp, &mut host).unwrap();
         }
-        if step > 0 && step % PERIOD == 0 {
+        if step > 0 && step.is_multiple_of(PERIOD) {
             act(&mut run);
         }
     }
@@ -119,8 +119,8 @@ fn exact(events: &[AlarmEvent]) -> Vec<String> {
 fn a_twin_has_the_alarms_of_a_run_that_publishes() {
     let config = config();
     let expected = exact(&published(&config));
-    let raised = |text: &&String| text.contains("backward_whirl");
-    assert!(expected.iter().any(|text| raised(&text)), "{expected:#?}");
+    let whirls = |text: &String| text.contains("backward_whirl");
+    assert!(expected.iter().any(whirls), "{expected:#?}");
     let mut twin = Twin::new(Arc::clone(&config)).unwrap();
     // In two parts, the second by a fork too: alarms that wait or stand continue in it.
     let mut events = recorded(&mut twin, STEPS / 2 + 7);
