@@ -224,6 +224,11 @@ try {
       /40 r\/min, 10\.0 kN.* 2 runs .*60 r\/min, 12\.0 kN.* 2 runs/.test(await page.textContent("#what-if-results")),
     );
     await until("its end", 60, async () => !(await page.isVisible("#what-if-cancel")));
+    await until("rows of another friction", 60, async () =>
+      /If friction is a fifth lower: .* 2 runs.*If friction is a fifth higher: .* 2 runs/.test(
+        await page.textContent("#what-if-results"),
+      ),
+    );
     // A browser without graphics hardware takes the processors that look-aheads would have: a forecast whose runs take
     // longer than its minute, or than the log keeps its speed and weight, is withdrawn, and the page says so.
     const forecast =

@@ -155,6 +155,14 @@ export interface WhatIfAnswer {
   hole_plan_ahead: Figure;
   /** Plausible tools that the members are runs of; none, or 0, where they are runs of the twin. */
   tools?: number;
+  /**
+   * Runs of the twin with the friction of both layers times each factor, those among them that failed, and those that saw
+   * an alarm: in the result alone.
+   */
+  friction_factors?: number[];
+  friction_members?: number[];
+  friction_failed?: number[];
+  friction_any_alarm?: number[];
 }
 
 /** The newest question to the look-ahead, with its answers so far. */

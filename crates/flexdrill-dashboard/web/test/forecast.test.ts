@@ -25,7 +25,7 @@ import {
   uncalibrated,
   withdrawn,
 } from "../src/views/forecast";
-import { holeOf, verdict } from "../src/views/what_if";
+import { frictionRows, holeOf, verdict } from "../src/views/what_if";
 import { cellAt, edges, members, sentence } from "../src/views/window";
 
 function forecast(from: number, values: number[], more: Partial<Forecast> = {}): Forecast {
@@ -248,6 +248,31 @@ test("a candidate without a run that ended is unknown, not safe", () => {
   assert.equal(verdict({ ...answer, tools: 4 }), "no alarm in 6 runs of 4 plausible tools (0.0 % to 39.0 %)");
   assert.match(verdict({ ...answer, failed: 2 }), /4 runs .*; 2 unknown$/);
   assert.match(verdict({ ...answer, failed: 6, any_alarm: null, failure: "a step failed" }), /^unknown: a step failed/);
+});
+
+test("an answer has a row for each other friction, with its counts", () => {
+  const answer = {
+    friction_factors: [0.8, 1.2],
+    friction_members: [2, 2],
+    friction_failed: [0, 1],
+    friction_any_alarm: [0, 1],
+  } as WhatIfAnswer;
+  assert.deepEqual(frictionRows(answer), [
+    { words: "If friction is a fifth lower: no alarm in 2 runs", alarm: false },
+    { words: "If friction is a fifth higher: alarms in 1 of 1 run; 1 unknown", alarm: true },
+  ]);
+  // What failed is unknown, never safe, and what was not run says so.
+  assert.deepEqual(frictionRows({ ...answer, friction_failed: [2, 0], friction_members: [2, 0] }), [
+    { words: "If friction is a fifth lower: unknown: 2 runs failed", alarm: true },
+    { words: "If friction is a fifth higher: not run", alarm: true },
+  ]);
+  // Feedback has no rows yet, nor has a twin of an earlier version.
+  assert.deepEqual(frictionRows({} as WhatIfAnswer), []);
+  assert.deepEqual(frictionRows({ ...answer, friction_factors: [] }), []);
+  assert.match(
+    frictionRows({ ...answer, friction_factors: [0.7, 1.2] })[0].words,
+    /^If friction is 0\.70 of the present: /,
+  );
 });
 
 function map(): SafeWindow {

@@ -36,6 +36,35 @@ export function verdict(answer: api.WhatIfAnswer): string {
   return `${what} ${runs} (${interval})${unknown}`;
 }
 
+/** A row of another friction: its words, and whether a run saw an alarm, or failed, so that it is not known to be calm. */
+export interface FrictionRow {
+  words: string;
+  alarm: boolean;
+}
+
+/** What would come with another friction, a row for each factor; none before the result. */
+export function frictionRows(answer: api.WhatIfAnswer): FrictionRow[] {
+  return (answer.friction_factors ?? []).map((factor, at) => {
+    const members = answer.friction_members?.[at] ?? 0;
+    const failed = answer.friction_failed?.[at] ?? 0;
+    const seen = answer.friction_any_alarm?.[at] ?? 0;
+    const ended = members - failed;
+    const tenths = Math.round(10 * factor);
+    const change =
+      tenths === 8 ? "a fifth lower" : tenths === 12 ? "a fifth higher" : `${number(factor, 2)} of the present`;
+    const found =
+      ended <= 0
+        ? members === 0
+          ? "not run"
+          : `unknown: ${counted(failed, "run")} failed`
+        : seen === 0
+          ? `no alarm in ${counted(ended, "run")}`
+          : `alarms in ${seen} of ${counted(ended, "run")}`;
+    const unknown = ended > 0 && failed > 0 ? `; ${failed} unknown` : "";
+    return { words: `If friction is ${change}: ${found}${unknown}`, alarm: seen > 0 || failed > 0 };
+  });
+}
+
 /** A number of the answer, which JSON has as null where it is none. */
 const known = (value: number | null) => value ?? NaN;
 
@@ -314,6 +343,11 @@ export class WhatIfView implements View {
           h("h3", {}, `${number(rpm, 0)} r/min, ${number(kilonewton * this.factor, 1)} ${unit}`),
           h("p", {}, verdict(answer)),
           h("ul", { class: "chances" }, ...alarmRows(answer.alarms.map((of) => ({ ...of, ...numbers(of) })))),
+          h(
+            "ul",
+            { class: "friction", "aria-label": "With another friction" },
+            ...frictionRows(answer).map(({ words, alarm }) => h("li", { "data-alarm": String(alarm) }, words)),
+          ),
           h("p", { class: "hint" }, figures),
           h("p", { class: "hint" }, holeOf(answer, this.context.settings.units)),
         );
