@@ -28,8 +28,10 @@ pub struct AlarmChance {
 pub struct CandidateAnswer {
     /// Which.
     pub candidate: Candidate,
-    /// Time of the run-up (s); NaN where it failed.
+    /// Time of the run-up (s), of the first member that ended where each has its way; NaN where it failed.
     pub run_up: f64,
+    /// Model time of the run-up and of the members that ended, with their ways (s).
+    pub model_time: f64,
     /// Members that count: those up to the first number at which every alarm is decided.
     pub members: u32,
     /// Plausible tools that these members are runs of; 0 where they are runs of the twin.
@@ -74,8 +76,8 @@ pub struct Progress {
 
 /// What is known of one candidate.
 pub(super) struct Gathered {
-    /// The run at the candidate's speed and weight, or why there is none, and the time to get there (s).
-    pub run_up: Result<f64, Ended>,
+    /// The time to get to the candidate's speed and weight (s), or why no member does; nothing where each has its way.
+    pub run_up: Result<Option<f64>, Ended>,
     /// Members by number.
     pub members: BTreeMap<u32, Result<Member, Ended>>,
     /// Members that count, once that is decided.
@@ -99,7 +101,7 @@ pub(super) fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal
         }
         let decided = || match goal.ends {
             Ends::Horizon => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
-            Ends::FirstAlarm(_) => Chance::new(any, of).decided().is_some(),
+            Ends::FirstAlarm { .. } => Chance::new(any, of).decided().is_some(),
         };
         if number + 1 == goal.members || (!goal.run_all && decided()) {
             return Some(number + 1);
@@ -156,14 +158,20 @@ fn summed(start: &Start, candidate: &Candidate, gathered: &Gathered, ends: Ends)
     let saw = of - whole.clone().count() as u32;
     CandidateAnswer {
         candidate: *candidate,
-        run_up: *gathered.run_up.as_ref().unwrap_or(&f64::NAN),
+        run_up: match gathered.run_up {
+            Ok(Some(time)) => time,
+            Ok(None) => members.first().map_or(f64::NAN, |member| member.way),
+            Err(_) => f64::NAN,
+        },
+        model_time: gathered.run_up.as_ref().map_or(0.0, |way| way.unwrap_or(0.0))
+            + members.iter().map(|member| member.way + member.judged).sum::<f64>(),
         members: counted as u32,
         tools: start.tools(numbers),
         failed: failures.count() as u32,
         failure: failure.map_or(String::new(), sentence),
         decided: match ends {
             Ends::Horizon => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
-            Ends::FirstAlarm(_) => Chance::new(saw, of).decided().is_some(),
+            Ends::FirstAlarm { .. } => Chance::new(saw, of).decided().is_some(),
         },
         alarms: alarm_chances(&members),
         any_alarm: any_alarm(&members),

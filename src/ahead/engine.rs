@@ -26,12 +26,29 @@ pub fn look_ahead(
     goal: &Goal,
     threads: usize,
     stop: &AtomicBool,
-    mut progress: impl FnMut(Progress),
+    progress: impl FnMut(Progress),
 ) -> Answer {
+    look_further(start, goal, Members::default(), threads, stop, progress).0
+}
+
+/// Members of a goal that ended, by candidate and number.
+#[derive(Debug, Clone, Default)]
+pub struct Members(BTreeMap<(usize, u32), Result<Member, Ended>>);
+
+/// The same where some members are known from a goal that differs in its number of members alone. Returns all that ended too.
+pub fn look_further(
+    start: &Start,
+    goal: &Goal,
+    known: Members,
+    threads: usize,
+    stop: &AtomicBool,
+    mut progress: impl FnMut(Progress),
+) -> (Answer, Members) {
     let candidates = goal.candidates.len();
     // All first members come before all second ones, so that every candidate has a first answer early.
     let tasks: Vec<(usize, u32)> = (0..goal.members)
         .flat_map(|member| (0..candidates).map(move |candidate| (candidate, member)))
+        .filter(|task| !known.0.contains_key(task))
         .collect();
     // Whether a candidate can be reached is found once, before its members:
     // without an end of the run-up there is nothing to disturb.
@@ -40,11 +57,20 @@ pub fn look_ahead(
         .iter()
         .map(|run_up| Gathered {
             // A candidate whose run-up failed has no members to wait for.
-            run_up: run_up.as_ref().map(|(_, time)| *time).map_err(Clone::clone),
+            run_up: match run_up {
+                Ok(there) => Ok(there.as_ref().map(|(_, time)| *time)),
+                Err(why) => Err(why.clone()),
+            },
             members: BTreeMap::new(),
             enough: run_up.is_err().then_some(0),
         })
         .collect();
+    for ((candidate, member), result) in known.0 {
+        if let Some(of) = gathered.get_mut(candidate) {
+            of.members.insert(member, result);
+            of.enough = of.enough.or_else(|| enough(&of.members, goal));
+        }
+    }
     // Workers read these flags without a lock. A late look costs a member too many, never the answer: `answer` counts
     // only the first `enough` members.
     let decided: Vec<AtomicBool> = gathered
@@ -77,17 +103,27 @@ pub fn look_ahead(
             progress(told(start, goal, &gathered));
         }
     });
-    answer(start, goal, &gathered, stop.load(Ordering::Relaxed))
+    let answer = answer(start, goal, &gathered, stop.load(Ordering::Relaxed));
+    let numbered = gathered.into_iter().enumerate();
+    let ended = numbered.flat_map(|(candidate, of)| {
+        let members = of.members.into_iter();
+        members.map(move |(member, result)| ((candidate, member), result))
+    });
+    (answer, Members(ended.collect()))
 }
 
-/// The run at a candidate's speed and weight with the time (s) to get there, or why there is none.
-type RunUp = Result<(Run, f64), Ended>;
+/// The run at a candidate's speed and weight with the time (s) to get there, or why there is none; nothing where each member has a
+/// state and a way that no other shares.
+type RunUp = Result<Option<(Run, f64)>, Ended>;
 
 /// The run-up to each candidate, in the order of the goal.
 fn run_ups(start: &Start, goal: &Goal, threads: usize, stop: &AtomicBool) -> Vec<RunUp> {
+    if start.is_made() {
+        return goal.candidates.iter().map(|_| Ok(None)).collect();
+    }
     on_threads(&goal.candidates, threads, |candidate| {
         let watched = Watched::new(start.run(), start.config(), stop);
-        watched.run_up(&start.target(candidate), MOST_RUN_UP)
+        watched.run_up(&start.target(candidate), MOST_RUN_UP).map(Some)
     })
 }
 
@@ -113,14 +149,15 @@ fn work(
         let Some(&(candidate, member)) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) else {
             return;
         };
-        let Ok((there, way)) = &run_ups[candidate] else {
+        let Ok(there) = &run_ups[candidate] else {
             continue;
         };
         if decided[candidate].load(Ordering::Relaxed) {
             continue;
         }
         // A way that was made once is that of the tool that all members share.
-        let shared = (*way > OWN_WAY && start.is_shared()).then_some(there);
+        let shared = there.as_ref().filter(|(_, way)| *way > OWN_WAY && start.is_shared());
+        let shared = shared.map(|(there, _)| there);
         let result = start.with_tool(member, stop, |start| {
             judged(start, goal, candidate, member, shared, stop)
         });
@@ -145,21 +182,22 @@ fn judged(
     stop: &AtomicBool,
 ) -> Result<Member, Ended> {
     let fork = disturbed(shared.unwrap_or(start.state()), goal.seed, candidate, member);
-    let there = match shared {
-        Some(_) => fork,
+    let (there, way) = match shared {
+        Some(_) => (fork, 0.0),
         None => {
             let watched = Watched::new(fork, start.config(), stop);
-            watched
-                .run_up(&start.target(&goal.candidates[candidate]), MOST_RUN_UP)?
-                .0
+            watched.run_up(&start.target(&goal.candidates[candidate]), MOST_RUN_UP)?
         }
     };
     let wavering = start.wavering(goal.seed, candidate, member);
-    let watched = Watched::new(there, start.config(), stop).wavering(wavering);
+    let watched = Watched::new(there, start.config(), stop)
+        .wavering(wavering)
+        .ending(goal.ends);
     let ends = goal.ends.priority();
-    watched.judge(Horizon::Of(goal.horizon), |alarms| {
+    let judged = watched.judge(Horizon::Of(goal.horizon), |alarms| {
         ends.is_some_and(|least| alarms.iter().any(|called| called.worst >= Some(least)))
-    })
+    })?;
+    Ok(Member { way, ..judged })
 }
 
 /// A member's own run: `run` with the disturbance of its number.

@@ -48,14 +48,18 @@ pub struct Goal {
 }
 
 /// Where a member ends, and what decides a candidate.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum Ends {
     /// A member ends with the horizon; a candidate once every alarm is decided.
     #[default]
     Horizon,
-    /// A member ends with the first alarm of this priority or a higher one, and has no figures then; a candidate once any
-    /// such alarm is decided.
-    FirstAlarm(Priority),
+    /// A member ends with the first alarm of a priority, and has no figures then; a candidate once any such alarm is decided.
+    FirstAlarm {
+        /// Least priority of the alarm.
+        least: Priority,
+        /// Time (s) after which a member ends whose motion has stayed away from all levels; the horizon ends all.
+        calm_after: f64,
+    },
 }
 
 impl Ends {
@@ -63,7 +67,7 @@ impl Ends {
     pub const fn priority(self) -> Option<Priority> {
         match self {
             Self::Horizon => None,
-            Self::FirstAlarm(priority) => Some(priority),
+            Self::FirstAlarm { least, .. } => Some(least),
         }
     }
 }

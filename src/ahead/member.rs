@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::calm::Calm;
 use super::early::Early;
 use super::goal::Ends;
 use super::measured::Measured;
@@ -99,6 +100,8 @@ pub(super) struct Member {
     pub measured: Option<Measured>,
     /// Model time that it was judged over (s).
     pub judged: f64,
+    /// Model time of its own way before (s).
+    pub way: f64,
 }
 
 impl Member {
@@ -158,6 +161,8 @@ pub(super) struct Watched<'a> {
     trace: Option<(Trace, f64)>,
     measured: Option<Measured>,
     wavering: Wavering,
+    /// Time (s) after which it ends where its motion is calm.
+    calm_after: Option<f64>,
 }
 
 impl<'a> Watched<'a> {
@@ -177,6 +182,7 @@ impl<'a> Watched<'a> {
             trace: None,
             measured: None,
             wavering: Wavering::default(),
+            calm_after: None,
         }
     }
 
@@ -196,6 +202,15 @@ impl<'a> Watched<'a> {
     /// Lets the inputs waver about what is set while the run is judged.
     pub(super) fn wavering(mut self, wavering: Wavering) -> Self {
         self.wavering = wavering;
+        self
+    }
+
+    /// Ends it after so long (s) where its motion is calm.
+    pub(super) fn ending(mut self, ends: Ends) -> Self {
+        self.calm_after = match ends {
+            Ends::Horizon => None,
+            Ends::FirstAlarm { calm_after, .. } => Some(calm_after),
+        };
         self
     }
 
@@ -283,6 +298,7 @@ impl<'a> Watched<'a> {
         let latest = early
             .as_ref()
             .map_or(all.div_ceil(2), |early| all - looks(early.lasting));
+        let mut calm = self.calm_after.map(|after| Calm::new(looks(after), all));
         let mut end = all;
         let mut lasts = false;
         let set = self.run.applied().inputs;
@@ -356,7 +372,10 @@ impl<'a> Watched<'a> {
                 trace.peaks(time, snapshot);
             }
             quality = quality.max(snapshot.quality.level);
-            if enough(&alarms) {
+            let is_calm = calm
+                .as_mut()
+                .is_some_and(|calm| calm.ends(look, snapshot, session.alarms()));
+            if is_calm || enough(&alarms) {
                 break;
             }
         }
@@ -371,6 +390,7 @@ impl<'a> Watched<'a> {
             trace: self.trace.map_or_else(Trace::default, |(trace, _)| trace),
             measured: self.measured,
             judged,
+            way: 0.0,
         })
     }
 }

@@ -4,8 +4,8 @@
 //! - [`Goal`]: candidates, horizon, members; checked against the configuration before anything runs.
 //! - [`Start`]: the states from which members begin: one for all, or a plausible tool for each (`draws`).
 //! - [`SetPoint`]: what the driller has set, and how the rig wavers about it; members waver alike.
-//! - `member`: one run of one candidate, judged by the alarms that the node itself uses; `early`, `tally`: when it ends
-//!   before its horizon, and its figures.
+//! - `member`: one run of one candidate, judged by the alarms that the node itself uses; `early`, `calm`, `tally`: when
+//!   it ends before its horizon, and its figures.
 //! - `measured`: the motion of a member without the gates of the alarms.
 //! - `chance`: from counts to probabilities with their intervals, and when enough members have run.
 //! - [`look_ahead`]: runs the members on some threads (`engine`) and gathers an [`Answer`].
@@ -23,6 +23,7 @@
 
 mod advice;
 mod answer;
+mod calm;
 mod chance;
 mod draws;
 mod early;
@@ -42,7 +43,7 @@ mod trace;
 pub use advice::{LEAST_CONFIRMING, SearchProgress, Searched, search};
 pub use answer::{AlarmChance, Answer, CandidateAnswer, Progress};
 pub use chance::{Band, Chance};
-pub use engine::{keep_priority, look_ahead};
+pub use engine::{Members, keep_priority, look_ahead, look_further};
 pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, LEADS, Widths, forecast, lead, widened};
 pub use goal::{Candidate, Ends, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use held::Held;

@@ -221,6 +221,11 @@ impl Start {
         matches!(self.tools, Tools::This)
     }
 
+    /// Whether each member has a state that is made for it.
+    pub(super) fn is_made(&self) -> bool {
+        matches!(self.tools, Tools::Made(_))
+    }
+
     /// How many tools these members have; 0 where none is drawn.
     pub(super) fn tools(&self, members: impl Iterator<Item = u32>) -> u32 {
         let Tools::Forked(forked) = &self.tools else { return 0 };

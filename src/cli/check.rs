@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -12,7 +12,7 @@ use crate::cli::output::{say, say_text};
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::{JointKind, TorsionalMode};
 use flexdrill_core::units::kn_to_n;
-use flexdrill_uncertainty::{Posterior, Priors};
+use flexdrill_uncertainty::Priors;
 
 /// Checks a configuration file and prints a summary, with what is not known of its tool.
 #[derive(Debug, Args)]
@@ -42,12 +42,14 @@ pub(super) fn run(args: &CheckArgs) -> anyhow::Result<()> {
         let drills = Drills::of(&config, &name, path)?;
         say_text!("{}", Summary(&config, &drills));
         let known = Priors::of(&config)?;
-        for line in priors::lines(&known, path, &config.hash()) {
+        // Effects are those of the sample of a calibration, where one is named.
+        let (recorded, posterior) = crate::ensemble::named_by(&config, path)?;
+        for line in priors::lines(&known, path, &recorded.hash()) {
             say!("{line}");
         }
         // A node would refuse what is refused here.
         crate::ensemble::band_factors(&config)?;
-        if let Some(posterior) = Posterior::named_by(&config, path.parent().unwrap_or(Path::new("")))? {
+        if let Some(posterior) = posterior {
             known.drawn_from(&posterior)?;
             say!("{}", priors::posterior(&posterior));
         }

@@ -2,6 +2,7 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
@@ -9,16 +10,18 @@ use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, signals};
 use crate::ahead::keep_priority;
 use crate::cli::output::say;
+use crate::map::shared::Shared;
 use crate::map::study::{self, Question};
 use crate::map::{picture, table};
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
+use flexdrill_sweep::Directory;
 use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::envelope::Envelope;
 use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, WEIGHT_ON_BIT};
-use flexdrill_sweep::plan::{HORIZONS, MOST_MEMBERS};
+use flexdrill_sweep::plan::{HORIZONS, MOST_MEMBERS, Plan};
 use flexdrill_sweep::spec::evenly;
-use flexdrill_uncertainty::Priors;
+use flexdrill_uncertainty::{Posterior, Priors};
 
 /// Maps the chance of every alarm over rotary speed and weight on bit, or over another pair of keys.
 ///
@@ -53,12 +56,13 @@ pub struct MapArgs {
     /// Run all members, also where the first ones decide every alarm (six without any): 20 exclude chances above 16 %.
     #[arg(long)]
     run_all: bool,
-    /// End a member with its first alarm that counts, and a cell once members decide whether one comes: several times less
-    /// time where alarms come. Only members without any have figures then.
+    /// A map in minutes: a member ends with its first alarm that counts, or after 30 s where its motion has stayed away from all
+    /// levels; a run has one member first, and the others next to cells of another class only. Only members without an alarm
+    /// have figures.
     #[arg(long)]
-    first_alarm: bool,
-    /// Members are plausible tools, drawn from `uncertainty` of the configuration: clear means clear for what is not known of
-    /// the tool and its rig.
+    fast: bool,
+    /// Members are plausible tools, drawn as `ensemble.from` of the configuration says, from `uncertainty` or from a
+    /// calibration: clear means clear for what is not known of the tool and its rig.
     #[arg(long)]
     plausible: bool,
     /// Model time that each member is judged over (s).
@@ -137,16 +141,40 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
     let (config, _) = built_in::load(&args.config)?;
     let config = flexdrill_bench::changed(config, None, &args.set)?;
     let question = question(args)?;
-    if question.plausible {
-        can_be_drawn(&config, &question)?;
-    }
+    let mut sample = None;
+    let config = if question.plausible {
+        // As a run records it: with the checksum of the sample, so that the same points are those of the same tools.
+        let (config, posterior) = crate::ensemble::named_by(&config, &args.config)?;
+        sample = posterior;
+        config
+    } else {
+        config
+    };
     let plan = study::plan(&args.config.display().to_string(), &config, &question)?;
+    if question.plausible {
+        can_be_drawn(&config, &question, &plan, sample.as_deref())?;
+    }
+    if let Some(sample) = &sample {
+        // A directory of another plan keeps its own.
+        Directory::create(&args.out, &plan)?;
+        Shared::keep(sample, &args.out)?;
+    }
+    let shared = Arc::new(Shared::of(&args.out, &plan, &config)?);
     let stop = signals::stop_flag()?;
     keep_priority();
     let mut progress = Progress::share();
-    let made = study::make(&args.out, &config, &plan, &question, args.jobs, &stop, |so_far| {
-        progress.at(so_far.done as f64 / so_far.most as f64);
-    })?;
+    let made = study::make(
+        &args.out,
+        &config,
+        &plan,
+        &question,
+        &shared,
+        args.jobs,
+        &stop,
+        |so_far| {
+            progress.at(so_far.done as f64 / so_far.most as f64);
+        },
+    )?;
     progress.done();
     let Some(map) = made else {
         anyhow::bail!("stopped; the same command goes on");
@@ -162,9 +190,17 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Whether the configuration says what is not known of its tool, and leaves the axes to the map.
-fn can_be_drawn(config: &Config, question: &Question) -> anyhow::Result<()> {
-    let priors = Priors::of(config)?;
+/// Whether the configuration says what is not known of its tool, and leaves the axes to the map; a calibration's sample holds for
+/// the tool of every cell.
+fn can_be_drawn(config: &Config, question: &Question, plan: &Plan, sample: Option<&Posterior>) -> anyhow::Result<()> {
+    let mut priors = Priors::of(config)?;
+    if let Some(sample) = sample {
+        priors = priors.drawn_from(sample)?;
+        // An axis that makes another tool of the cells does so at one of its ends at least.
+        for row in [0, plan.rows.len().saturating_sub(1)] {
+            sample.belongs_to(&plan.config(config, row)?)?;
+        }
+    }
     if priors.entries().is_empty() && priors.sensors().is_empty() {
         return Err(WrongUse::new(
             "--plausible: the configuration has no section uncertainty, so that all members would be one tool; leave \
@@ -236,7 +272,7 @@ fn question(args: &MapArgs) -> anyhow::Result<Question> {
         horizon: args.horizon,
         members: args.members,
         run_all: args.run_all,
-        first_alarm: args.first_alarm,
+        fast: args.fast,
         plausible: args.plausible,
         seed: args.seed,
         running_rpm: args.running_rpm,

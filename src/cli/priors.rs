@@ -48,7 +48,7 @@ pub(super) fn posterior(posterior: &Posterior) -> String {
     let from = &posterior.provenance;
     format!(
         "Plausible tools are drawn from {}: {}, {} alike by their weights, fitted to rows {} to {} of {} by flexdrill {}, of {}. \
-         Other keys are drawn from the distributions above, given these.",
+         Other keys are drawn from uncertainty, given these.",
         posterior.file(),
         counted(posterior.members().len() as u64, "member"),
         six_digits(posterior.effective_number().round()),

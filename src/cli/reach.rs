@@ -6,14 +6,16 @@ use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use super::{WrongUse, built_in, numbers, whole_file};
+use super::{WrongUse, built_in, numbers, priors as priors_in_words, whole_file};
 use crate::cli::output::{say, tell};
+use crate::reach::plausible::{self, Drawn};
 use crate::reach::{Load, Plan, picture, study, table};
 use crate::runs::Kept;
 use flexdrill_config::{Config, Law};
 use flexdrill_core::tool::FrictionLaw;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, rpm_to_rad_per_s};
 use flexdrill_text::counted;
+use flexdrill_uncertainty::Priors;
 
 /// Computes torque and weight at the bit against the length of the hole, with rotation and without, and writes them as
 /// reach.csv and reach.svg.
@@ -39,6 +41,16 @@ pub struct ReachArgs {
     /// Rate of penetration (m/h) of a tool without a hoist; a hoist finds its own.
     #[arg(long, default_value_t = 3.0, value_parser = numbers::advance)]
     advance: f64,
+    /// Plausible tools too, drawn as `ensemble.from` of the configuration says: 90 % of what arrives at their bits, in
+    /// reach_plausible.csv. Each has a run for each length, with rotation and without.
+    #[arg(long)]
+    plausible: bool,
+    /// Plausible tools for each length; fewer than 19 have no band.
+    #[arg(long, default_value_t = 19, value_parser = numbers::members(), requires = "plausible")]
+    members: usize,
+    /// Seed of the draws: the same seed gives the same results.
+    #[arg(long, default_value_t = 1, requires = "plausible")]
+    seed: u64,
     /// Longest model time of a run (s); one that is not steady by then is unknown.
     #[arg(long, default_value_t = 60.0, value_parser = numbers::seconds)]
     seconds: f64,
@@ -64,6 +76,7 @@ const MOST_LINKS: usize = 500;
 pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
     let (config, _) = built_in::load(&args.config)?;
     let plan = plan(args, &config)?;
+    let drawn = args.plausible.then(|| drawn(args, &config)).transpose()?;
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     if config.contact.outer.friction == FrictionLaw::Separate {
         tell!(
@@ -75,14 +88,26 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
     let kept = args.resume.then(|| Kept::open(&args.out.join("points"))).transpose()?;
     let rows = study(&config, &plan, kept.as_ref(), |share| progress.at(share))?;
     progress.done();
+    let mut arrives = Vec::new();
+    if let Some((drawn, _)) = &drawn {
+        let mut progress = Progress::share();
+        arrives = plausible::study(&config, drawn, &plan, kept.as_ref(), |share| progress.at(share))?;
+        progress.done();
+        whole_file::write(&args.out, "reach_plausible.csv", &plausible::csv(&arrives))?;
+    }
     whole_file::write(&args.out, "reach.csv", &table::csv(&rows))?;
     whole_file::write(
         &args.out,
         "reach.svg",
-        &flexdrill_plot::svg(&picture::figure(&plan, &rows))?,
+        &flexdrill_plot::svg(&picture::figure(&plan, &rows, &arrives))?,
     )?;
     for line in table::words(&plan, &rows) {
         say!("{line}");
+    }
+    if let Some((_, from)) = &drawn {
+        for line in plausible::words(&arrives).iter().chain([from]) {
+            say!("{line}");
+        }
     }
     say!(
         "{} in {:.0} s: {} and {}",
@@ -96,6 +121,30 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
         "no run became steady; the table has the causes"
     );
     Ok(())
+}
+
+/// Which plausible tools, and what they are drawn from, in words.
+fn drawn(args: &ReachArgs, config: &Config) -> anyhow::Result<(Drawn, String)> {
+    let (config, posterior) = crate::ensemble::named_by(config, &args.config)?;
+    let mut priors = Priors::of(&config)?;
+    if priors.is_empty() {
+        let why = "--plausible: the configuration has no section uncertainty, so that all tools would be one; leave \
+                   --plausible out, or state what is not known (config/rig.yaml has an example)";
+        return Err(WrongUse::new(why).into());
+    }
+    let from = match posterior {
+        Some(posterior) => {
+            priors = priors.drawn_from(&posterior)?;
+            priors_in_words::posterior(&posterior)
+        }
+        None => "Plausible tools are drawn from uncertainty of the configuration, without a calibration.".to_owned(),
+    };
+    let drawn = Drawn {
+        priors,
+        members: args.members,
+        seed: args.seed,
+    };
+    Ok((drawn, from))
 }
 
 fn plan(args: &ReachArgs, config: &Config) -> anyhow::Result<Plan> {

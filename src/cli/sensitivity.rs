@@ -6,13 +6,13 @@ use anyhow::Context;
 use clap::Args;
 
 use super::progress::Progress;
-use super::{WrongUse, built_in, numbers, priors, whole_file};
+use super::{WrongUse, built_in, numbers, priors as named, whole_file};
 use crate::cli::output::say;
 use crate::runs::Kept;
 use crate::sensitivity::{Load, picture, study, table};
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
-use flexdrill_text::{counted, printable};
+use flexdrill_text::counted;
 use flexdrill_uncertainty::Priors;
 use flexdrill_uncertainty::effects::FILE;
 
@@ -52,13 +52,18 @@ pub struct SensitivityArgs {
 pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
     let (config, _) = built_in::load(&args.config)?;
     let load = load(args, &config)?;
-    let priors = Priors::of(&config)?;
+    // As a run records it: with the checksum of the sample of a calibration, where one is named.
+    let (config, posterior) = crate::ensemble::named_by(&config, &args.config)?;
+    let mut priors = Priors::of(&config)?;
+    if let Some(posterior) = &posterior {
+        priors = priors.drawn_from(posterior)?;
+    }
     anyhow::ensure!(
         !priors.entries().is_empty(),
         "{}: uncertainty.keys is empty: nothing is uncertain, and nothing is computed",
         args.config.display()
     );
-    let out = args.out.clone().unwrap_or_else(|| priors::folder(&args.config));
+    let out = args.out.clone().unwrap_or_else(|| named::folder(&args.config));
     std::fs::create_dir_all(&out).with_context(|| format!("cannot create {}", out.display()))?;
     // Runs that an interrupted study has left are not made again.
     let kept = args.resume.then(|| Kept::open(&out.join("points"))).transpose()?;
@@ -80,13 +85,8 @@ pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
         progress.elapsed(),
         out.join("sensitivity.csv").display()
     );
-    // A study of the priors overstates what is open once a calibration has narrowed them.
-    if let Some(file) = config.ensemble.as_ref().and_then(|ensemble| ensemble.posterior()) {
-        say!(
-            "These are the effects of uncertainty.keys, not of the posterior {} that ensemble.from names: what it has found is \
-             narrower.",
-            printable(file)
-        );
+    if let Some(posterior) = &posterior {
+        say!("{}", named::posterior(posterior));
     }
     anyhow::ensure!(
         effects.outputs.iter().any(|output| output.nominal.is_some()),

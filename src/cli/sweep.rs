@@ -10,6 +10,7 @@ use super::progress::Progress;
 use super::{numbers, signals};
 use crate::ahead::keep_priority;
 use crate::cli::output::{say, tell};
+use crate::map::shared::Shared;
 use crate::map::{point, program, study};
 use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::{Chunk, Directory, Spec};
@@ -135,8 +136,8 @@ fn work(args: &WorkArgs) -> anyhow::Result<()> {
         .collect();
     keep_priority();
     let mut progress = Progress::share();
-    let states = Arc::default();
-    let compute = |point: &_| point::run(directory.plan(), &config, point, &states, &stop);
+    let shared = Arc::new(Shared::of(&args.dir, directory.plan(), &config)?);
+    let compute = |point: &_| point::run(directory.plan(), &config, point, &shared, &stop);
     let worked = directory.work(&numbers, args.jobs, &stop, compute, |work| {
         progress.at(work.done as f64 / work.all.max(1) as f64);
     })?;

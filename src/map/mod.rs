@@ -2,12 +2,14 @@
 //!
 //! # Layout
 //! - [`point`]: one point: the way to its values, then members judged by the node's alarms ([`crate::ahead`]).
-//! - [`states`]: the states that points start from, made once for all that share them.
-//! - [`study`]: a map: which points to run, and the map from what they say.
+//! - [`shared`]: what all points share: the [`states`] that they start from, made once, and the sample of a calibration.
+//! - [`rounds`]: which points of a map to run, and with how many members. [`study`]: the map from what they say.
 //! - [`picture`], [`table`]: the map drawn and as tables.
 
 pub mod picture;
 pub mod point;
+pub mod rounds;
+pub mod shared;
 pub mod states;
 pub mod study;
 pub mod table;

@@ -19,13 +19,16 @@ pub fn figure(map: &Map) -> Figure {
         name: "map",
         title: "Safe window".to_owned(),
         caption: format!(
-            "Alarms of at least {} priority over {} and {}, {} s. {}",
+            "Alarms of at least {} priority over {} and {}, {} s. {} {}",
             map.priority.name(),
             map.x.name,
             map.y.name,
             map.horizon,
-            map.members_in_words()
-        ),
+            map.members_in_words(),
+            map.tools_in_words().unwrap_or_default()
+        )
+        .trim_end()
+        .to_owned(),
         columns: map.starts.len().max(1),
         height: 480,
         panels,

@@ -1,10 +1,12 @@
 //! One point of a sweep, computed with the twin.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use super::states::{Key, State, States};
-use crate::ahead::{Candidate, CandidateAnswer, Ends, Figure, Goal, NoTool, Start as Begin, look_ahead};
+use super::shared::{Looked, Shared};
+use super::states::{Key, State};
+use crate::ahead::{Candidate, CandidateAnswer, Ends, Figure, Goal, NoTool, Start as Begin, look_further};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -12,9 +14,10 @@ use flexdrill_core::twin::{Run, RunInputs, Simulation};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_outputs::schedule;
 use flexdrill_sweep::map::{self, AlarmCount, Start};
+use flexdrill_sweep::outcome::Begun;
 use flexdrill_sweep::plan::Running;
 use flexdrill_sweep::{Outcome, Plan, Point};
-use flexdrill_uncertainty::{Priors, Readings};
+use flexdrill_uncertainty::{Readings, UncertaintyError};
 
 /// Model time between two looks at the refinement that the motion asks for (s), as in the node.
 const PERIOD: f64 = 5e-3;
@@ -22,8 +25,8 @@ const PERIOD: f64 = 5e-3;
 const LONGEST_WAY: f64 = 300.0;
 
 /// Computes a point of a plan whose configuration is `base`; nothing when `stop` is set. What fails is part of the
-/// outcome. The outcome is the same with any `states` of the plan.
-pub fn run(plan: &Plan, base: &Config, point: &Point, states: &Arc<States>, stop: &AtomicBool) -> Option<Outcome> {
+/// outcome. The outcome is the same whatever other points have shared before.
+pub fn run(plan: &Plan, base: &Config, point: &Point, shared: &Arc<Shared>, stop: &AtomicBool) -> Option<Outcome> {
     let config = match plan.config(base, point.row) {
         Ok(config) => Arc::new(config),
         Err(error) => return Some(unknown(plan, error.to_string())),
@@ -35,46 +38,100 @@ pub fn run(plan: &Plan, base: &Config, point: &Point, states: &Arc<States>, stop
         weight_ramp: 0.0,
     };
     let running = (point.start == Start::Running).then_some(&plan.runs.running);
-    let begun = states.fork(Key::of(&config, base, running, None), || {
-        begin(&config, running, candidate.weight_on_bit, Readings::default(), stop)
+    // Plausible tools have their own states: of the configuration's tool only what it is counts then.
+    let nominal = running.filter(|_| !plan.runs.plausible);
+    let begun = shared.states.fork(Key::of(&config, base, nominal, None), || {
+        begin(&config, nominal, candidate.weight_on_bit, Readings::default(), stop)
     });
-    let mut start = match begun {
-        Ok(state) => started(&config, state, Readings::default()),
+    let state = match begun {
+        Ok(state) => state,
         Err(NoTool::Unknown(why)) => return Some(unknown(plan, why)),
         Err(NoTool::Stopped) => return None,
     };
+    let own = Begun {
+        tool: None,
+        time: state.0.simulation().time(),
+    };
+    let mut start = started(&config, state, Readings::default());
+    // The first member of a fast map's run was its look, if this process made it.
+    let is_look = plan.runs.fast.is_some() && plan.runs.members == 1;
+    let looked = match plan.runs.fast {
+        Some(_) if !is_look => shared.look(point),
+        _ => Looked::default(),
+    };
+    let made = Arc::new(Mutex::new(looked.begun));
     if plan.runs.plausible {
-        let priors = match Priors::of(&config) {
-            Ok(priors) => priors,
+        match tools(plan, base, point, &config, shared, Arc::clone(&made)) {
+            Ok(tools) => start = start.with_tools(tools),
             Err(error) => return Some(unknown(plan, error.to_string())),
-        };
-        // Members of a number are the same tool in all cells: what differs between cells is speed and weight alone.
-        let (seed, running) = (point.seed, running.copied());
-        let (states, base) = (Arc::clone(states), base.clone());
-        start = start.with_tools(move |member, stop| {
-            let drawn = priors.member(seed, u64::from(member));
-            let drawn = drawn.map_err(|error| NoTool::Unknown(error.to_string()))?;
-            let (readings, own) = (Readings::of(&drawn), Arc::new(drawn.config));
-            let key = Key::of(&config, &base, running.as_ref(), Some((seed, member)));
-            let state = states.fork(key, || {
-                begin(&own, running.as_ref(), candidate.weight_on_bit, readings, stop)
-            })?;
-            Ok(started(&own, state, readings))
-        });
+        }
     }
     let goal = Goal {
         candidates: vec![candidate],
         horizon: plan.runs.horizon,
         members: plan.runs.members,
         run_all: plan.runs.run_all,
-        ends: plan.runs.first_alarm.map_or(Ends::Horizon, Ends::FirstAlarm),
+        ends: plan.runs.fast.map_or(Ends::Horizon, |fast| Ends::FirstAlarm {
+            least: fast.first_alarm,
+            calm_after: fast.calm_after,
+        }),
         seed: point.seed,
     };
-    let answer = look_ahead(&start, &goal, 1, stop, |_| {});
+    let (answer, members) = look_further(&start, &goal, looked.members, 1, stop, |_| {});
     if answer.stopped {
         return None;
     }
-    answer.candidates.first().map(outcome)
+    let answer = answer.candidates.first()?;
+    // Of members that began and do not count, the answer says nothing.
+    let made = made.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let of_tools = made.range(..answer.members).map(|(_, begun)| *begun);
+    let begun = of_tools.chain([own]).filter(|begun| begun.time > 0.0).collect();
+    if is_look {
+        shared.keep_look(point, Looked { members, begun: made });
+    }
+    Some(Outcome {
+        begun,
+        ..outcome(answer)
+    })
+}
+
+/// The plausible tools that the members of a point are, each in the state that it starts from; `made` gets what these took.
+///
+/// # Errors
+/// When the configuration has no priors.
+fn tools(
+    plan: &Plan,
+    base: &Config,
+    point: &Point,
+    config: &Arc<Config>,
+    shared: &Arc<Shared>,
+    made: Arc<Mutex<BTreeMap<u32, Begun>>>,
+) -> Result<impl Fn(u32, &AtomicBool) -> Result<Begin, NoTool> + Send + Sync + use<>, UncertaintyError> {
+    let priors = shared.priors(config)?;
+    let (seed, row, running) = (point.seed, point.row, plan.runs.running);
+    let running = (point.start == Start::Running).then_some(running);
+    let numbers: Vec<u32> = (0..plan.runs.members).map(|member| plan.tool(row, member)).collect();
+    let (shared, base, config) = (Arc::clone(shared), base.clone(), Arc::clone(config));
+    let kn = config.inputs.weight_on_bit.initial_kn;
+    Ok(move |member: u32, stop: &AtomicBool| {
+        // A tool of a number is the same in all cells: what differs between cells is speed and weight alone.
+        let tool = numbers.get(member as usize).copied().unwrap_or(member);
+        let drawn = priors.member(seed, u64::from(tool));
+        let drawn = drawn.map_err(|error| NoTool::Unknown(error.to_string()))?;
+        let (readings, own) = (Readings::of(&drawn), Arc::new(drawn.config));
+        let key = Key::of(&config, &base, running.as_ref(), Some((seed, tool)));
+        let state = shared
+            .states
+            .fork(key, || begin(&own, running.as_ref(), kn, readings, stop))?;
+        let begun = Begun {
+            tool: Some(tool),
+            time: state.0.simulation().time(),
+        };
+        made.lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert(member, begun);
+        Ok(started(&own, state, readings))
+    })
 }
 
 /// The state that a point starts from: at rest without weight, or running under the weight that the rig shows.
@@ -167,6 +224,8 @@ fn unknown(plan: &Plan, failure: String) -> Outcome {
         failed: 0,
         failure,
         run_up: None,
+        model_time: 0.0,
+        begun: Vec::new(),
         any_alarm: [0; 3],
         alarms: Vec::new(),
         figures: plan.runs.figures.iter().map(none).collect(),
@@ -182,6 +241,8 @@ fn outcome(answer: &CandidateAnswer) -> Outcome {
         failed: answer.failed,
         failure: answer.failure.clone(),
         run_up: finite(answer.run_up),
+        model_time: answer.model_time,
+        begun: Vec::new(),
         any_alarm: answer.any_by_priority,
         alarms: answer
             .alarms

@@ -14,7 +14,7 @@ use flexdrill_sweep::plan::Running;
 const MOST_KEPT: usize = 128;
 
 /// What a state follows from.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Key {
     /// Hash of the configuration, but for what acts from the start on alone.
     configuration: String,

@@ -1,18 +1,21 @@
 //! A map: which of its points to run, and what they say together.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use super::states::States;
+use super::rounds::{Ran, Rounds};
+use super::shared::Shared;
+use super::states::Key;
 use super::{point, program};
 use crate::ahead::Chance;
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Config, ConfigError};
-use flexdrill_sweep::choice::{Choice, Class, Wanted};
+use flexdrill_sweep::choice::Class;
 use flexdrill_sweep::map::{Axis, Cell, FORMAT, Map, OfStart, Origin, ROTARY_SPEED, Start, Verdict, WEIGHT_ON_BIT};
-use flexdrill_sweep::plan::{self, Grid, Plan, Running, Runs};
-use flexdrill_sweep::{Directory, Found, Outcome, SweepError};
+use flexdrill_sweep::plan::{self, Fast, Grid, Plan, Point, Running, Runs};
+use flexdrill_sweep::{Directory, Outcome, SweepError};
 use serde_json::Value;
 
 /// What is asked of a map.
@@ -26,8 +29,8 @@ pub struct Question {
     pub members: u32,
     /// Whether all of these run, also where the first ones decide every alarm.
     pub run_all: bool,
-    /// Whether a member ends with its first alarm that counts, and a cell is decided by any of these.
-    pub first_alarm: bool,
+    /// Whether members end with their first alarm that counts, or once calm, and cells away from others have one member.
+    pub fast: bool,
     /// Whether members are plausible tools.
     pub plausible: bool,
     /// Seed of the disturbances.
@@ -43,6 +46,10 @@ pub struct Question {
     /// Largest share of the grid's runs, 0 to 1; 1 runs every cell.
     pub share: f64,
 }
+
+/// Model time (s) after which a member of a fast map ends where it is calm: below 25 s, alarms of the way to the values count
+/// as those of the values (`docs/safe_window.md`).
+const CALM_AFTER: f64 = 30.0;
 
 /// How far a map is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,7 +88,12 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
             horizon: question.horizon,
             members: question.members,
             run_all: question.run_all,
-            first_alarm: question.first_alarm.then_some(question.priority),
+            fast: question.fast.then(|| Fast {
+                first_alarm: question.priority,
+                calm_after: CALM_AFTER.min(question.horizon),
+                // What all tools are in all cells differs in their order alone.
+                turns: if question.plausible { question.members } else { 1 },
+            }),
             plausible: question.plausible,
             // A start at a running tool comes from the highest speed of the map by default, the state with most motion.
             running: Running {
@@ -121,69 +133,22 @@ pub fn make(
     config: &Config,
     plan: &Plan,
     question: &Question,
+    shared: &Arc<Shared>,
     jobs: usize,
     stop: &AtomicBool,
-    mut progress: impl FnMut(Progress),
+    progress: impl FnMut(Progress),
 ) -> Result<Option<Map>, SweepError> {
-    let directory = Directory::create(out, plan)?;
-    // The directory's plan, not the given one: it is what earlier runs were made for, and `create` has compared them.
-    let plan = directory.plan();
-    let grid = plan.map.unwrap_or(Grid { columns: 0, rows: 0 });
-    let mut choice = Choice::new(grid, plan.starts.len());
-    let all = choice.all();
-    // At least one run, at most all, also for shares that round to nothing.
-    let most = ((question.share * all as f64).round() as usize).clamp(1, all);
-    let mut here = 0;
-    let states = Arc::<States>::default();
-    let mut outcomes: Vec<Vec<Option<Outcome>>> = vec![vec![None; plan.rows.len()]; plan.starts.len()];
-    // Each round learns from the runs of the one before. Only whole rounds count,
-    // so that threads and interruptions do not change the choice.
-    loop {
-        let wanted = if most == all {
-            everything(&choice, plan)
-        } else {
-            choice.next(most)
-        };
-        if wanted.is_empty() {
-            break;
-        }
-        let before = choice.runs();
-        let numbers: Vec<usize> = wanted.iter().map(|run| plan.number(run.cell, run.start, 0)).collect();
-        let run = |point: &_| point::run(plan, config, point, &states, stop);
-        let worked = directory.work(&numbers, jobs, stop, run, |work| {
-            progress(Progress {
-                // Work that was found in the directory counts as done, but not as run here: the estimate of the
-                // remaining time needs both.
-                done: before + numbers.len() - work.all + work.done,
-                most,
-                here: here + work.done,
-            });
-        })?;
-        here += worked.ran;
-        if stop.load(Ordering::Relaxed) {
-            return Ok(None);
-        }
-        for (run, number) in wanted.into_iter().zip(numbers) {
-            let point = &directory.points()[number];
-            // Without this result the choice cannot continue; the same call does so later.
-            let Found::Done(outcome) = directory.find(point)? else {
-                return Ok(None);
-            };
-            choice.learn(run, class(&outcome, question));
-            outcomes[run.start][run.cell] = Some(*outcome);
-        }
-    }
-    Ok(Some(assemble(config, plan, question, &mut choice, &outcomes)))
-}
-
-/// Every run that has no result.
-fn everything(choice: &Choice, plan: &Plan) -> Vec<Wanted> {
-    if choice.runs() > 0 {
-        return Vec::new();
-    }
-    let starts = 0..plan.starts.len();
-    let all = starts.flat_map(|start| (0..plan.rows.len()).map(move |cell| Wanted { start, cell }));
-    all.collect()
+    let rounds = Rounds {
+        share: question.share,
+        jobs,
+        stop,
+        compute: |plan: &Plan, point: &Point| point::run(plan, config, point, shared, stop),
+        class: |outcome: &Outcome| class(outcome, question),
+    };
+    let Some(ran) = rounds.make(out, plan, progress)? else {
+        return Ok(None);
+    };
+    Ok(Some(assemble(config, question, shared, ran)))
 }
 
 /// The alarm that most members saw among those that count: its identifier.
@@ -214,13 +179,13 @@ pub fn class(outcome: &Outcome, question: &Question) -> Class {
     }
 }
 
-fn assemble(
-    config: &Config,
-    plan: &Plan,
-    question: &Question,
-    choice: &mut Choice,
-    outcomes: &[Vec<Option<Outcome>>],
-) -> Map {
+fn assemble(config: &Config, question: &Question, shared: &Shared, ran: Ran) -> Map {
+    let Ran {
+        plan,
+        mut choice,
+        outcomes,
+        first_looks,
+    } = ran;
     // What a run says stands before what its neighbours do.
     let inferred: Vec<_> = (0..plan.starts.len()).map(|start| choice.inferred(start)).collect();
     let cells = plan.rows.iter().enumerate().map(|(cell, row)| {
@@ -255,15 +220,40 @@ fn assemble(
         horizon: plan.runs.horizon,
         members: plan.runs.members,
         run_all: plan.runs.run_all,
-        first_alarm: plan.runs.first_alarm.is_some(),
+        first_alarm: plan.runs.fast.is_some(),
         plausible: plan.runs.plausible,
+        posterior: shared.sample(),
         seed: question.seed,
         priority: question.priority,
         limit: question.limit,
         starts: plan.starts.clone(),
         runs: choice.runs() as u32,
+        first_looks: first_looks as u32,
+        model_time: model_time(config, &plan, &outcomes),
         cells,
     }
+}
+
+/// Model time of all members, and of the states that they began from, each once.
+fn model_time(config: &Config, plan: &Plan, outcomes: &[Vec<Option<Outcome>>]) -> f64 {
+    let mut begun = BTreeMap::new();
+    let mut members = 0.0;
+    for (start, of) in plan.starts.iter().zip(outcomes) {
+        let running = (*start == Start::Running).then_some(&plan.runs.running);
+        for (row, outcome) in of.iter().enumerate() {
+            let Some(outcome) = outcome else { continue };
+            members += outcome.model_time;
+            // A row that the configuration refuses has begun nothing.
+            let Ok(own) = plan.config(config, row) else { continue };
+            for state in &outcome.begun {
+                let tool = state
+                    .tool
+                    .map(|tool| (plan.seeds.first().copied().unwrap_or_default(), tool));
+                begun.insert(Key::of(&own, config, running, tool), state.time);
+            }
+        }
+    }
+    members + begun.values().sum::<f64>()
 }
 
 fn known(outcome: &Outcome, question: &Question) -> OfStart {
@@ -340,7 +330,7 @@ mod tests {
             horizon: 30.0,
             members: 20,
             run_all: true,
-            first_alarm: false,
+            fast: false,
             plausible: false,
             seed: 1,
             running_rpm: None,
@@ -367,6 +357,8 @@ mod tests {
             failed,
             failure: String::new(),
             run_up: Some(1.0),
+            model_time: 0.0,
+            begun: Vec::new(),
             any_alarm: [4, 2, 0],
             alarms: vec![
                 count("backward_whirl", Priority::Low),

@@ -235,6 +235,17 @@ pub fn words(map: &Map) -> Vec<String> {
         ));
     }
     lines.push(map.members_in_words());
+    lines.extend(map.tools_in_words());
+    if map.first_looks > 0 {
+        lines.push(format!(
+            "{} of the runs have one member, since no neighbour is of another class.",
+            map.first_looks
+        ));
+    }
+    lines.push(format!(
+        "{:.0} s of model time: members with their ways to the values, and each state that they began from once.",
+        map.model_time
+    ));
     let mut leading: Vec<(usize, String)> = alarms(map)
         .into_iter()
         .map(|alarm| {

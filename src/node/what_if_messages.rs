@@ -201,6 +201,7 @@ mod tests {
                 weight_ramp: 0.0,
             },
             run_up: 1.0,
+            model_time: 61.0,
             members,
             tools,
             failed,

@@ -3,9 +3,10 @@
 //! The configuration's tool and hole are lengthened by links in a straight part. Every point, a length with a friction
 //! coefficient, with or without rotation, is a run of the twin until its means are steady ([`point`]). Beside it are the
 //! closed form of a soft string ([`soft_string`]) and the depth from which the tool is compressed beyond buckling. A run
-//! that fails or does not become steady is unknown, with its cause.
+//! that fails or does not become steady is unknown, with its cause. [`plausible`] has the range of plausible tools.
 
 pub mod picture;
+pub mod plausible;
 pub mod point;
 pub mod soft_string;
 pub mod table;
@@ -77,7 +78,14 @@ pub fn study(
         }
     }
     let load = plan.load;
-    let runs: Vec<Loaded<'_>> = points.iter().map(|point| Loaded { point, load: &load }).collect();
+    let runs: Vec<Loaded<'_>> = points
+        .iter()
+        .map(|point| Loaded {
+            point,
+            load: &load,
+            member: None,
+        })
+        .collect();
     let found = run_all(&runs, plan.jobs, kept, progress)?;
     Ok(points
         .iter()
@@ -98,6 +106,8 @@ pub fn study(
 struct Loaded<'a> {
     point: &'a Point,
     load: &'a Load,
+    /// Number of a plausible tool.
+    member: Option<usize>,
 }
 
 impl Work for Loaded<'_> {
@@ -116,8 +126,12 @@ impl Work for Loaded<'_> {
             rotates,
         } = self.point;
         let rotation = if *rotates { "with" } else { "without" };
+        let of = match self.member {
+            Some(member) => format!("tool{member}"),
+            None => friction.to_string(),
+        };
         Some(KeptAs {
-            name: format!("{links}_{friction}_{rotation}"),
+            name: format!("{links}_{of}_{rotation}"),
             config: config.hash(),
             load: format!("{:?}", self.load),
         })

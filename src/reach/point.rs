@@ -59,7 +59,7 @@ pub struct Point {
     pub config: Config,
     /// Links.
     pub links: usize,
-    /// Friction coefficient of both layers, around and along.
+    /// Friction coefficient of both layers, around and along; not a number where they have those of the configuration.
     pub friction: f64,
     /// Whether the tool rotates.
     pub rotates: bool,
@@ -90,6 +90,29 @@ impl Point {
     /// # Errors
     /// When the configuration does not allow it.
     pub fn new(config: &Config, links: usize, friction: f64, rotates: bool, load: &Load) -> Result<Self, ConfigError> {
+        let layers = ["inner", "outer"].into_iter();
+        let keys = layers
+            .flat_map(|layer| ["tangential", "axial"].map(|direction| format!("contact.{layer}.friction_{direction}")));
+        let values = keys.map(|key| (key, friction)).collect();
+        let point = Self::with(config, links, values, rotates, load)?;
+        Ok(Self { friction, ..point })
+    }
+
+    /// A configuration of `links` links with its own friction.
+    ///
+    /// # Errors
+    /// When the configuration does not allow it.
+    pub fn as_it_is(config: &Config, links: usize, rotates: bool, load: &Load) -> Result<Self, ConfigError> {
+        Self::with(config, links, Vec::new(), rotates, load)
+    }
+
+    fn with(
+        config: &Config,
+        links: usize,
+        mut values: Vec<(String, f64)>,
+        rotates: bool,
+        load: &Load,
+    ) -> Result<Self, ConfigError> {
         let window = load.window(config.solver.time_step, rotates);
         let mut config = config.with_links(links)?;
         // A bit that does not turn cuts nothing, and would stop the advance.
@@ -99,16 +122,12 @@ impl Point {
         if config.rock.law != Law::DepthOfCut {
             config = config.with_value("boundary.weight_on_bit_at", "kickoff")?;
         }
-        let layers = ["inner", "outer"].into_iter();
-        let keys = layers
-            .flat_map(|layer| ["tangential", "axial"].map(|direction| format!("contact.{layer}.friction_{direction}")));
-        let mut values: Vec<(String, f64)> = keys.map(|key| (key, friction)).collect();
         values.push(("inputs.weight_on_bit.initial_kn".to_owned(), n_to_kn(load.weight)));
         values.push(("transfer.window".to_owned(), window));
         Ok(Self {
             config: config.with_values("reach", values)?,
             links,
-            friction,
+            friction: f64::NAN,
             rotates,
         })
     }

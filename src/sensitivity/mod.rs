@@ -1,7 +1,7 @@
 //! Sensitivity: what each prior of a configuration moves, one at a time.
 //!
 //! Each uncertain key, and each error of the sensors of the inputs, is set to its 5 % and its 95 % quantile, with all
-//! others as configured. Every such point is a run of the twin ([`point`]). Two more runs, which differ from the nominal
+//! others as configured; where a calibration's sample decides a key, its quantiles are those of the sample. Every such point is a run of the twin ([`point`]). Two more runs, which differ from the nominal
 //! one by 1 N of weight, show how far equal runs scatter.
 
 pub mod picture;
@@ -34,9 +34,9 @@ struct Trial {
 /// The runs of all priors, two for each: keys in the order of the file, then the sensors of the inputs.
 fn trials(priors: &Priors, load: &Load) -> Vec<Trial> {
     let mut trials = Vec::new();
-    for entry in priors.entries() {
+    for (index, entry) in priors.entries().iter().enumerate() {
         for quantile in QUANTILES {
-            let values: Vec<(&str, f64)> = entry.values(entry.draw(quantile)).collect();
+            let values: Vec<(&str, f64)> = entry.values(priors.draw(index, quantile)).collect();
             let config = priors.base().with_values("sensitivity", values.iter().copied());
             trials.push(Trial {
                 key: entry.name().to_owned(),

@@ -10,6 +10,8 @@ mod ahead;
 mod ahead_from;
 mod guess;
 mod life;
+mod map;
+mod map_points;
 mod paper;
 mod plan;
 mod posterior;

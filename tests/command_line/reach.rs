@@ -176,3 +176,61 @@ fn bad_arguments_are_refused_with_value_bound_and_unit() {
     }
     assert!(!folder.path().join("none").exists());
 }
+
+/// Plausible tools have their own friction: 90 % of what arrives at their bits lies about what arrives at the tool of the
+/// configuration, and fewer than nineteen of them have no band.
+#[test]
+fn plausible_tools_have_a_band() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = folder.path().join("tool.yaml");
+    let own = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/reach.yaml")).unwrap();
+    let key = "contact.outer.friction_axial, distribution: {uniform: {low: 0.1, high: 0.5}}, source: a test";
+    let unknown = format!("uncertainty:\n  keys:\n    - {{key: {key}}}\n");
+    std::fs::write(&config, own.clone() + &unknown).unwrap();
+    let study = |members: &str| {
+        let out = folder.path().join(members);
+        let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+            .args([
+                "reach",
+                config.to_str().unwrap(),
+                "--wob",
+                "2",
+                "--lengths",
+                "0.6",
+                "--friction",
+                "0.3",
+            ])
+            .args(["--plausible", "--jobs", "2", "--members", members, "--out"])
+            .arg(&out)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let table = csv::Reader::from_path(out.join("reach_plausible.csv")).unwrap();
+        let rows: Vec<csv::StringRecord> = table.into_records().map(Result::unwrap).collect();
+        (text(&output.stdout), rows)
+    };
+    let (words, rows) = study("2");
+    assert!(
+        words.contains("no band of fewer than 19") && words.contains("drawn from uncertainty"),
+        "{words}"
+    );
+    assert!(rows.iter().all(|row| &row[3] == "2" && row[5].is_empty()), "{rows:?}");
+    let (words, rows) = study("19");
+    assert!(words.contains("In 90 % of the plausible tools"), "{words}");
+    assert_eq!(rows.len(), 2);
+    for row in &rows {
+        assert_eq!((&row[3], &row[4]), ("19", "0"), "{row:?}");
+        let [low, median, high] = [5, 6, 7].map(|at| row[at].parse::<f64>().unwrap());
+        // Friction of 0.1 to 0.5 on a guide that lies on the wall moves what arrives of 2 kN.
+        assert!(low < median && median < high && high < 2.3 && low > 0.5, "{row:?}");
+    }
+    // Nothing is drawn where all is known.
+    std::fs::write(&config, own).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args(["reach", config.to_str().unwrap(), "--wob", "2", "--plausible", "--out"])
+        .arg(folder.path().join("none"))
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("no section uncertainty"));
+}

@@ -7,7 +7,8 @@ use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::directory::plan_from_bytes;
 use flexdrill_sweep::map::{AlarmCount, Axis, Cell, FORMAT, Figure, Map, OfStart, Origin, Start, Verdict};
-use flexdrill_sweep::{Outcome, Plan, Spec, outcome};
+use flexdrill_sweep::outcome::{self, Begun};
+use flexdrill_sweep::{Outcome, Plan, Spec};
 use flexdrill_uncertainty::Effects;
 
 use crate::engine::Target;
@@ -63,6 +64,11 @@ fn result(plan: &Plan) -> Outcome {
         failed: 1,
         failure: "a step failed".to_owned(),
         run_up: Some(2.5),
+        model_time: 31.5,
+        begun: vec![Begun {
+            tool: Some(2),
+            time: 13.5,
+        }],
         any_alarm: [1, 1, 0],
         alarms: vec![AlarmCount {
             alarm: "shock".to_owned(),
@@ -224,11 +230,14 @@ fn map_file() {
         run_all: false,
         first_alarm: false,
         plausible: false,
+        posterior: None,
         seed: 1,
         priority: Priority::Low,
         limit: 0.1,
         starts: Start::ALL.to_vec(),
         runs: 4,
+        first_looks: 0,
+        model_time: 0.0,
         cells: at.map(cell).to_vec(),
     };
     Target {

@@ -1,6 +1,6 @@
 //! Whether a map that was read makes sense.
 
-use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, Origin, SURE, Start, Verdict};
+use super::{Axis, Cell, MOST_CELLS, MOST_VALUES, Map, MapError, OfStart, Origin, SURE, Sample, Start, Verdict};
 
 /// Longest text of a map (bytes).
 const MOST_TEXT: usize = 4096;
@@ -72,6 +72,17 @@ impl Map {
             format!("{starts:?}"),
             "`rest`, `running` or both, each once",
         )?;
+        let timed = self.model_time >= 0.0 && self.model_time.is_finite();
+        ensure(timed, "model_time", self.model_time, "0 s or more")?;
+        if let Some(sample) = &self.posterior {
+            ensure(
+                self.plausible,
+                "posterior",
+                &sample.sha256,
+                "left out where members are no plausible tools",
+            )?;
+            sample.check()?;
+        }
         // The number of cells is bounded before they are compared: the product of two axes may be large.
         let expected = self.x.values.len() * self.y.values.len();
         ensure(
@@ -110,6 +121,12 @@ impl Map {
             "runs",
             self.runs,
             format!("{runs}, as the cells say"),
+        )?;
+        ensure(
+            self.first_looks <= runs,
+            "first_looks",
+            self.first_looks,
+            format!("at most {runs}, the runs"),
         )
     }
 
@@ -138,6 +155,26 @@ impl Map {
             format!("{}, as its starts say", said.name()),
         )?;
         Ok(runs)
+    }
+}
+
+impl Sample {
+    fn check(&self) -> Checked {
+        for (what, hash) in [("sha256", &self.sha256), ("log_sha256", &self.log_sha256)] {
+            let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
+            let what = format!("posterior.{what}");
+            ensure(is_hash, what, hash.escape_debug(), "64 hexadecimal digits")?;
+        }
+        short("posterior.version", &self.version)?;
+        short("posterior.log", &self.log)?;
+        let (count, what) = (self.keys.len(), "posterior.keys");
+        ensure(count <= MOST_ENTRIES, what, count, format!("at most {MOST_ENTRIES}"))?;
+        for key in &self.keys {
+            short(what, key)?;
+        }
+        let effective = (0.0..=f64::from(self.members)).contains(&self.effective);
+        let (what, bound) = ("posterior.effective", format!("0 to {}, its members", self.members));
+        ensure(effective, what, self.effective, bound)
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod check;
 mod error;
+mod words;
 
 use std::fs::File;
 use std::io::Read as _;
@@ -61,6 +62,9 @@ pub struct Map {
     /// configuration.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub plausible: bool,
+    /// The sample of a calibration that these tools are drawn from; none where they are drawn from `uncertainty` alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub posterior: Option<Sample>,
     /// Seed of the members' disturbances.
     pub seed: u64,
     /// Priority from which on an alarm counts for [`OfStart::chance`] and [`Cell::verdict`].
@@ -71,8 +75,36 @@ pub struct Map {
     pub starts: Vec<Start>,
     /// Runs that were made, of the cells times the starts.
     pub runs: u32,
+    /// Runs among these that have their first member alone, since no neighbour is of another class ([`OfStart::members`] is 1).
+    #[serde(default)]
+    pub first_looks: u32,
+    /// Model time of all members that count and of the states that they began from (s); 0 where unknown.
+    #[serde(default)]
+    pub model_time: f64,
     /// Row by row of y, x within a row.
     pub cells: Vec<Cell>,
+}
+
+/// The sample of a calibration that plausible tools are drawn from, with its provenance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sample {
+    /// SHA-256 of its file (hex).
+    pub sha256: String,
+    /// Version of the program that wrote it.
+    pub version: String,
+    /// File name of the log that it was fitted to.
+    pub log: String,
+    /// SHA-256 of the log (hex).
+    pub log_sha256: String,
+    /// First and last row of the log.
+    pub rows: [u64; 2],
+    /// Its members.
+    pub members: u32,
+    /// Number of members alike that their weights amount to.
+    pub effective: f64,
+    /// Keys of the configuration that it has; the others are drawn from `uncertainty`, given these.
+    pub keys: Vec<String>,
 }
 
 /// One axis.
@@ -357,61 +389,6 @@ impl Map {
     /// When a number is not finite, which a checked map does not have.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         Ok(serde_json::to_string(self)? + "\n")
-    }
-
-    /// Fewest and most members that ended at a start that was run; nothing where none ended.
-    pub fn members_ended(&self) -> Option<[u32; 2]> {
-        let starts = self.cells.iter().flat_map(|cell| &cell.starts);
-        let ended = starts
-            .filter(|start| start.state == Origin::Known)
-            .map(|start| start.members - start.failed);
-        ended.fold(None, |range: Option<[u32; 2]>, of| {
-            let [least, most] = range.unwrap_or([of, of]);
-            Some([least.min(of), most.max(of)])
-        })
-    }
-
-    /// Fewest members that ended at a start that is known to be clear by its runs, and the chance of an alarm that so many
-    /// without a sighting exclude: the upper end of the 95 % interval (Wilson). Nothing where no start is.
-    pub fn excluded(&self) -> Option<(u32, f64)> {
-        let starts = self.cells.iter().flat_map(|cell| &cell.starts);
-        let clear = starts.filter(|start| start.state == Origin::Known && !start.expected && start.failed == 0);
-        let least = clear.map(|start| start.members).min()?;
-        const Z: f64 = 1.959_963_984_540_054;
-        Some((least, Z * Z / (f64::from(least) + Z * Z)))
-    }
-
-    /// How many members ended per run, and what so many without an alarm exclude. The numbers are those that ran.
-    pub fn members_in_words(&self) -> String {
-        let Some([least, most]) = self.members_ended() else {
-            return "No member of any run ended.".to_owned();
-        };
-        let ended = if least == most {
-            format!("{least}")
-        } else {
-            format!("{least} to {most}")
-        };
-        let why = match self.run_all {
-            _ if least == self.members => "",
-            true => "; the others failed",
-            false if self.first_alarm => "; a run ends early once its members decide whether an alarm comes",
-            false => "; a run ends early once its members decide every alarm",
-        };
-        let members = match (self.plausible, self.members) {
-            (true, 1) => "plausible tool",
-            (true, _) => "plausible tools",
-            (false, 1) => "member",
-            (false, _) => "members",
-        };
-        let mut text = format!("In each run {ended} of at most {} {members} ended{why}.", self.members);
-        if let Some((least, chance)) = self.excluded() {
-            let excludes = format!(
-                " No alarm in {least} excludes chances above {:.0} %: a clear cell may have up to that.",
-                100.0 * chance
-            );
-            text.push_str(&excludes);
-        }
-        text
     }
 
     /// The cell of a column and a row.

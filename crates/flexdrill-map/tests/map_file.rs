@@ -78,11 +78,14 @@ fn map() -> Map {
         run_all: false,
         first_alarm: false,
         plausible: false,
+        posterior: None,
         seed: 1,
         priority: Priority::Low,
         limit: 0.1,
         starts: Start::ALL.to_vec(),
         runs: 8,
+        first_looks: 0,
+        model_time: 0.0,
         cells: at
             .zip(starts)
             .map(|((x, y), starts)| Cell {

@@ -134,6 +134,7 @@ def test_a_map_has_the_values_of_its_table(mapped: Path) -> None:
     assert read.x.values.tolist() == [30.0, 70.0, 110.0] and read.x.unit == "r/min" and read.y.unit == "kN"
     assert read.starts == ("rest", "running") and read.verdict.shape == (3, 3) and len(rows) == 18
     assert np.count_nonzero(read.state != "inferred") == read.runs < 18
+    assert read.model_time_s > 10.0 * read.runs and read.first_looks == 0 and read.posterior is None
     for number, row in enumerate(rows):
         cell, start = divmod(number, 2)
         at = (start, *divmod(cell, 3))
@@ -167,6 +168,20 @@ def test_what_is_not_known_is_a_class_of_its_own(mapped: Path, tmp_path: Path) -
     assert read.verdict[0, 0] == "not_known" and read.state[0, 0, 0] == "not_known"
     assert not np.any(read.verdict[read.state[0] == "not_known"] == "clear")
     assert np.isnan(read.chance[0, 0, 0]) and read.confidence[0, 0, 0] == 0.4
+
+
+def test_a_map_says_what_its_tools_are_drawn_from(mapped: Path, tmp_path: Path) -> None:
+    content = json.loads((mapped / "map.json").read_text())
+    keys = ["contact.outer.friction_tangential"]
+    sample = {"sha256": "ab" * 32, "version": "1.2.3", "log": "rig.csv", "log_sha256": "cd" * 32, "rows": [3, 900]}
+    content |= {"plausible": True, "posterior": {**sample, "members": 30, "effective": 28.5, "keys": keys}}
+    (tmp_path / "map.json").write_text(json.dumps(content))
+    found = flexdrill.read_map(tmp_path).posterior
+    assert found == flexdrill.MapSample("ab" * 32, "1.2.3", "rig.csv", "cd" * 32, (3, 900), 30, 28.5, tuple(keys))
+    content["posterior"]["effective"] = 31.0
+    (tmp_path / "map.json").write_text(json.dumps(content))
+    with pytest.raises(flexdrill.ResultFileError, match="posterior.effective"):
+        flexdrill.read_map(tmp_path)
 
 
 def flexdrill_ending(unit: str) -> str:

@@ -360,11 +360,14 @@ mod tests {
             run_all: false,
             first_alarm: false,
             plausible: false,
+            posterior: None,
             seed: 1,
             priority: Priority::Medium,
             limit: 0.1,
             starts: Start::ALL.to_vec(),
             runs: 0,
+            first_looks: 0,
+            model_time: 0.0,
             cells,
         }
     }

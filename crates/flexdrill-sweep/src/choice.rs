@@ -197,6 +197,28 @@ impl Choice {
         })
     }
 
+    /// Runs that ended and have a cell of another class next to them, by start and cell: there a class is least certain. With
+    /// `known`, only classes of runs count, otherwise those that are most likely elsewhere too.
+    pub fn next_to_others(&mut self, known: bool) -> Vec<Wanted> {
+        let mut found = Vec::new();
+        for start in 0..self.known.len() {
+            let inferred = if known { Vec::new() } else { self.surfaces(start) };
+            let class = |cell: usize| {
+                let likeliest = || Some(inferred.get(cell)?.as_ref()?.likeliest());
+                self.known[start][cell].or_else(likeliest)
+            };
+            let of_run = self.known[start].iter().enumerate();
+            let ended =
+                of_run.filter_map(|(cell, class)| Some((cell, class.filter(|class| *class != Class::Unknown)?)));
+            let next = ended.filter(|(cell, own)| {
+                let mut others = self.neighbours(*cell).filter_map(class);
+                others.any(|other| other != *own)
+            });
+            found.extend(next.map(|(cell, _)| Wanted { start, cell }));
+        }
+        found
+    }
+
     /// The cells that share a side with a cell.
     fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
         let Grid { columns, rows } = self.grid;

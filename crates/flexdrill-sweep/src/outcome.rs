@@ -26,6 +26,12 @@ pub struct Outcome {
     pub failure: String,
     /// Model time of the way to the values (s); nothing where it failed.
     pub run_up: Option<f64>,
+    /// Model time of the members that ended, with their ways to the values (s); 0 in results of earlier builds.
+    #[serde(default)]
+    pub model_time: f64,
+    /// The states that members began from, which other points may share.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub begun: Vec<Begun>,
     /// Members that saw any alarm of this priority or a higher one, by [`Priority::ALL`].
     pub any_alarm: [u32; 3],
     /// Alarms that a member saw, by identifier, from the lowest priority.
@@ -41,6 +47,16 @@ impl Outcome {
     pub fn ended(&self) -> u32 {
         self.members.saturating_sub(self.failed)
     }
+}
+
+/// A state that members began from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Begun {
+    /// Number of its plausible tool; none where it is the tool of the configuration.
+    pub tool: Option<u32>,
+    /// Model time that making it took (s).
+    pub time: f64,
 }
 
 /// The first line of a point's file.
@@ -166,6 +182,15 @@ impl Outcome {
         }
         if self.failed > self.members {
             return wrong("failed", self.failed.to_string(), format!("at most {}", self.members));
+        }
+        let mut times = self.begun.iter().map(|begun| begun.time).chain([self.model_time]);
+        if let Some(time) = times.find(|time| !(*time >= 0.0 && time.is_finite())) {
+            return wrong("model_time", time.to_string(), "0 s or more".to_owned());
+        }
+        // One state for all members, or one for each.
+        if self.begun.len() > plan.runs.members as usize {
+            let most = format!("at most {}, a state per member", plan.runs.members);
+            return wrong("begun", self.begun.len().to_string(), most);
         }
         // All counts below refer to the members that ended.
         let ended = self.ended();

@@ -62,9 +62,9 @@ pub struct Runs {
     pub members: u32,
     /// Whether all of these run, also where the first ones decide every alarm.
     pub run_all: bool,
-    /// Priority of the alarm with which a member ends, and which decides a point; none where members run over the horizon.
+    /// How members of a fast map end; none where they run over the horizon.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub first_alarm: Option<Priority>,
+    pub fast: Option<Fast>,
     /// Whether members are plausible tools, drawn from `uncertainty` of the configuration.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub plausible: bool,
@@ -74,6 +74,18 @@ pub struct Runs {
     pub alarms: Vec<String>,
     /// Figures of a point: name and unit.
     pub figures: Vec<(String, String)>,
+}
+
+/// How the members of a fast map end, and which of them are the first.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fast {
+    /// Least priority of the alarm with which a member ends, and which decides a point.
+    pub first_alarm: Priority,
+    /// Time of its horizon (s) after which a member ends whose motion has stayed away from all levels.
+    pub calm_after: f64,
+    /// Plausible tools whose first ones take turns over the points, so that neighbours have others; 1: tool 0 everywhere.
+    pub turns: u32,
 }
 
 /// The state that a start from running comes from.
@@ -138,8 +150,13 @@ impl Plan {
         let amount = format!("{FORMAT} {} {} {}", runs.horizon, runs.members, runs.run_all);
         hash_text(&mut shared, &amount);
         // Points of plans without these keep their names.
-        if let Some(least) = runs.first_alarm {
-            hash_text(&mut shared, least.name());
+        if let Some(fast) = &runs.fast {
+            let Fast {
+                first_alarm,
+                calm_after,
+                turns,
+            } = fast;
+            hash_text(&mut shared, &format!("{} {calm_after} {turns}", first_alarm.name()));
         }
         if runs.plausible {
             hash_text(&mut shared, "plausible");
@@ -174,6 +191,20 @@ impl Plan {
         points
     }
 
+    /// The number of the plausible tool that a member of a row is: members take turns from a first one on, which differs
+    /// between neighbours, so that the first members of a region stand for all tools.
+    pub fn tool(&self, row: usize, member: u32) -> u32 {
+        let Some(fast) = &self.runs.fast else { return member };
+        // The R2 sequence: multiples of the inverse powers of the plastic number fill a square evenly.
+        const OF_AXES: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1d];
+        let columns = self.map.map_or(1, |grid| grid.columns.max(1));
+        let along = [row % columns, row / columns];
+        let place = |axis: usize| (along[axis] as u64).wrapping_mul(OF_AXES[axis]);
+        let share = place(0).wrapping_add(place(1)) >> 32;
+        let first = (share * u64::from(fast.turns)) >> 32;
+        ((first + u64::from(member)) % u64::from(fast.turns)) as u32
+    }
+
     /// The values of a row by their keys.
     pub fn values(&self, row: usize) -> impl Iterator<Item = (&String, &Value)> {
         self.keys.iter().zip(self.rows.get(row).into_iter().flatten())
@@ -196,6 +227,15 @@ impl Plan {
         }
         if !(1..=MOST_MEMBERS).contains(&runs.members) {
             return problem("members", &runs.members, format!("1 to {MOST_MEMBERS}"));
+        }
+        if let Some(fast) = &runs.fast {
+            if !(least..=runs.horizon).contains(&fast.calm_after) {
+                let bound = format!("{least} to {} s, the horizon", runs.horizon);
+                return problem("fast.calm_after", &fast.calm_after, bound);
+            }
+            if !(1..=MOST_MEMBERS).contains(&fast.turns) {
+                return problem("fast.turns", &fast.turns, format!("1 to {MOST_MEMBERS}"));
+            }
         }
         if !(0.0..=most).contains(&runs.running.time) {
             return problem("running.time", &runs.running.time, format!("0 to {most} s"));

@@ -302,7 +302,7 @@ impl Spec {
                 horizon: self.horizon,
                 members: self.members,
                 run_all: self.run_all,
-                first_alarm: None,
+                fast: None,
                 plausible: false,
                 running: Running {
                     rpm: self

@@ -16,6 +16,8 @@ use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::directory::PLAN;
 use flexdrill_sweep::map::{AlarmCount, Figure, Start};
+use flexdrill_sweep::outcome::Begun;
+use flexdrill_sweep::plan::Fast;
 use flexdrill_sweep::spec::Program;
 use flexdrill_sweep::{Chunk, Directory, Found, Outcome, Plan, Point, Spec, SweepError};
 
@@ -66,6 +68,11 @@ fn made_up(point: &Point) -> Outcome {
         }
         .to_owned(),
         run_up: Some(2.5),
+        model_time: 31.5,
+        begun: vec![Begun {
+            tool: Some(2),
+            time: 13.5,
+        }],
         any_alarm: [seen, seen, 0],
         alarms: (seen > 0)
             .then(|| AlarmCount {
@@ -483,8 +490,14 @@ fn a_point_is_named_by_all_that_determines_it() {
         ("members", changed(&|plan| plan.runs.members = 4)),
         ("run_all", changed(&|plan| plan.runs.run_all = true)),
         (
-            "first_alarm",
-            changed(&|plan| plan.runs.first_alarm = Some(Priority::Low)),
+            "fast",
+            changed(&|plan| {
+                plan.runs.fast = Some(Fast {
+                    first_alarm: Priority::Low,
+                    calm_after: 20.0,
+                    turns: 3,
+                });
+            }),
         ),
         ("plausible", changed(&|plan| plan.runs.plausible = true)),
     ] {

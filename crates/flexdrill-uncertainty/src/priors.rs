@@ -6,7 +6,7 @@ use flexdrill_config::{Config, Distribution, Form, NumberKey, UncertainKey};
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::UncertaintyError;
-use crate::law::Law;
+use crate::law::{Law, standard_normal};
 use crate::posterior::{Posterior, PosteriorError, Sample};
 use crate::sensors::{Sensor, sensors};
 
@@ -207,6 +207,14 @@ impl Priors {
     /// Lower Cholesky factor of the correlations of the normal scores.
     pub(crate) fn correlation_factor(&self) -> &DMatrix<f64> {
         &self.factor
+    }
+
+    /// The draw of an entry below which a share p of the draws lies, whatever the others are: of the sample where it decides the
+    /// entry, of its distribution elsewhere.
+    pub fn draw(&self, entry: usize, p: f64) -> f64 {
+        let of_sample = self.sample.as_ref().and_then(|sample| sample.score(entry, p));
+        let share = of_sample.map_or(p, standard_normal);
+        self.entries.get(entry).map_or(f64::NAN, |entry| entry.draw(share))
     }
 
     /// All entries, in the order of the file.

@@ -1,5 +1,6 @@
 //! What acts on a plausible tool where the rig's sensors of the inputs show a reading.
 
+use flexdrill_core::inputs::Inputs;
 use flexdrill_core::twin::RunInputs;
 
 use crate::member::Member;
@@ -25,16 +26,26 @@ impl Readings {
     /// What acts where `shown` is what the rig shows: speed and weight over their factors, the weight without its tare; slew
     /// limits alike.
     pub fn acting(&self, shown: &RunInputs) -> RunInputs {
-        let factor = |sensor: Option<SensorError>| sensor.map_or(1.0, |sensor| sensor.factor);
-        let tare = self.weight.map_or(0.0, |sensor| sensor.tare);
         let mut acts = *shown;
-        acts.inputs.rotary_speed /= factor(self.speed);
-        // A reading of nothing is a bit off bottom, which the block shows too.
-        if acts.inputs.weight_on_bit > 0.0 {
-            acts.inputs.weight_on_bit = ((acts.inputs.weight_on_bit - tare) / factor(self.weight)).max(0.0);
-        }
+        acts.inputs = self.acting_inputs(shown.inputs);
         acts.slew[0] /= factor(self.speed);
         acts.slew[1] /= factor(self.weight);
         acts
     }
+
+    /// The same of the inputs alone.
+    pub fn acting_inputs(&self, shown: Inputs) -> Inputs {
+        let tare = self.weight.map_or(0.0, |sensor| sensor.tare);
+        let mut acts = shown;
+        acts.rotary_speed /= factor(self.speed);
+        // A reading of nothing is a bit off bottom, which the block shows too.
+        if acts.weight_on_bit > 0.0 {
+            acts.weight_on_bit = ((acts.weight_on_bit - tare) / factor(self.weight)).max(0.0);
+        }
+        acts
+    }
+}
+
+fn factor(sensor: Option<SensorError>) -> f64 {
+    sensor.map_or(1.0, |sensor| sensor.factor)
 }

@@ -250,6 +250,37 @@ fn few_members_are_spread_over_the_sample() {
     }
 }
 
+/// Quantiles of a key are those of the weighted sample where it has the key, and those of the prior elsewhere.
+#[test]
+fn quantiles_are_those_of_the_sample() {
+    let config = config();
+    // Twenty members, the last one with more weight: 19 + 19^0.5 over as many squares, 14 alike.
+    let rows: Vec<(f64, Vec<f64>)> = (0..20)
+        .map(|row| {
+            let weight = if row == 19 { f64::sqrt(19.0) } else { 1.0 };
+            (weight, vec![0.30 + 1e-3 * f64::from(row); 2])
+        })
+        .collect();
+    let sample = read(&text(&config, &INNER, &rows), &config).unwrap();
+    let priors = Priors::of(&config).unwrap();
+    let drawn = priors.clone().drawn_from(&sample).unwrap();
+    let whole = 19.0 + f64::sqrt(19.0);
+    // Members 0 to 9 have a share of 10 / whole of all weights.
+    for (p, value) in [(0.5 / whole, 0.300), (9.5 / whole, 0.309), (0.9, 0.319), (1.0, 0.319)] {
+        assert!(
+            (drawn.draw(0, p) - value).abs() < 1e-8,
+            "{p}: {} {value}",
+            drawn.draw(0, p)
+        );
+    }
+    for entry in 1..4 {
+        for p in [0.05, 0.5, 0.95] {
+            assert_eq!(drawn.draw(entry, p), priors.draw(entry, p));
+        }
+    }
+    assert_eq!(priors.draw(0, 0.05), priors.entries()[0].draw(0.05));
+}
+
 #[test]
 fn what_was_written_is_read() {
     let config = config();

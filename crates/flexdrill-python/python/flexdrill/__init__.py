@@ -47,7 +47,7 @@ from ._groups import (
     Whirl,
 )
 from ._inputs import Input, Inputs, held
-from ._map import Map, MapAxis, read_map
+from ._map import Map, MapAxis, MapSample, read_map
 from ._native import __version__
 from ._results import BODIES, GROUPS, HAZARDS, HOLDERS, SEVERITIES, USUAL_GROUPS, WHIRL_KINDS, Recording, Snapshot
 from ._results_file import PRIORITIES, QUANTILES, FlagArray, TextArray
@@ -90,6 +90,7 @@ __all__ = [
     "Joints",
     "Map",
     "MapAxis",
+    "MapSample",
     "Messages",
     "NotRecordedError",
     "Problem",

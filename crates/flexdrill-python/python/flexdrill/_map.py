@@ -53,6 +53,26 @@ class MapAxis:
 
 
 @dataclass(frozen=True)
+class MapSample:
+    """The sample of a calibration that the plausible tools of a map are drawn from."""
+
+    sha256: str
+    """SHA-256 of its file."""
+    version: str
+    """Version of the program that wrote it."""
+    log: str
+    """File name of the log that it was fitted to."""
+    log_sha256: str
+    rows: tuple[int, int]
+    """First and last row of the log."""
+    members: int
+    effective: float
+    """Members alike that its weights amount to."""
+    keys: tuple[str, ...]
+    """Keys of the configuration that it has; the others are drawn from `uncertainty`, given these."""
+
+
+@dataclass(frozen=True)
 class Map:
     """A map. Arrays are over y and x, or over start, y and x."""
 
@@ -77,6 +97,8 @@ class Map:
     """Whether a member ended with its first alarm that counts."""
     plausible: bool
     """Whether members are plausible tools, drawn from what is not known, and not the tool of the configuration."""
+    posterior: MapSample | None
+    """What they are drawn from after a calibration; `None` where they are drawn from `uncertainty` alone."""
     seed: int
     priority: str
     """Priority from which on an alarm counts for `chance` and `verdict`."""
@@ -86,6 +108,10 @@ class Map:
     """The first axis of the arrays below: `rest`, `running`."""
     runs: int
     """Runs that were made."""
+    first_looks: int
+    """Runs among these that have their first member alone, since no neighbour is of another class."""
+    model_time_s: float
+    """Model time of all members that count and of the states that they began from; 0 where unknown."""
     verdict: TextArray
     """Over y and x: `clear`, `alarm`, `depends_on_start`, `unknown` where a run failed, or `not_known` where no run was
     made from some start and those around do not say with 95 % what the cell is. The last two are never safe."""
@@ -208,11 +234,14 @@ def read_map(path: PathLike) -> Map:
         run_all=whole.flag("run_all"),
         first_alarm=whole.flag("first_alarm", missing=False),
         plausible=whole.flag("plausible", missing=False),
+        posterior=_sample(whole.entry("posterior")) if "posterior" in whole.values else None,
         seed=whole.count("seed", 0, 2**64 - 1),
         priority=whole.text("priority", PRIORITIES),
         limit=whole.number("limit", 0.0, 1.0),
         starts=tuple(starts),
         runs=whole.count("runs"),
+        first_looks=whole.count("first_looks") if "first_looks" in whole.values else 0,
+        model_time_s=whole.number("model_time", 0.0) if "model_time" in whole.values else 0.0,
         verdict=verdict.astype(np.str_),
         state=texts["state"].astype(np.str_),
         expected=expected,
@@ -226,6 +255,21 @@ def read_map(path: PathLike) -> Map:
         alarms=dict(sorted(counts.alarms.items())),
         figures=counts.figures,
         units=counts.units,
+    )
+
+
+def _sample(entry: Entry) -> MapSample:
+    first, last = entry.numbers("rows", 2)
+    members = entry.count("members")
+    return MapSample(
+        sha256=entry.text("sha256"),
+        version=entry.text("version"),
+        log=entry.text("log"),
+        log_sha256=entry.text("log_sha256"),
+        rows=(int(first), int(last)),
+        members=members,
+        effective=entry.number("effective", 0.0, members),
+        keys=tuple(entry.texts("keys")),
     )
 
 

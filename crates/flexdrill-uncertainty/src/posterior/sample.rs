@@ -149,6 +149,24 @@ impl Sample {
         self.places.is_empty()
     }
 
+    /// The score below which a share of the sample lies, for an entry that the sample decides; none for another.
+    pub(crate) fn score(&self, entry: usize, share: f64) -> Option<f64> {
+        let column = self.places.iter().position(|place| *place == Place::Entry(entry))?;
+        let before = self
+            .cumulated
+            .iter()
+            .scan(0.0, |before, sum| Some(sum - std::mem::replace(before, *sum)));
+        let scores = self.members.iter().map(|member| member[column]);
+        let mut weighted: Vec<(f64, f64)> = scores.zip(before).collect();
+        weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut sum = 0.0;
+        let found = weighted.iter().find(|(_, weight)| {
+            sum += weight;
+            sum >= share
+        });
+        found.or(weighted.last()).map(|(score, _)| *score)
+    }
+
     /// Makes `scores`, a draw from the prior, one from the sample: of the member below which a share of the weights lies.
     pub(crate) fn draw(&self, factor: &DMatrix<f64>, scores: &mut [f64], share: f64, random: &mut Random) {
         let at = self.cumulated.partition_point(|sum| *sum <= share);
