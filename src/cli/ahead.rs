@@ -119,7 +119,7 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
     let drilling = Drilling::of(&config, question.weight, azimuth).map_err(in_config)?;
     let ahead = question.stations as f64 * SPACING;
     let planned = table
-        .map(|table| Plan::laid(&table.rows, &drilling, bit, ahead))
+        .map(|table| Plan::laid(&table.rows, table.offset, &drilling, bit, ahead))
         .or_else(|| args.radius.map(|radius| Plan::arc(radius, &drilling, bit, ahead)));
     let taken = match &present {
         Some(present) => taken(args, present, &name, &drilling).with_context(|| name.clone())?,

@@ -7,7 +7,6 @@ use anyhow::Context;
 
 use crate::drilling::plan::{Row, read};
 use flexdrill_config::{Config, PlannedStation};
-use flexdrill_core::units::rad_to_deg;
 
 /// Largest file of a table (bytes).
 const LARGEST: u64 = 4 << 20;
@@ -43,17 +42,12 @@ pub(super) fn with_stations(config: Config, name: &str, path: &Path) -> anyhow::
     if config.well.plan.as_ref().is_none_or(|plan| plan.file.is_none()) {
         return Ok(config);
     }
-    let Some(Planned { name, rows }) = Planned::of(&config, name, path)? else {
+    let Some(Planned { name, rows, .. }) = Planned::of(&config, name, path)? else {
         return Ok(config);
     };
     let below = config.well.length() + BELOW_BIT;
     let used = rows.partition_point(|row| row.depth < below) + 1;
-    let station = |row: &Row| PlannedStation {
-        measured_depth: row.depth,
-        inclination_deg: rad_to_deg(row.inclination),
-        azimuth_deg: rad_to_deg(row.azimuth),
-    };
-    let stations = rows.iter().take(used).map(station).collect();
+    let stations = rows.iter().take(used).map(PlannedStation::from).collect();
     Ok(config.with_planned(&name, stations)?)
 }
 
@@ -63,6 +57,8 @@ pub(super) struct Planned {
     pub name: String,
     /// Its stations.
     pub rows: Vec<Row>,
+    /// Where it begins, from the point of the hole at the depth of the first (m).
+    pub offset: [f64; 3],
 }
 
 impl Planned {
@@ -73,7 +69,11 @@ impl Planned {
     pub fn at(path: &Path) -> anyhow::Result<Self> {
         let (name, text) = read_table(path, "the stations of the plan around the bit")?;
         let rows = read(&name, &text)?;
-        Ok(Self { name, rows })
+        Ok(Self {
+            name,
+            rows,
+            offset: [0.0; 3],
+        })
     }
 
     /// The plan of a configuration, which has this name and stands in this file; none where it has no plan.
@@ -87,11 +87,15 @@ impl Planned {
         if let Some(file) = &plan.file {
             let path = path.parent().unwrap_or(Path::new("")).join(file);
             let table = Self::at(&path).with_context(|| format!("{name}: well.plan.file"))?;
-            return Ok(Some(table));
+            return Ok(Some(Self {
+                offset: plan.offset,
+                ..table
+            }));
         }
         Ok(Some(Self {
             name: format!("{name}: well.plan.stations"),
             rows: plan.stations.iter().map(Row::from).collect(),
+            offset: plan.offset,
         }))
     }
 }

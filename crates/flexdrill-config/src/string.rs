@@ -14,6 +14,8 @@ use flexdrill_core::tool::{
 };
 use flexdrill_core::units::{deg_to_rad, sine_and_cosine};
 
+/// Shortest section (m).
+pub(super) const SHORTEST: f64 = 10.0;
 /// Longest string (m): the longest wells have 15 km.
 const LONGEST: f64 = 15_000.0;
 /// Limits of a pull (kN).

@@ -9,6 +9,8 @@ use super::{Config, ConfigError};
 
 /// A target narrower than a centimetre is less than any survey knows, and one wider than a hundred metres is none.
 const TARGET: Bound = Bound::within(0.01, 100.0);
+/// A hole that is farther off is another one.
+const OFFSET: Bound = Bound::within(-100.0, 100.0);
 /// Longer plans stand in a file.
 const STATIONS: Bound = Bound::within(2.0, 1000.0);
 
@@ -30,6 +32,15 @@ pub struct WellPlan {
     #[serde(default = "half_a_metre")]
     #[schemars(transform = TARGET.in_schema())]
     pub target: f64,
+    /// Where the plan begins (m), from the point of the hole at the depth of the first station: along azimuth 0 of the hole's
+    /// plane, to the right, down, -100 to 100 each. `flexdrill rebase` sets it where the hole has left its plan. Default
+    /// [0, 0, 0].
+    #[serde(default, skip_serializing_if = "is_on_hole")]
+    pub offset: [f64; 3],
+}
+
+fn is_on_hole(offset: &[f64; 3]) -> bool {
+    *offset == [0.0; 3]
 }
 
 section! {
@@ -46,6 +57,16 @@ section! {
 }
 
 impl Config {
+    /// A copy with another plan, or none.
+    ///
+    /// # Errors
+    /// When the plan does not make sense; it is named `origin`.
+    pub fn with_plan(&self, origin: &str, plan: Option<WellPlan>) -> Result<Self, ConfigError> {
+        let mut schema = self.schema.clone();
+        schema.well.plan = plan;
+        Self::from_schema(origin, schema)
+    }
+
     /// A copy whose plan has these stations in place of `well.plan.file`, so that a recording of it needs no file.
     ///
     /// # Errors
@@ -74,6 +95,10 @@ impl WellPlan {
             "m",
             "below a centimetre no survey knows where the bit is; beyond 100 m every hole is on plan",
         );
+        let reason = "a hole that is farther from its plan is another hole";
+        for part in self.offset {
+            c.number("offset", part, OFFSET, "m", reason);
+        }
         if let Some(file) = &self.file {
             c.require(
                 !file.trim().is_empty(),

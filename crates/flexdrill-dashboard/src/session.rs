@@ -189,7 +189,7 @@ fn plan(plan: &WellPlan) -> Value {
             })
         })
         .collect();
-    json!({"target": plan.target, "file": plan.file, "stations": stations})
+    json!({"target": plan.target, "file": plan.file, "offset": plan.offset, "stations": stations})
 }
 
 #[cfg(test)]
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!((of["target"].as_f64(), of["file"].is_null()), (Some(0.3), true));
         assert_eq!(
             planned("{file: plan.csv}"),
-            json!({"target": 0.5, "file": "plan.csv", "stations": []})
+            json!({"target": 0.5, "file": "plan.csv", "offset": [0.0, 0.0, 0.0], "stations": []})
         );
     }
 

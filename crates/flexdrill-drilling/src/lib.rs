@@ -12,6 +12,7 @@ pub mod learnt;
 pub mod loads;
 pub mod plan;
 pub mod range;
+pub mod surveyed_hole;
 pub mod surveys;
 pub mod table;
 pub mod to_plan;

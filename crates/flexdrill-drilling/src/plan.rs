@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flexdrill_config::PlannedStation;
+use flexdrill_config::{PlannedStation, Well, WellPlan};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 use super::table::{self, COLUMNS, Kind, TableError};
@@ -27,6 +27,16 @@ pub struct Row {
     pub inclination: f64,
     /// Azimuth (rad).
     pub azimuth: f64,
+}
+
+impl From<&Row> for PlannedStation {
+    fn from(row: &Row) -> Self {
+        Self {
+            measured_depth: row.depth,
+            inclination_deg: rad_to_deg(row.inclination),
+            azimuth_deg: rad_to_deg(row.azimuth),
+        }
+    }
 }
 
 impl From<&PlannedStation> for Row {
@@ -207,26 +217,75 @@ fn on_hole(drilling: &Drilling, depth: f64) -> [f64; 3] {
     points.last().map_or([0.0; 3], |at| [at.x, at.y, at.z])
 }
 
+/// The points of rows from one depth to another (m), laid from a position there in steps of at most [`STEP`], each with its
+/// depth.
+fn lay(rows: &[Row], [begin, end]: [f64; 2], mut at: [f64; 3]) -> Vec<(f64, [f64; 3])> {
+    let count = ((end - begin) / STEP).ceil().max(1.0);
+    let step = (end - begin) / count;
+    let mut points = vec![(begin, at)];
+    for index in 0..count as usize {
+        let middle = direction(rows, begin + (index as f64 + 0.5) * step);
+        at = std::array::from_fn(|axis| at[axis] + step * middle[axis]);
+        points.push((begin + (index + 1) as f64 * step, at));
+    }
+    points
+}
+
+/// The plan of a well whose kick-off moves down by a length (m), in the frame of the new kick-off, which is at `top` (m) in that of
+/// the old one. What lies above is left out; the rest remains where it is, however far the hole has left it. None where the plan
+/// names a file, or ends above.
+pub fn moved_down(plan: &WellPlan, well: &Well, by: f64, top: [f64; 3]) -> Option<WellPlan> {
+    let rows: Vec<Row> = plan.stations.iter().map(Row::from).collect();
+    let (first, last) = (rows.first()?, rows.last()?);
+    if last.depth <= by {
+        return None;
+    }
+    let mut offset = plan.offset;
+    let mut kept: Vec<Row> = rows.iter().copied().filter(|row| row.depth > by).collect();
+    if first.depth < by {
+        // The plan at the new kick-off, in the plane of the hole, and how far that is from the hole there.
+        let laid = in_plane_at(&rows, well.length());
+        let begin = well.course_to(first.depth).position;
+        let begin = std::array::from_fn(|axis| begin[axis] + offset[axis]);
+        let points = lay(&laid, [first.depth, by], begin);
+        let at = points.last().map_or(begin, |(_, at)| *at);
+        offset = std::array::from_fn(|axis| at[axis] - top[axis]);
+        let [inclination, azimuth] = heading(&rows, by);
+        let at = Row {
+            depth: by,
+            inclination,
+            azimuth,
+        };
+        kept.insert(0, at);
+    } else if first.depth == by {
+        kept.insert(0, *first);
+    }
+    let station = |row: &Row| {
+        PlannedStation::from(&Row {
+            depth: row.depth - by,
+            ..*row
+        })
+    };
+    Some(WellPlan {
+        stations: kept.iter().map(station).collect(),
+        offset,
+        ..plan.clone()
+    })
+}
+
 impl Plan {
-    /// Rows that [`covers`] accepts, laid from the hole as configured. What is compared ends `ahead` (m) below the bit at the
-    /// latest.
-    pub fn laid(rows: &[Row], drilling: &Drilling, bit: f64, ahead: f64) -> Self {
+    /// Rows that [`covers`] accepts, laid from the hole as configured, `offset` (m) from its point at the first row. What is
+    /// compared ends `ahead` (m) below the bit at the latest.
+    pub fn laid(rows: &[Row], offset: [f64; 3], drilling: &Drilling, bit: f64, ahead: f64) -> Self {
         let begin = rows.first().map_or(0.0, |row| row.depth);
         let last = rows.last().map_or(0.0, |row| row.depth);
         // A metre more than what is compared, so that the nearest point is not an end.
         let end = last.min(bit + ahead + 1.0);
         let compared = last.min(bit + ahead);
-        let count = ((end - begin) / STEP).ceil().max(1.0);
-        let step = (end - begin) / count;
-        let mut at = on_hole(drilling, begin);
-        let mut points = vec![(begin, at)];
-        for index in 0..count as usize {
-            let middle = direction(rows, begin + (index as f64 + 0.5) * step);
-            at = std::array::from_fn(|axis| at[axis] + step * middle[axis]);
-            points.push((begin + (index + 1) as f64 * step, at));
-        }
+        let on_hole = on_hole(drilling, begin);
+        let at = std::array::from_fn(|axis| on_hole[axis] + offset[axis]);
         Self {
-            points,
+            points: lay(rows, [begin, end], at),
             inclinations: [bit, compared].map(|depth| inclination(direction(rows, depth))),
             between: [bit, compared],
         }
@@ -382,5 +441,84 @@ mod tests {
         let [middle, quarter] = [0.5, 0.25].map(|share| between([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], share));
         assert!((inclination(middle) - PI / 4.0).abs() < 1e-12);
         assert!((inclination(quarter) - PI / 8.0).abs() < 1e-12);
+    }
+
+    /// A plan of 3 m radius, and a hole of 3.2 m that has left it: from the new kick-off every point of the plan is where it was,
+    /// twice. The plan as laid has chords of 20 mm: 1e-5 m.
+    #[test]
+    fn a_plan_stays_where_it_is_when_the_kick_off_moves() {
+        let text = include_str!("../../../tests/data/ahead.yaml");
+        let before = flexdrill_config::Config::from_text("ahead.yaml", text).unwrap();
+        let stations = [
+            (0.5, 0.0, 30.0),
+            (3.9, 0.0, 30.0),
+            (6.0, 40.1, 30.0),
+            (12.0, 90.0, 30.0),
+        ];
+        let station = |(measured_depth, inclination_deg, azimuth_deg)| PlannedStation {
+            measured_depth,
+            inclination_deg,
+            azimuth_deg,
+        };
+        let planned = WellPlan {
+            stations: stations.into_iter().map(station).collect(),
+            file: None,
+            target: 0.3,
+            offset: [0.0, 0.0, 0.1],
+        };
+        let before = before.with_plan("a plan", Some(planned)).unwrap();
+        let points = |config: &flexdrill_config::Config, bit: f64| {
+            let plan = config.well.plan.as_ref().unwrap();
+            let rows: Vec<Row> = plan.stations.iter().map(Row::from).collect();
+            let drilling = Drilling::of(config, 10e3, 0.0).unwrap();
+            let rows = in_plane_at(&rows, bit);
+            Plan::laid(&rows, plan.offset, &drilling, config.well.length(), 3.0).points
+        };
+        let bit = before.well.length();
+        let old = points(&before, bit);
+        let mut now = before.clone();
+        let (mut moved, mut top) = (0.0, [0.0; 3]);
+        for length in [0.46, 4.0] {
+            let by = length;
+            let drilled: Vec<[f64; 2]> = vec![[0.33, 0.0]; (by / 0.02_f64).round() as usize];
+            let next = now.rebased(&drilled, 0.02).unwrap();
+            let at: [f64; 3] = now.well.course_to(by).position.into();
+            let plan = moved_down(now.well.plan.as_ref().unwrap(), &now.well, by, at).unwrap();
+            now = next.with_plan("moved", Some(plan)).unwrap();
+            moved += by;
+            top = std::array::from_fn(|axis| top[axis] + at[axis]);
+            let new = points(&now, bit - moved);
+            let mut compared = 0;
+            for (depth, at) in &new {
+                let nearest = old.iter().min_by(|a, b| {
+                    let off = |point: &(f64, [f64; 3])| (point.0 - depth - moved).abs();
+                    off(a).total_cmp(&off(b))
+                });
+                let (of, wanted) = nearest.unwrap();
+                let along = depth + moved - of;
+                if along.abs() > 0.011 {
+                    continue;
+                }
+                compared += 1;
+                let off: f64 = (0..3).map(|axis| (at[axis] + top[axis] - wanted[axis]).powi(2)).sum();
+                // The same point but for the way along the plan.
+                assert!(
+                    (off.sqrt() - along.abs()).abs() < 2e-4,
+                    "{depth} m: {} {along}",
+                    off.sqrt()
+                );
+            }
+            assert!(compared > 100, "{compared}");
+        }
+        assert!(now.well.plan.as_ref().unwrap().stations[0].measured_depth == 0.0);
+        // What ends above is none, and a name of a table is no plan.
+        let plan = before.well.plan.as_ref().unwrap();
+        assert_eq!(moved_down(plan, &before.well, 12.5, [0.0; 3]), None);
+        let named = WellPlan {
+            stations: Vec::new(),
+            file: Some("plan.csv".to_owned()),
+            ..plan.clone()
+        };
+        assert_eq!(moved_down(&named, &before.well, 0.1, [0.0; 3]), None);
     }
 }

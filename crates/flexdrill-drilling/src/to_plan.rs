@@ -207,7 +207,7 @@ pub fn compare(
     };
     // A range needs a number of tools; without one nothing here is known either.
     let ahead = nominal.len().min(spread.len()).checked_sub(1)?;
-    let plan = Plan::laid(&rows, drilling, bit, ahead as f64 * SPACING);
+    let plan = Plan::laid(&rows, planned.offset, drilling, bit, ahead as f64 * SPACING);
     let cone = Cone {
         last: ((plan.ahead() / SPACING + 1e-9).floor() as usize).min(ahead),
         plan: &plan,

@@ -52,8 +52,10 @@ export function laid(tool: Tool, bit: number, end: number): Point[] {
   const { plan } = tool;
   const begin = plan?.stations[0]?.measured_depth;
   if (!plan || plan.stations.length < 2 || begin === undefined) return [];
-  let at = onHole(tool, begin);
-  if (!at) return [];
+  const hole = onHole(tool, begin);
+  if (!hole) return [];
+  // A hole that has left its plan does not begin on it.
+  let at = hole.map((part, axis) => part + (plan.offset?.[axis] ?? 0)) as Point;
   const [x, y] = along(plan, bit);
   const plane = Math.hypot(x, y) > 1e-9 ? Math.atan2(y, x) : 0;
   const [sine, cosine] = [Math.sin(plane), Math.cos(plane)];
