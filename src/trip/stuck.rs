@@ -12,29 +12,43 @@ use flexdrill_trip::{Assembly, Limits, Stuck};
 use super::{Plan, StudyError};
 use crate::runs::{KeptAs, Work, run_all};
 
-/// The results.
+/// Figures of a plausible tool at a depth: pull and torque at the bit (N, N m), and 1 where the pull does not reach it.
+const FIGURES: usize = 3;
+
+/// A depth of the bit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Freed {
-    /// What the rig may do.
-    pub limits: Limits,
-    /// By depth of the bit (m), or why there is nothing.
-    pub rows: Vec<(f64, Result<Stuck, String>)>,
-    /// Pull and torque at the bit on the bottom, in 90 % of the plausible tools (N, N m); none of too few.
+pub struct Row {
+    /// Depth of the bit below the kick-off (m).
+    pub depth: f64,
+    /// Of the tool as configured, or why there is nothing.
+    pub stuck: Result<Stuck, String>,
+    /// Pull and torque at the bit in 90 % of the plausible tools (N, N m); none of too few.
     pub at_bit: [Option<Band>; 2],
     /// Plausible tools with a result, and those of them whose bit the pull does not reach.
     pub members: [usize; 2],
 }
 
-/// A plausible tool on the bottom.
+/// The results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Freed {
+    /// What the rig may do.
+    pub limits: Limits,
+    /// From the bottom up.
+    pub rows: Vec<Row>,
+    /// Plausible tools that were drawn.
+    pub drawn: usize,
+}
+
+/// A plausible tool at all depths.
 struct Run<'a> {
     assembly: Result<Assembly, String>,
-    depth: f64,
+    depths: &'a [f64],
     limits: &'a Limits,
 }
 
 impl Work for Run<'_> {
-    /// Pull and torque at the bit, and 1 where the pull does not reach it.
-    type Found = [f64; 3];
+    /// [`FIGURES`] of each depth; not a number where there are none.
+    type Found = Vec<f64>;
 
     fn cost(&self) -> f64 {
         1.0
@@ -45,55 +59,72 @@ impl Work for Run<'_> {
         None
     }
 
-    fn run(&self, _: &mut impl FnMut(f64)) -> Result<[f64; 3], String> {
+    fn run(&self, report: &mut impl FnMut(f64)) -> Result<Vec<f64>, String> {
         let assembly = self.assembly.as_ref().map_err(Clone::clone)?;
-        let stuck = assembly
-            .pull(self.depth, self.limits)
-            .map_err(|error| error.to_string())?;
-        let lost = if stuck.holds_at.is_some() { 1.0 } else { 0.0 };
-        Ok([stuck.at_bit, stuck.torque_at_bit(), lost])
+        let mut figures = Vec::with_capacity(FIGURES * self.depths.len());
+        for (index, &depth) in self.depths.iter().enumerate() {
+            // A depth without a solution leaves the others as they are.
+            figures.extend(match assembly.pull(depth, self.limits) {
+                Ok(stuck) => {
+                    let lost = if stuck.holds_at.is_some() { 1.0 } else { 0.0 };
+                    [stuck.at_bit, stuck.torque_at_bit(), lost]
+                }
+                Err(_) => [f64::NAN; FIGURES],
+            });
+            report((index + 1) as f64 / self.depths.len() as f64);
+        }
+        Ok(figures)
     }
 
-    fn figures(found: &[f64; 3]) -> Vec<f64> {
-        found.to_vec()
+    fn figures(found: &Vec<f64>) -> Vec<f64> {
+        found.clone()
     }
 
-    fn found(figures: Vec<f64>) -> Option<[f64; 3]> {
-        figures.try_into().ok()
+    fn found(figures: Vec<f64>) -> Option<Vec<f64>> {
+        Some(figures)
     }
 }
 
-/// Computes it for all depths of a plan, and for its plausible tools with the bit on the bottom.
+/// Computes it for all depths of a plan, and for its plausible tools.
 ///
 /// # Errors
 /// When nothing can be computed for the configuration, or its priors cannot be drawn.
 pub fn study(config: &Config, plan: &Plan, limits: Limits, progress: impl FnMut(f64)) -> Result<Freed, StudyError> {
     let assembly = Assembly::of(config)?;
     let priors = priors(config)?;
-    let [_, bottom] = assembly.depths();
     let runs: Vec<Run<'_>> = super::members(&priors, plan)
         .map(|assembly| Run {
             assembly,
-            depth: bottom,
+            depths: &plan.depths,
             limits: &limits,
         })
         .collect();
     let found = run_all(&runs, plan.jobs, None, progress)?;
-    let known: Vec<[f64; 3]> = found.into_iter().flatten().collect();
-    let band = |at: usize| Band::of(known.iter().map(|of| of[at]).collect());
-    let row = |&depth: &f64| (depth, assembly.stuck(depth, &limits).map_err(|error| error.to_string()));
+    let row = |(index, &depth): (usize, &f64)| {
+        let of_depth = found
+            .iter()
+            .flatten()
+            .filter_map(|of| of.chunks_exact(FIGURES).nth(index));
+        let known: Vec<&[f64]> = of_depth.filter(|of| of[0].is_finite()).collect();
+        let band = |at: usize| Band::of(known.iter().map(|of| of[at]).collect());
+        Row {
+            depth,
+            stuck: assembly.stuck(depth, &limits).map_err(|error| error.to_string()),
+            at_bit: [band(0), band(1)],
+            members: [known.len(), known.iter().filter(|of| of[2] > 0.0).count()],
+        }
+    };
     Ok(Freed {
         limits,
-        rows: plan.depths.iter().map(row).collect(),
-        at_bit: [band(0), band(1)],
-        members: [known.len(), known.iter().filter(|of| of[2] > 0.0).count()],
+        rows: plan.depths.iter().enumerate().map(row).collect(),
+        drawn: plan.members,
     })
 }
 
 impl Freed {
     /// With the bit on the bottom.
     fn on_bottom(&self) -> Option<&Stuck> {
-        self.rows.first()?.1.as_ref().ok()
+        self.rows.first()?.stuck.as_ref().ok()
     }
 }
 
@@ -106,24 +137,31 @@ fn cell(value: Option<f64>, digits: usize) -> String {
 
 /// The table by depth of the bit.
 pub fn csv(freed: &Freed) -> String {
-    let mut out =
-        "bit_depth_m,pull_kn,pull_at_bit_kn,torque_at_bit_nm,holds_at_m,critical_friction_factor,cause\n".to_owned();
-    for (depth, found) in &freed.rows {
-        let mut line = vec![fixed(*depth, 4)];
-        match found {
+    let mut out = "bit_depth_m,pull_kn,pull_at_bit_kn,torque_at_bit_nm,holds_at_m,critical_friction_factor,\
+                   pull_at_bit_low_kn,pull_at_bit_high_kn,torque_at_bit_low_nm,torque_at_bit_high_nm,tools_not_reached,\
+                   tools_unknown,cause\n"
+        .to_owned();
+    for row in &freed.rows {
+        let mut line = vec![fixed(row.depth, 4)];
+        let [pull, torque] = row.at_bit;
+        let ends = |band: Option<Band>| [band.map(|band| band.low), band.map(|band| band.high)];
+        let [known, lost] = row.members;
+        let mut of_members: Vec<String> = ends(pull).map(|end| cell(end.map(n_to_kn), 4)).to_vec();
+        of_members.extend(ends(torque).map(|end| cell(end, 2)));
+        of_members.extend([lost.to_string(), (freed.drawn - known).to_string()]);
+        match &row.stuck {
             Ok(stuck) => line.extend([
                 cell(Some(n_to_kn(stuck.pull)), 4),
                 cell(Some(n_to_kn(stuck.at_bit)), 4),
                 cell(Some(stuck.torque_at_bit()), 2),
                 cell(stuck.holds_at, 3),
                 cell(stuck.critical_factor, 4),
-                String::new(),
             ]),
-            Err(cause) => {
-                line.extend(vec![String::new(); 5]);
-                line.push(format!("\"{}\"", cause.replace('"', "\"\"")));
-            }
+            Err(_) => line.extend(vec![String::new(); 5]),
         }
+        line.extend(of_members);
+        let cause = row.stuck.as_ref().err();
+        line.push(cause.map_or_else(String::new, |cause| format!("\"{}\"", cause.replace('"', "\"\""))));
         out.push_str(&line.join(","));
         out.push('\n');
     }
@@ -163,15 +201,30 @@ pub fn figure(freed: &Freed) -> Drawn {
             .line(Line::new("beyond what slides out freely", points(&|at| at.overpull)).color(1))
     };
     let below = "measured depth below the kick-off (m)";
-    let at_bit = freed.rows.iter().filter_map(|(depth, found)| {
-        let stuck = found.as_ref().ok()?;
-        Some((*depth, n_to_kn(stuck.at_bit)))
+    let at_bit = freed.rows.iter().filter_map(|row| {
+        let stuck = row.stuck.as_ref().ok()?;
+        Some((row.depth, n_to_kn(stuck.at_bit)))
     });
-    let over_depth = Panel::new("Pull at the bit", "depth of the bit below the kick-off (m)", "kN")
+    let end = |of: fn(&Band) -> f64| -> Vec<(f64, f64)> {
+        let bands = freed
+            .rows
+            .iter()
+            .filter_map(|row| Some((row.depth, row.at_bit[0].as_ref()?)));
+        bands.map(|(depth, band)| (depth, n_to_kn(of(band)))).collect()
+    };
+    let mut over_depth = Panel::new("Pull at the bit", "depth of the bit below the kick-off (m)", "kN")
         .from_zero()
         .span(2)
         .legend(Legend::Stacked)
         .line(Line::new("of the largest pull", at_bit.collect()).color(0));
+    for (name, points) in [
+        ("5 % of the plausible tools are below", end(|band| band.low)),
+        ("5 % are above", end(|band| band.high)),
+    ] {
+        if points.len() > 1 {
+            over_depth = over_depth.line(Line::new(name, points).color(1));
+        }
+    }
     let mut panels = vec![
         along("Along the string", "measured depth from the kick-off (m)", false),
         along("Along the tool", below, true),
@@ -197,11 +250,30 @@ fn in_range(band: Option<Band>, digits: usize, shown: impl Fn(f64) -> f64) -> St
     })
 }
 
+/// The depth at which the least pull arrives, where that is not the bottom; none where it is.
+fn weakest(freed: &Freed) -> Option<String> {
+    let known = freed
+        .rows
+        .iter()
+        .filter_map(|row| Some((row, row.stuck.as_ref().ok()?)));
+    let (row, stuck) = known.min_by(|a, b| a.1.at_bit.total_cmp(&b.1.at_bit))?;
+    let bottom = freed.on_bottom()?;
+    // A tenth of a kilonewton is what words show.
+    (n_to_kn(bottom.at_bit - stuck.at_bit) >= 0.1).then(|| {
+        format!(
+            "Least arrives with the bit at {:.2} m: {:.1} kN{}.",
+            row.depth,
+            n_to_kn(stuck.at_bit),
+            in_range(row.at_bit[0], 1, n_to_kn)
+        )
+    })
+}
+
 /// The results in words, a line each.
 pub fn words(freed: &Freed) -> Vec<String> {
     let mut lines = Vec::new();
     let Some(stuck) = freed.on_bottom() else {
-        let cause = freed.rows.first().and_then(|(_, found)| found.as_ref().err());
+        let cause = freed.rows.first().and_then(|row| row.stuck.as_ref().err());
         lines.extend(cause.map(|cause| format!("Unknown what reaches a stuck tool: {cause}")));
         return lines;
     };
@@ -215,12 +287,13 @@ pub fn words(freed: &Freed) -> Vec<String> {
         "the rig's limit".to_owned()
     };
     let pull = n_to_kn(stuck.pull);
+    let [at_bit, torque_at_bit] = freed.rows.first().map_or([None; 2], |row| row.at_bit);
     lines.push(match stuck.holds_at {
         None => format!(
             "Stuck at {:.2} m: of a hook load of {pull:.1} kN, {limit}, {:.1} kN{} pull at the bit.",
             stuck.depth,
             n_to_kn(stuck.at_bit),
-            in_range(freed.at_bit[0], 1, n_to_kn)
+            in_range(at_bit, 1, n_to_kn)
         ),
         Some(at) => format!(
             "Stuck at {:.2} m: a hook load of {pull:.1} kN, {limit}, does not reach the bit. Friction takes all of it down to a \
@@ -228,19 +301,20 @@ pub fn words(freed: &Freed) -> Vec<String> {
             stuck.depth
         ),
     });
-    let [known, lost] = freed.members;
+    let [known, lost] = freed.rows.first().map_or([0; 2], |row| row.members);
     if lost > 0 {
         lines.push(format!(
             "In {lost} of {known} plausible tools the pull does not reach the bit."
         ));
     }
+    lines.extend(weakest(freed));
     // Torque by itself: the pull that presses the string into the bends would take more of it.
     lines.push(match stuck.turns_to {
         None => format!(
             "Of {:.0} N m at the top drive {:.0}{} N m arrive at the bit while nothing moves along the hole.",
             freed.limits.torque,
             stuck.torque_at_bit(),
-            in_range(freed.at_bit[1], 0, |torque| torque)
+            in_range(torque_at_bit, 0, |torque| torque)
         ),
         Some(at) => format!(
             "{:.0} N m at the top drive do not turn the bit: friction takes all of them down to a measured depth of {at:.2} m.",

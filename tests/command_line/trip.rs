@@ -112,6 +112,36 @@ fn a_largest_pull_has_what_reaches_the_stuck_tool() {
     );
 }
 
+/// The band of each depth is that of the plausible tools there: it holds the tool as configured, and a pull of little more than
+/// that of pulling out does not reach the bit of some.
+#[test]
+fn what_reaches_a_stuck_tool_has_a_range_at_each_depth() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |pull: &str, name: &str| -> Vec<std::collections::BTreeMap<String, String>> {
+        let out = folder.path().join(name);
+        let more = ["--every", "2.5", "--members", "19", "--max-pull", pull];
+        trip("rig", &out, &more);
+        let mut reader = csv::Reader::from_path(out.join("stuck.csv")).unwrap();
+        reader.deserialize().map(Result::unwrap).collect()
+    };
+    let strong = rows("150", "strong");
+    assert_eq!(strong.len(), 4);
+    for row in &strong {
+        let [low, at, high] =
+            ["pull_at_bit_low_kn", "pull_at_bit_kn", "pull_at_bit_high_kn"].map(|column| number(row, column));
+        assert!(0.0 < low && low < at && at < high, "{row:?}");
+        let [low, at, high] =
+            ["torque_at_bit_low_nm", "torque_at_bit_nm", "torque_at_bit_high_nm"].map(|column| number(row, column));
+        assert!(low <= at && at <= high, "{row:?}");
+        assert_eq!(
+            (row["tools_not_reached"].as_str(), row["tools_unknown"].as_str()),
+            ("0", "0")
+        );
+    }
+    let weak = rows("20", "weak");
+    assert!(weak.iter().all(|row| row["tools_not_reached"] == "19"), "{weak:?}");
+}
+
 #[test]
 fn bad_arguments_are_refused_with_value_bound_and_unit() {
     let folder = tempfile::tempdir().unwrap();
