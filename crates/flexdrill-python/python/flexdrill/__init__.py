@@ -47,6 +47,7 @@ from ._groups import (
     Whirl,
 )
 from ._inputs import Input, Inputs, held
+from ._life import VERDICTS, Damage, JointLife, Life, read_life
 from ._map import Map, MapAxis, MapSample, read_map
 from ._native import __version__
 from ._results import BODIES, GROUPS, HAZARDS, HOLDERS, SEVERITIES, USUAL_GROUPS, WHIRL_KINDS, Recording, Snapshot
@@ -64,6 +65,7 @@ __all__ = [
     "QUANTILES",
     "SEVERITIES",
     "USUAL_GROUPS",
+    "VERDICTS",
     "WHIRL_KINDS",
     "Ageing",
     "AlarmEvent",
@@ -77,6 +79,7 @@ __all__ = [
     "ConfigError",
     "Contacts",
     "CountArray",
+    "Damage",
     "Energy",
     "FlagArray",
     "FlexdrillError",
@@ -87,7 +90,9 @@ __all__ = [
     "Input",
     "InputError",
     "Inputs",
+    "JointLife",
     "Joints",
+    "Life",
     "Map",
     "MapAxis",
     "MapSample",
@@ -114,6 +119,7 @@ __all__ = [
     "__version__",
     "held",
     "read_bag",
+    "read_life",
     "read_map",
     "read_sweep",
     "rollout",
