@@ -17,6 +17,7 @@
 //! - [`runs`]: runs that need nothing of each other, on threads, and kept.
 //! - [`health`]: status, diagnostics and conditions of the node.
 //! - [`bridge`]: a rig's own protocols joined to the twin's topics.
+//! - [`life_table`]: the table of `flexdrill life` on the disk. [`state_file`]: small files that outlast a restart of the node.
 //!
 //! What a run becomes is the crate [`flexdrill_session`], of which this program has three hosts: node, replay, look-ahead. Its
 //! rooms have their names here too: [`session`], [`ensemble`], [`drilling`], [`residuals`], [`alarms`], [`safe_window`],
@@ -33,6 +34,7 @@ pub mod cli;
 pub mod health;
 #[cfg(feature = "sweep")]
 pub mod hole_ahead;
+pub mod life_table;
 #[cfg(feature = "sweep")]
 pub mod map;
 pub mod node;
@@ -42,6 +44,7 @@ pub mod reach;
 pub mod runs;
 #[cfg(feature = "sweep")]
 pub mod sensitivity;
+pub mod state_file;
 #[cfg(feature = "sweep")]
 pub mod trip;
 

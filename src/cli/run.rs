@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use anyhow::Context as _;
 use clap::Args;
 
 use super::built_in::{self, BuiltIn};
@@ -11,15 +12,17 @@ use super::{WrongUse, numbers, plan, record_name, signals};
 use crate::bag::Losses;
 use crate::cli::output::say;
 use crate::dds::network::Network;
+use crate::life_table;
 use crate::live::Token;
 use crate::messages::TwinStatus;
 use crate::messages::topics::{self, Cadence};
 use crate::node::DEFAULT_NODE_NAME;
+use crate::node::life::LifeSetup;
 use crate::node::parameters;
-use crate::node::state_file;
 use crate::node::{self, LiveAddress, NodeSetup, RunSummary};
 use crate::ros::args::RosArgs;
 use crate::ros::service::ServiceMapping;
+use crate::state_file;
 use flexdrill_config::Config;
 use flexdrill_core::twin::Output;
 use flexdrill_ros2::dds::network::Reach;
@@ -61,10 +64,16 @@ pub(super) struct RunArgs {
     /// End after this much model time (s), or when model time has been stopped for as long, as without /clock.
     #[arg(long, value_name = "SECONDS", value_parser = numbers::seconds)]
     duration: Option<f64>,
-    /// Folder for the acknowledged and shelved alarms, which survive a restart; default $XDG_STATE_HOME/flexdrill or
-    /// ~/.local/state/flexdrill.
+    /// Folder for what survives a restart: the acknowledged and shelved alarms, and the surveys of the hole; default
+    /// $XDG_STATE_HOME/flexdrill or ~/.local/state/flexdrill.
     #[arg(long, value_name = "DIR")]
     state_dir: Option<PathBuf>,
+    /// Add the run to this table of `flexdrill life` while it runs, every minute and at its end.
+    #[arg(long, value_name = "FILE.csv")]
+    life: Option<PathBuf>,
+    /// Serial number of a joint whose life begins with this run. A new table needs none.
+    #[arg(long, value_name = "SERIAL", requires = "life")]
+    new: Vec<String>,
     /// Also publish over WebSocket, for Foxglove and Lichtblick; 127.0.0.1:8765 is their default. Viewers cannot act on
     /// the twin without --allow-control.
     #[arg(long, value_name = "ADDRESS:PORT")]
@@ -106,13 +115,16 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
     let network = network
         .configured(reach(asked.reach), &asked.interfaces, &asked.peers)
         .map_err(WrongUse::new)?;
-    // Alarms survive a restart only in a file for this domain and name: two nodes on one machine must not share it.
+    // Alarms and surveys survive a restart only in files for this domain and name: two nodes on one machine must not share them.
     let state_dir = args
         .state_dir
         .clone()
         .or_else(|| state_file::default_folder(|name| std::env::var(name).ok()));
-    let alarm_state =
-        state_dir.map(|folder| folder.join(state_file::file_name(network.domain_id, &identity.full_name())));
+    let state = |of: &str, extension: &str| {
+        let name = state_file::file_name(of, network.domain_id, &identity.full_name(), extension);
+        state_dir.as_ref().map(|folder| folder.join(name))
+    };
+    let (alarm_state, survey_state) = (state("alarms", "json"), state("surveys", "csv"));
     // The token is read before the node starts, so that a missing file
     // ends the program at once and not after the first viewer.
     let token = Token::where_allowed(args.allow_control, args.token_file.as_deref())?;
@@ -136,9 +148,20 @@ pub(super) fn run(args: &RunArgs, ros_args: &[String]) -> anyhow::Result<()> {
         rosout: ros_args.rosout.unwrap_or(true),
         checkpoint: args.checkpoint.clone(),
         alarm_state,
+        survey_state,
+        life: args.life.clone().map(|table| LifeSetup {
+            table,
+            new: args.new.clone(),
+        }),
         lifecycle: args.lifecycle,
         duration: args.duration.or(config.run.duration),
     };
+    // A table that refuses the run is named before the node starts.
+    if let Some(LifeSetup { table, new }) = &setup.life {
+        let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+        let now = now.map_or(0, |since| since.as_nanos() as i64);
+        life_table::check(table, &setup.config, now, new).with_context(|| format!("--life {}", table.display()))?;
+    }
     // The banner resolves every topic name, so that a remapping that is
     // not allowed fails before the network is entered.
     print_banner(&setup)?;
@@ -266,12 +289,18 @@ fn print_banner(setup: &NodeSetup) -> anyhow::Result<()> {
             "not kept, because there is no home folder; use --state-dir".to_owned(),
         ),
     }
+    if let Some(path) = &setup.survey_state {
+        row("surveys", path.display().to_string());
+    }
     // The address with the token is shown once, here: who has it may steer.
     if let Some(live) = &setup.live {
         row("live", format!("ws://{}", live.address));
         if let Some(token) = &live.token {
             row("steering", format!("ws://{}/?token={}", live.address, token.text()));
         }
+    }
+    if let Some(life) = &setup.life {
+        row("joint life", life.table.display().to_string());
     }
     if let Some(path) = &setup.record {
         row("recording", path.display().to_string());

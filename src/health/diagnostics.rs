@@ -2,19 +2,23 @@
 //! levels, with their own delays, so that a dashboard of diagnostics never contradicts the list of alarms.
 
 use super::alarms::alarms;
-use super::items::{configuration, inputs, measured, network, pacing, recording, solver};
+use super::items::{configuration, inputs, measured, network, pacing, recording, solver, surveys};
 use super::motion::MotionEvidence;
 use crate::messages::diagnostic_msgs::DiagnosticStatus;
 use crate::messages::{AlarmList, Residuals, TwinStatus};
-use crate::rig_inputs::Measured;
+use crate::rig_inputs::{Measured, Surveys};
 
 /// What is known of the rig besides its inputs.
 #[derive(Debug)]
 pub struct RigEvidence<'a> {
     /// What it measured.
     pub measured: &'a Measured,
+    /// Its surveys of the hole.
+    pub surveys: &'a Surveys,
     /// The present instant of the conditioner's clock (s).
     pub now: f64,
+    /// The present instant of the stamps (ns since 1970).
+    pub stamp_time: i64,
     /// The newest comparison with the twin.
     pub residuals: Option<&'a Residuals>,
 }
@@ -32,6 +36,7 @@ pub fn items(
         solver(status),
         inputs(status),
         measured(rig),
+        surveys(rig),
         configuration(status),
         motion.whirl(),
         motion.stick_slip(),
@@ -77,6 +82,17 @@ mod tests {
         }
     }
 
+    /// Of a rig that has sent nothing.
+    fn nothing<'a>(measured: &'a Measured, surveys: &'a Surveys) -> RigEvidence<'a> {
+        RigEvidence {
+            measured,
+            surveys,
+            now: 0.0,
+            stamp_time: 0,
+            residuals: None,
+        }
+    }
+
     fn item(name: &str, status: &TwinStatus, alarms: &[Alarm]) -> DiagnosticStatus {
         let list = AlarmList {
             alarms: alarms.to_vec(),
@@ -85,11 +101,7 @@ mod tests {
         let items = items(
             "n",
             status,
-            &RigEvidence {
-                measured: &Measured::default(),
-                now: 0.0,
-                residuals: None,
-            },
+            &nothing(&Measured::default(), &Surveys::default()),
             &MotionEvidence::default(),
             &list,
         );
@@ -191,11 +203,7 @@ mod tests {
             let items = items(
                 "n",
                 &running(),
-                &RigEvidence {
-                    measured: &Measured::default(),
-                    now: 0.0,
-                    residuals: None,
-                },
+                &nothing(&Measured::default(), &Surveys::default()),
                 &MotionEvidence::default(),
                 &list,
             );
@@ -222,6 +230,62 @@ mod tests {
         assert_eq!(item("solver", &running(), &alarms).level, DiagnosticStatus::OK);
     }
 
+    /// One survey in order, a late one, one below the bit, one in degrees, and one that waits.
+    #[test]
+    fn surveys_are_counted_and_the_last_refusal_is_there() {
+        let text = include_str!("../../config/default.yaml").replace("\nwell:\n", "\nwell:\n  kick_off_depth: 2000\n");
+        let mut surveys = Surveys::new(&flexdrill_config::Config::from_text("a deep kick-off", &text).unwrap());
+        let measured = Measured::default();
+        let shown = |surveys: &Surveys| {
+            let rig = RigEvidence {
+                stamp_time: 1_000_045_000_000_000,
+                ..nothing(&measured, surveys)
+            };
+            let list = AlarmList::default();
+            let all = items("n", &running(), &rig, &MotionEvidence::default(), &list);
+            let item = all.into_iter().find(|item| item.name == "n: surveys").unwrap();
+            let value = |key: &str| {
+                let pair = item.values.iter().find(|pair| pair.key == key);
+                pair.unwrap_or_else(|| panic!("{key}")).value.clone()
+            };
+            let keys = [
+                "accepted",
+                "refused",
+                "late",
+                "waiting",
+                "age of the newest (s)",
+                "last refusal",
+            ];
+            (item.message.clone(), keys.map(value))
+        };
+        let (calm, values) = shown(&surveys);
+        assert_eq!(calm, "no survey of the hole is known");
+        assert_eq!(values, ["0", "0", "0", "0", "not measured", "none"]);
+
+        let mut send = |depth: f64, inclination: f64| {
+            let message = crate::messages::RigSurvey {
+                header: crate::messages::std_msgs::Header {
+                    stamp: crate::messages::builtin_interfaces::Time::from_nanoseconds(1_000_000_000_000_000),
+                    ..Default::default()
+                },
+                measured_depth: depth,
+                inclination,
+                azimuth: f64::NAN,
+                ..Default::default()
+            };
+            surveys.accept(&message, 1_000_000_000_000_000, 0.5).is_ok()
+        };
+        assert!(send(2004.0, 1.2) && send(2003.0, 1.0) && send(2006.0, 1.6));
+        assert!(!send(2004.5, 70.0) && !send(1999.0, 0.1));
+        let (calm, values) = shown(&surveys);
+        assert_eq!(
+            calm,
+            "2 surveys of the hole, the deepest at 2004.00 m, the newest 45 s old; 1 below the bit waits for the hole as drilled"
+        );
+        assert_eq!(values[..5], ["3", "2", "1", "1", "45"]);
+        assert!(values[5].contains("measured_depth = 1999.00 m"), "{}", values[5]);
+    }
+
     #[test]
     fn a_figure_that_was_not_measured_is_not_a_number() {
         let resumed = TwinStatus {
@@ -241,11 +305,7 @@ mod tests {
         let items = items(
             "n",
             &resumed,
-            &RigEvidence {
-                measured: &Measured::default(),
-                now: 0.0,
-                residuals: None,
-            },
+            &nothing(&Measured::default(), &Surveys::default()),
             &motion,
             &AlarmList::default(),
         );

@@ -7,6 +7,7 @@ use crate::alarms::AlarmId;
 use crate::messages::{Residuals, TwinStatus};
 use flexdrill_core::inputs::{InputKind, MeasuredKind};
 use flexdrill_outputs::words;
+use flexdrill_text::counted;
 
 /// Said of a rig whose measured values were not compared with the twin yet.
 const NOT_COMPARED: &str = "nothing: rig and twin were not compared yet";
@@ -110,6 +111,48 @@ pub(super) fn measured(rig: &RigEvidence<'_>) -> Item {
                 "follows the rig",
                 rig.residuals.map_or_else(|| NOT_COMPARED.to_owned(), followed),
             ),
+        ],
+    }
+}
+
+/// The surveys of the hole. Their alarm, on the plan, is that of the hole.
+pub(super) fn surveys(rig: &RigEvidence<'_>) -> Item {
+    let counts = rig.surveys.counts();
+    let age = counts
+        .newest
+        .map_or(f64::NAN, |stamp| rig.stamp_time.saturating_sub(stamp) as f64 * 1e-9);
+    let mut calm = match counts.deepest {
+        None => "no survey of the hole is known".to_owned(),
+        Some(depth) => format!(
+            "{} of the hole, the deepest at {depth:.2} m, the newest {} old",
+            counted(counts.known, "survey"),
+            figure_in(age, 0, "s")
+        ),
+    };
+    if counts.earlier > 0 {
+        calm += &format!("; {} of them came in an earlier run", counts.earlier);
+    }
+    match counts.waiting {
+        0 => {}
+        1 => calm += "; 1 below the bit waits for the hole as drilled",
+        several => calm += &format!("; {several} below the bit wait for the hole as drilled"),
+    }
+    let refusal = rig.surveys.newest_refusal().map(|refused| refused.to_string());
+    Item {
+        name: "surveys",
+        alarms: &[],
+        calm,
+        values: vec![
+            ("accepted", (counts.received - counts.refused).to_string()),
+            ("refused", counts.refused.to_string()),
+            ("last refusal", refusal.unwrap_or_else(|| "none".to_owned())),
+            ("late", counts.late.to_string()),
+            ("waiting", counts.waiting.to_string()),
+            ("known", counts.known.to_string()),
+            ("of an earlier run", counts.earlier.to_string()),
+            ("age of the newest (s)", figure(age, 0)),
+            ("unreadable", counts.unreadable.to_string()),
+            ("came too fast to be taken", counts.overrun.to_string()),
         ],
     }
 }

@@ -11,9 +11,9 @@ use super::NodeError;
 use super::advisor::{Acting, Advisor, InForce};
 use super::confirmed::Confirmation;
 use super::publish::PublisherParts;
-use super::state_file::{self, StateError, StateWriter};
 use crate::alarms::{AlarmBook, Request};
 use crate::health::conditions::{NodeConditions, NodeState, RecordingState};
+use crate::state_file::{self, Kept, StateError, StateWriter, Words};
 use flexdrill_alarms::{Refusal, Saved, Time};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepFailure;
@@ -64,7 +64,26 @@ pub struct AlarmDesk {
     /// The conditions of the node itself.
     conditions: NodeConditions,
     /// Writes the state to its file, with the number of the newest event that it was given.
-    writer: Option<(StateWriter, u64)>,
+    writer: Option<(StateWriter<Saved>, u64)>,
+}
+
+/// Acknowledgements, shelvings and the figures of the alarms, as JSON.
+impl Kept for Saved {
+    const WORDS: Words = Words {
+        state: "the alarms' state",
+        of_node: "the alarms",
+        without: "all alarms begin as normal",
+        lost: "acknowledgements and shelvings",
+    };
+
+    fn encode(&self) -> std::io::Result<Vec<u8>> {
+        // A state of numbers, words and lists fails to encode only without memory.
+        Ok(serde_json::to_vec(self)?)
+    }
+
+    fn decode(bytes: &[u8]) -> Result<Self, String> {
+        serde_json::from_slice(bytes).map_err(|error| error.to_string())
+    }
 }
 
 impl AlarmDesk {
@@ -185,7 +204,7 @@ pub(super) fn judge_node(
 }
 
 /// The state of an earlier run and the writer for this one; neither where another node uses the file.
-fn open(path: &Path) -> (Option<Saved>, Option<StateWriter>) {
+fn open(path: &Path) -> (Option<Saved>, Option<StateWriter<Saved>>) {
     let logged = |error: StateError| tracing::warn!("{error}");
     match StateWriter::start(path.to_owned()) {
         Err(error @ StateError::Owned { .. }) => {

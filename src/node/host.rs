@@ -48,6 +48,9 @@ impl Host for NodeHost<'_> {
             Some((thinned, frame)) => thinned.share(frame, encoded.topic, encoded.cdr)?,
             None => Share::Same,
         };
+        if let Some(life) = &self.parts.life {
+            life.take(encoded.topic, encoded.cdr);
+        }
         // Each message is encoded once. DDS may get fewer of them, and combined ones; recording and viewers always get all.
         match share {
             Share::Same => publishers.publish(encoded.topic, encoded.cdr),

@@ -4,7 +4,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::clocks::Clocks;
 use crate::rig_inputs::{
-    Carried, Driver, DriverId, Intake, Measured, RigSample, SafeValueEvent, SampleRefused, SampleSource, stamped,
+    Carried, Driver, DriverId, Intake, KeptSurveys, Measured, Restored, RigSample, SafeValueEvent, SampleRefused,
+    SampleSource, Taken, stamped,
 };
 use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{InputKind, Stamp};
@@ -130,11 +131,23 @@ impl RigInputs {
         accepted.err()
     }
 
-    /// Accepts a survey, or returns the refusal.
-    pub fn accept_survey(&self, message: &RigSurvey) -> Option<SampleRefused> {
+    /// Accepts a survey.
+    ///
+    /// # Errors
+    /// Why it is refused.
+    pub fn accept_survey(&self, message: &RigSurvey) -> Result<Taken, SampleRefused> {
         let stamp = self.clocks.stamp_time();
-        let accepted = self.locked().accept_survey(message, stamp, self.max_skew);
-        accepted.err()
+        self.locked().accept_survey(message, stamp, self.max_skew)
+    }
+
+    /// Takes the surveys of an earlier run; none where they are of another hole.
+    pub fn restore_surveys(&self, kept: &KeptSurveys) -> Option<Restored> {
+        self.locked().restore_surveys(kept)
+    }
+
+    /// The surveys for the next run.
+    pub fn kept_surveys(&self) -> KeptSurveys {
+        self.locked().surveys().kept()
     }
 
     /// The surveys that are known, in the order of arrival.

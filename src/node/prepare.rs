@@ -15,6 +15,7 @@ use super::control::{self, Control, ParameterUpdate};
 use super::following::{self, Moves};
 use super::forecast::ForecastDesk;
 use super::inputs::RigInputs;
+use super::life::JointLife;
 use super::publish::{Publisher, PublisherParts};
 use super::publishers::Publishers;
 use super::receive::{self, SampleReceiver};
@@ -24,7 +25,7 @@ use super::set_point::SharedSetPoint;
 use super::simulator::{self, Simulator};
 use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
-use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters};
+use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters, surveys};
 use crate::bag::{RecordingThread, Topic};
 use crate::drilling::live::{Point, SharedPoints, split};
 use crate::ensemble::{self, Ensemble, Pace, Running};
@@ -289,7 +290,10 @@ impl PreparedNode {
         }
         tasks.spawn(receive::receive_stamped(receiver(), self.stamped_samples));
         tasks.spawn(receive::receive_measured(receiver(), self.measured_samples));
-        tasks.spawn(receive::receive_surveys(receiver(), self.surveys));
+        // Surveys of the last run are there before the first frame, so that all of a recording knows them.
+        let survey_file = setup.survey_state.as_deref();
+        let survey_file = survey_file.and_then(|path| surveys::open(path, &self.inputs));
+        tasks.spawn(receive::receive_surveys(receiver(), self.surveys, survey_file));
         tasks.spawn(receive::update_targets(self.inputs.clone()));
 
         // The alarms begin with the state of the last run: an acknowledgement survives a restart of the node.
@@ -318,6 +322,8 @@ impl PreparedNode {
         }
         // The forecast desk exists only where forecasts are made, so that nothing is published that never changes.
         let forecasts = answering.forecasts.as_ref().map(Arc::clone);
+        let life = setup.life.clone().map(JointLife::start).transpose();
+        let life = life.map_err(|error| NodeError::Stopped(format!("the joints' life has no thread: {error}")))?;
         let parts = PublisherParts {
             end: self.publisher_end,
             publishers: self.publishers,
@@ -337,6 +343,7 @@ impl PreparedNode {
             set_point: Arc::clone(&answering.set_point),
             moves: self.moves,
             drilled: self.drilled,
+            life,
         };
         let publisher = Publisher::new(parts, session).map_err(|error| NodeError::Stopped(error.to_string()))?;
         // The publisher runs before the solver builds its tool, which takes seconds: status and alarms of the node

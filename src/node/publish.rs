@@ -14,6 +14,7 @@ use super::following::Moves;
 use super::forecast::ForecastDesk;
 use super::host::NodeHost;
 use super::inputs::RigInputs;
+use super::life::JointLife;
 use super::publishers::Publishers;
 use super::received::{Received, ReceivedQueue};
 use super::set_point::SharedSetPoint;
@@ -87,6 +88,8 @@ pub struct PublisherParts {
     pub moves: Moves,
     /// Takes the hole as drilled, for checkpoints.
     pub drilled: Arc<SharedPoints>,
+    /// Adds the run to the joints' lives; none without a table.
+    pub life: Option<JointLife>,
 }
 
 /// Publishes the run.
@@ -428,6 +431,8 @@ impl Publisher {
         let intake = self.parts.inputs.snapshot();
         let rig = RigEvidence {
             measured: intake.measured(),
+            surveys: intake.surveys(),
+            stamp_time: self.parts.clocks.stamp_time(),
             now: self.parts.clocks.age_time(),
             residuals: self.session.residuals(),
         };

@@ -7,7 +7,8 @@ use std::time::Duration;
 use super::confirmed::Confirmed;
 use super::inputs::RigInputs;
 use super::received::{Received, ReceivedSender, plain_topic};
-use crate::rig_inputs::{Carried, Driver, DriverId, SampleRefused};
+use super::surveys::SurveyFile;
+use crate::rig_inputs::{Carried, Driver, DriverId, SampleRefused, Taken};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
@@ -219,17 +220,25 @@ pub async fn receive_measured(receiver: SampleReceiver, samples: Arc<Inbox<Sampl
     .await;
 }
 
-/// Receives the surveys on `rig/survey` for as long as it is polled.
-pub async fn receive_surveys(receiver: SampleReceiver, samples: Arc<Inbox<Sample>>) {
+/// Receives the surveys on `rig/survey` for as long as it is polled, and keeps them in a file where there is one.
+pub async fn receive_surveys(receiver: SampleReceiver, samples: Arc<Inbox<Sample>>, file: Option<SurveyFile>) {
     receive(
         receiver,
         &topics::RIG_SURVEY,
         Carried::Surveys,
         &samples,
-        |receiver, message: RigSurvey, _| {
-            let refused = receiver.inputs.accept_survey(&message);
+        move |receiver, message: RigSurvey, _| {
+            let taken = receiver.inputs.accept_survey(&message);
             receiver.record(Received::Survey(message));
-            refused.into_iter().collect()
+            if let (Ok(Taken::New | Taken::Waits { .. }), Some(file)) = (&taken, &file) {
+                file.save(receiver.inputs.kept_surveys());
+            }
+            if let Some(advice) = taken.as_ref().ok().and_then(|taken| taken.advice())
+                && let Some(more) = log_ending("rig/survey: waits")
+            {
+                tracing::warn!("{advice}{more}");
+            }
+            taken.err().into_iter().collect()
         },
     )
     .await;

@@ -3,6 +3,7 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
+use super::life::LifeSetup;
 use super::{DEFAULT_NODE_NAME, NodeError};
 use crate::bag::Recording;
 use crate::live::Token;
@@ -40,6 +41,10 @@ pub struct NodeSetup {
     pub checkpoint: Option<PathBuf>,
     /// File that keeps the alarms' state over a restart.
     pub alarm_state: Option<PathBuf>,
+    /// File that keeps the surveys over a restart.
+    pub survey_state: Option<PathBuf>,
+    /// The table of the joints' lives that the run is added to.
+    pub life: Option<LifeSetup>,
     /// A managed node: it begins unconfigured and follows `~/change_state`.
     pub lifecycle: bool,
     /// Model time after which it ends, or wall time for which model time may stand still (s).

@@ -17,8 +17,8 @@ use flexdrill::messages::{
     AcknowledgeAlarmRequest, Alarm, AlarmEvent, AlarmList, Bands, CdrError, ShelveAlarmRequest, TwinStatus, from_cdr,
     topics,
 };
-use flexdrill::rig_inputs::Measured;
 use flexdrill::rig_inputs::{Driver, DriverId, Drivers, Rule};
+use flexdrill::rig_inputs::{Measured, Surveys};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::{FailureCause, StepFailure};
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute};
@@ -669,7 +669,9 @@ fn a_twin_that_differs_from_its_configuration_says_so() {
 fn configuration_item(list: &AlarmList) -> DiagnosticStatus {
     let rig = RigEvidence {
         measured: &Measured::default(),
+        surveys: &Surveys::default(),
         now: 0.0,
+        stamp_time: 0,
         residuals: None,
     };
     let items = diagnostics::items("n", &TwinStatus::default(), &rig, &MotionEvidence::default(), list);
@@ -821,7 +823,7 @@ fn a_state_of_an_earlier_run_is_marked_until_it_changes() {
 }
 
 /// The items of `/diagnostics` with their alarms.
-const ITEMS: [(&str, &[AlarmId]); 13] = [
+const ITEMS: [(&str, &[AlarmId]); 14] = [
     ("pacing", &[AlarmId::RealTime]),
     ("solver", &[AlarmId::Solver, AlarmId::ModelQuality]),
     (
@@ -833,6 +835,7 @@ const ITEMS: [(&str, &[AlarmId]); 13] = [
         ],
     ),
     ("measured", &[]),
+    ("surveys", &[]),
     ("configuration", &[AlarmId::ChangedParameters]),
     (
         "whirl",
@@ -977,7 +980,9 @@ fn diagnostics_never_contradict_the_alarms() {
         let list = book.list(Header::default());
         let rig = RigEvidence {
             measured: &Measured::default(),
+            surveys: &Surveys::default(),
             now: 0.0,
+            stamp_time: 0,
             residuals: None,
         };
         let items = diagnostics::items("n", &status, &rig, &motion, &list);

@@ -7,7 +7,7 @@ use flexdrill::dds::frames::{self, Beat, FromSide, LogLevel, Peer, Peers, Reques
 use flexdrill::dds::network::{Network, Reach};
 use flexdrill::dds::plan::{Offer, Plan, ReaderPlan, ServicePlan, WriterPlan};
 use flexdrill::messages::std_msgs::Header;
-use flexdrill::node::state_file;
+use flexdrill::state_file;
 use flexdrill_alarms::{AlarmSystem, Observation, Priority, Saved};
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
@@ -164,7 +164,7 @@ fn alarm_state() {
         ],
         run: &mut |bytes| {
             std::fs::write(&path, bytes).unwrap();
-            let saved = match state_file::read(&path) {
+            let saved: flexdrill_alarms::Saved = match state_file::read(&path) {
                 Ok(saved) => saved.unwrap(),
                 Err(error) => return says_why(&error),
             };

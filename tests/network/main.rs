@@ -16,3 +16,4 @@ mod others;
 mod outsider;
 mod peers;
 mod replies;
+mod surveys;

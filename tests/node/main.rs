@@ -20,10 +20,13 @@ mod demo;
 mod first_sample;
 mod following;
 #[cfg(feature = "full")]
+mod life;
+#[cfg(feature = "full")]
 mod mqtt;
 #[cfg(feature = "full")]
 mod opcua;
 mod recording;
 #[cfg(feature = "full")]
 mod safe_window;
+mod surveys;
 mod what_if;

@@ -86,13 +86,13 @@ fn a_replay_repeats_when_surveys_were_used() {
         &at("run"),
     ]);
     assert!(
-        said.contains("at 3.00 s: rig/survey: a survey was refused: measured_depth = 2005.53 m"),
+        said.contains("at 3.00 s: rig/survey: a survey at 2005.53 m waits: the hole of the configuration ends at 2005.03 m"),
         "{said}"
     );
     let said = replayed(&[&at("run"), Path::new("--out"), &at("again")]);
     assert!(said.contains("exact: the recording has everything"), "{said}");
 
-    // All that came is in both recordings, the refused one too.
+    // All that came is in both recordings, the one that waits too.
     let (run, again) = (
         messages(&at("run"), "twin/hole_ahead"),
         messages(&at("again"), "twin/hole_ahead"),

@@ -19,6 +19,7 @@ use serde_json::{Value, json};
 use crate::assets;
 use crate::board::Board;
 use crate::control::{Action, Control, Refused};
+use crate::life::LifeTable;
 use crate::snapshots::Snapshots;
 use crate::what_if::{Question, WhatIf};
 use flexdrill_live::{Gateway, WrongTokens, host_is_ours};
@@ -48,6 +49,8 @@ pub(crate) struct Shared {
     /// Random text that identifies this run of the server.
     pub instance: String,
     pub answers: SharedAnswers,
+    /// The table of joints' lives, where one is named.
+    pub life: Option<Arc<LifeTable>>,
 }
 
 /// Text for [`Shared::instance`].
@@ -91,6 +94,7 @@ pub(crate) fn router(shared: Shared) -> Router {
         .route("/api/control", get(control))
         .route("/api/what_if", get(what_if))
         .route("/api/mappings", get(mappings))
+        .route("/api/life", get(life))
         .route("/api/control/{what}", post(act))
         .layer(DefaultBodyLimit::max(LONGEST_BODY));
     assets::router()
@@ -135,6 +139,7 @@ async fn session(State(shared): Server) -> Json<Value> {
         "namespace": shared.namespace,
         "node": shared.node,
         "control": shared.control.is_some(),
+        "life": shared.life.is_some(),
         "limits": session.as_ref().map(|session| session.limits_json()),
         "bag": bag,
         "tool": session.as_ref().map(|session| session.tool_json()),
@@ -213,6 +218,17 @@ async fn mappings(State(shared): Server) -> Response {
         shared.board.mappings(&shared.namespace, service)
     };
     ([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response()
+}
+
+async fn life(State(shared): Server) -> Response {
+    let Some(life) = shared.life.as_ref().map(Arc::clone) else {
+        return Json(Value::Null).into_response();
+    };
+    // The table is on a disk, which may not answer.
+    match tokio::task::spawn_blocking(move || life.json()).await {
+        Ok(body) => ([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response(),
+        Err(_) => answer(StatusCode::INTERNAL_SERVER_ERROR, "the table of lives cannot be read"),
+    }
 }
 
 #[derive(Deserialize)]

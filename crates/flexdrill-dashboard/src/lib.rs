@@ -7,12 +7,13 @@
 //! - `GET /api/history`: the last hour, one frame per second; `GET /api/journal`: the alarms' events;
 //! - `GET /api/what_if`: the newest question to the look-ahead with its answers so far;
 //! - `GET /api/mappings`: what bridges make of the items of a rig's line;
+//! - `GET /api/life`: the joints to inspect, where a table of lives is named;
 //! - `GET /api/control`: who steers; `POST /api/control/{steer, release, acknowledge, shelve, unshelve, reset, pause,
 //!   confirm_mapping, what_if, cancel_what_if}`, with the token.
 //!
 //! # Layout
 //! - `listen`: from DDS to page and board. `recorded`: from a bag to page and board.
-//! - `board`: the server's own knowledge of the twin, with `session`, `history`, `orbits` and `mappings`. `control`: steering.
+//! - `board`: the server's own knowledge of the twin, with `session`, `history`, `orbits` and `mappings`. `life`: the table of joints' lives. `control`: steering.
 //!   `what_if`: questions to the look-ahead.
 //! - `api`, `assets`, `snapshots`: HTTP.
 
@@ -22,6 +23,7 @@ mod board;
 mod control;
 mod error;
 mod history;
+mod life;
 mod listen;
 mod mappings;
 mod orbits;
@@ -39,6 +41,7 @@ use crate::api::{PlayedBag, Shared, SharedAnswers};
 use crate::board::Board;
 use crate::control::{Control, ControlParts};
 pub use crate::error::DashboardError;
+use crate::life::LifeTable;
 use crate::listen::Listener;
 use crate::recorded::Recorded;
 use crate::what_if::{WhatIf, WhatIfParts};
@@ -72,6 +75,8 @@ pub struct Dashboard {
     pub origins: Vec<String>,
     /// The source of the data.
     pub source: Source,
+    /// The table of joints' lives (`flexdrill life`) that the page shows.
+    pub life: Option<PathBuf>,
 }
 
 impl Dashboard {
@@ -83,6 +88,7 @@ impl Dashboard {
         // The port is bound before the twin is searched: an occupied port must fail at once.
         let listener = live::listen("--listen", self.address)?;
         let mut url = format!("http://{}/", listener.local_addr()?);
+        let life = self.life.map(LifeTable::new).map(Arc::new);
         match self.source {
             Source::Twin { network, twin, token } => {
                 // The token is in the fragment of the URL, which browsers do not send and servers do not log.
@@ -103,6 +109,7 @@ impl Dashboard {
                     // The instance distinguishes this run from an earlier one, whose open pages must not act on it.
                     instance: api::new_instance()?,
                     answers: SharedAnswers::default(),
+                    life,
                 });
                 ready(&url);
                 live::serve(listener, router, end).await?;
@@ -123,6 +130,7 @@ impl Dashboard {
                     bag: Some(Arc::clone(&recorded.played)),
                     instance: api::new_instance()?,
                     answers: SharedAnswers::default(),
+                    life,
                 });
                 ready(&url);
                 live::serve(listener, router, end).await?;

@@ -35,6 +35,35 @@ pub struct RunLife {
 }
 
 impl RunLife {
+    /// A run that has begun at `start` (ns) and counted nothing, to ask a table whether it takes the run.
+    ///
+    /// # Errors
+    /// When the configuration has no class or no serial numbers, or counts nothing.
+    pub fn begun(config: &Config, start: i64) -> Result<Self, LifeError> {
+        let kind = Kind::of(config)?;
+        let serials = &config.tool.joint.serial_numbers;
+        if serials.is_empty() {
+            return Err(LifeError::NoSerials);
+        }
+        if config.outputs.rates.ageing <= 0.0 {
+            return Err(LifeError::NothingCounted);
+        }
+        let joint = |(place, serial): (u32, &String)| JointOfRun {
+            serial: serial.clone(),
+            place,
+            stop: 0.0,
+            link: 0.0,
+        };
+        Ok(Self {
+            start,
+            end: start,
+            configuration: config.hash(),
+            hours: 0.0,
+            joints: (1..).zip(serials).map(joint).collect(),
+            kind,
+        })
+    }
+
     /// The damages of a run that began at `start` (ns) and counted these cycles.
     ///
     /// # Errors

@@ -20,7 +20,7 @@ use crate::bridge::confirmations::Confirmations;
 use crate::bridge::first_frames::FirstFrames;
 use crate::bridge::wits::WitsBridge;
 use crate::cli::output::{say, say_text};
-use crate::node::state_file;
+use crate::state_file;
 use flexdrill_bridge::TwinFigures;
 use flexdrill_bridge::lines::{Place, Times};
 use flexdrill_bridge::wits::Mapping;

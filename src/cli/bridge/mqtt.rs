@@ -77,7 +77,7 @@ mod with_mqtt {
     use crate::bridge::mqtt::MqttBridge;
     use crate::bridge::{Outgoing, birth_number};
     use crate::cli::output::say;
-    use crate::node::state_file;
+    use crate::state_file;
 
     /// Name of the node unless it is remapped.
     const NODE_NAME: &str = "flexdrill_bridge_mqtt";

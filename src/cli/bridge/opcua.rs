@@ -94,7 +94,7 @@ mod with_opcua {
     use crate::bridge::Outgoing;
     use crate::bridge::opcua::{RigBridge, ServerBridge};
     use crate::cli::output::say;
-    use crate::node::state_file;
+    use crate::state_file;
 
     /// Name of the node unless it is remapped.
     const NODE_NAME: &str = "flexdrill_bridge_opcua";

@@ -44,6 +44,9 @@ pub(super) struct DashboardArgs {
     /// pages of this machine and of Foxglove are always admitted.
     #[arg(long, value_name = "ORIGIN")]
     allow_origin: Vec<String>,
+    /// Show the joints of this table of `flexdrill life` in the panel Life; a node with --life adds to it while it runs.
+    #[arg(long, value_name = "FILE.csv")]
+    life: Option<PathBuf>,
     /// Open the page in this machine's browser.
     #[arg(long)]
     open: bool,
@@ -73,6 +76,7 @@ pub(super) fn run(args: &DashboardArgs) -> anyhow::Result<()> {
         address: args.listen,
         origins: args.allow_origin.clone(),
         source,
+        life: args.life.clone(),
     };
     // The file that redirects the browser exists as long as the server runs.
     let redirect = OnceCell::new();

@@ -3,17 +3,16 @@
 mod recorded;
 mod words;
 
-use std::fs::File;
-use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
 
+use super::WrongUse;
 use super::progress::Progress;
-use super::{WrongUse, whole_file};
 use crate::cli::output::{say, tell};
-use flexdrill_life::{Added, Lives, MOST_BYTES, RunLife};
+use crate::life_table::{locked, read, write};
+use flexdrill_life::{Added, Lives, RunLife};
 use flexdrill_text::{counted, date_time, printable};
 
 /// Keep the life of each joint by its serial number: add the damages of recorded runs, list the joints to inspect.
@@ -92,12 +91,13 @@ pub(super) fn add_recording(file: &Path, bag: &Path) -> anyhow::Result<()> {
 /// # Errors
 /// When there is a file that cannot be read.
 pub(super) fn is_readable(file: &Path) -> anyhow::Result<()> {
-    read(file).map(drop)
+    read(file)?;
+    Ok(())
 }
 
 fn add(args: &AddArgs) -> anyhow::Result<()> {
     // Another command that adds to a table of this folder waits until this one has written.
-    let _locked = locked(folder(&args.file))?;
+    let _locked = locked(&args.file)?;
     let mut lives = read(&args.file)?;
     let mut lines = Vec::new();
     // A joint may be new in the first of several runs, and is known in the others.
@@ -123,7 +123,7 @@ fn add(args: &AddArgs) -> anyhow::Result<()> {
             let why = format!("--new {serial}: none of these runs has a joint of this serial number");
             return Err(WrongUse::new(why).into());
         }
-        write(&args.file, &lives.to_csv())?;
+        write(&args.file, lives)?;
     }
     for line in lines {
         say!("{line}");
@@ -157,41 +157,6 @@ fn line(run: &RunLife, added: Added) -> String {
         run.hours,
         counted(run.joints.len() as u64, "joint")
     )
-}
-
-/// Reads a table; none where there is no file.
-fn read(file: &Path) -> anyhow::Result<Option<Lives>> {
-    let mut bytes = Vec::new();
-    let read = File::open(file).and_then(|opened| opened.take(MOST_BYTES + 1).read_to_end(&mut bytes));
-    match read {
-        Ok(_) => Ok(Some(Lives::from_csv(&file.display().to_string(), &bytes)?)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error).with_context(|| format!("cannot read {}", file.display())),
-    }
-}
-
-/// Writes the table as a whole: a command that ends in the middle leaves the older one.
-fn write(file: &Path, text: &str) -> anyhow::Result<()> {
-    let name = file.file_name().and_then(|name| name.to_str());
-    let name = name.with_context(|| format!("{}: must be the name of a file in UTF-8", file.display()))?;
-    whole_file::write(folder(file), name, text)
-}
-
-/// The folder of a file.
-fn folder(file: &Path) -> &Path {
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    folder.unwrap_or(Path::new("."))
-}
-
-/// Locks a folder until the result is dropped. On a disk without locks nothing is locked.
-fn locked(folder: &Path) -> anyhow::Result<File> {
-    let opened = File::open(folder).with_context(|| format!("cannot open {}", folder.display()))?;
-    match opened.lock() {
-        Err(error) if error.kind() != ErrorKind::Unsupported => {
-            Err(error).with_context(|| format!("cannot lock {}", folder.display()))
-        }
-        _ => Ok(opened),
-    }
 }
 
 /// Reads a table that there must be.

@@ -10,7 +10,7 @@ use crate::cli::source::{FromRig, MeasuredSample, SurveySample};
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{CdrError, RigInputs, to_cdr};
 use crate::residuals::{Comparison, RigComparison, Samples};
-use crate::rig_inputs::{Measured, Surveys};
+use crate::rig_inputs::{Measured, SurveyCounts, Surveys};
 use crate::session::Host;
 use flexdrill_hole::Survey;
 use flexdrill_outputs::Encoded;
@@ -147,13 +147,14 @@ impl BagSink {
         while let Some(sample) = self.surveys.pop_if(|sample| sample.time <= until) {
             if let Hole::Received(known) = &mut self.hole {
                 let accepted = known.accept(&sample.message, sample.time, max_skew);
-                let [_, refused, ..] = known.counts();
-                match accepted {
-                    Err(why) if refused <= REFUSALS_SHOWN => {
-                        let since_start = sample.time.saturating_sub(start) as f64 * 1e-9;
-                        tell!("at {} s: {why}", fixed(since_start, 2));
-                    }
-                    _ => {}
+                let SurveyCounts { refused, waiting, .. } = known.counts();
+                let words = match accepted {
+                    Err(why) => (refused <= REFUSALS_SHOWN).then(|| why.to_string()),
+                    Ok(taken) => taken.advice().filter(|_| waiting <= REFUSALS_SHOWN),
+                };
+                if let Some(words) = words {
+                    let since_start = sample.time.saturating_sub(start) as f64 * 1e-9;
+                    tell!("at {} s: {words}", fixed(since_start, 2));
                 }
             }
             self.send(Encoded {
@@ -174,7 +175,7 @@ impl BagSink {
             }
         }
         if let Hole::Received(known) = &self.hole {
-            let [_, refused, ..] = known.counts();
+            let SurveyCounts { refused, .. } = known.counts();
             if refused > REFUSALS_SHOWN {
                 tell!("{refused} surveys were refused in total");
             }

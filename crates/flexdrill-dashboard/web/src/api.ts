@@ -18,6 +18,8 @@ export interface Incident {
 export interface Plan {
   target: number;
   file: string | null;
+  /** Where it begins, from the point of the hole at the depth of its first station (m); a server of an earlier version sends none. */
+  offset?: [number, number, number];
   stations: { measured_depth: number; inclination: number; azimuth: number }[];
 }
 
@@ -45,6 +47,8 @@ export interface Session {
   namespace: string;
   node: string;
   control: boolean;
+  /** Whether the server has a table of joints' lives; a server of an earlier version does not say. */
+  life?: boolean;
   limits: { rotary_speed_rpm: Limit; weight_on_bit_kn: Limit } | null;
   bag: { name: string; start_ns: string; end_ns: string; ready?: boolean; incidents: Incident[] } | null;
   tool: Tool | null;
@@ -221,6 +225,35 @@ export const session = (): Promise<Session | null> => json<Session>("/api/sessio
 /** Asked twice a second; an answer that takes longer than this (ms) is of no use. */
 export const pulse = (): Promise<Pulse | null> => json<Pulse>("/api/pulse", 2500);
 export const control = (): Promise<ControlState | null> => json<ControlState>("/api/control");
+
+/** A joint of the table of lives; texts are those of `flexdrill life show`. */
+export interface JointLife {
+  serial: string;
+  /** Place from the bit up in its newest run. */
+  place: number | null;
+  hours: number;
+  runs: number;
+  /** The more damaged part, with its damage and that of the other one. */
+  part: string;
+  damage: string;
+  other: string;
+  verdict: string;
+  /** 0 where nothing is due, up to 3: take it out. */
+  level: number;
+  hours_left: number | null;
+}
+
+export interface Life {
+  error: string | null;
+  class?: string;
+  environment?: string;
+  runs?: number;
+  count?: number;
+  joints: JointLife[];
+  unknown?: string;
+}
+
+export const life = (): Promise<Life | null> => json<Life>("/api/life");
 
 export const mappings = (): Promise<Mapping[] | null> => json<Mapping[]>("/api/mappings");
 

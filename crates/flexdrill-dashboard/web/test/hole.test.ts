@@ -163,6 +163,10 @@ test("a plan is a circle between two stations, in the plane that it has at the b
   turning.stations[2].azimuth = radians(40);
   const points = laid(tool(4, turning), 3.9, 20);
   assert.ok(Math.abs(points[80][1]) < 1e-9 && points[points.length - 1][1] > 0.2, `${points[points.length - 1]}`);
+  // A hole that has left its plan does not begin on it.
+  const away = planOf(0, [0, 0], [4, 0]);
+  const [begin] = laid(tool(4, { ...away, offset: [0.1, 0.2, 0.3] }), 3.9, 5);
+  assert.deepEqual(begin, [0.1, 0.2, 0.3]);
   // The end of what is asked for is in it, and what is no plan is empty.
   assert.equal(laid(tool(4, turning), 3.9, 5).length, 101);
   assert.deepEqual(laid(tool(4, null), 3.9, 5), []);

@@ -6,7 +6,7 @@ use super::driver::{Driver, DriverId};
 use super::drivers::{DriverSummary, Drivers, NotDriving, Rule};
 use super::measured::{Measured, MeasuredRefused};
 use super::safe_value_watch::{SafeValueEvent, SafeValueWatch};
-use super::surveys::{SurveyRefused, Surveys};
+use super::surveys::{KeptSurveys, Restored, SurveyRefused, Surveys, Taken};
 use super::time_zone::TimeZone;
 use flexdrill_config::{Config, InputsConfig};
 use flexdrill_core::inputs::{Conditioner, InputKind, InputRoute, Rejection, RejectionReason, Stamp};
@@ -206,9 +206,14 @@ impl Intake {
     ///
     /// # Errors
     /// When it is refused.
-    pub fn accept_survey(&mut self, message: &RigSurvey, now: i64, max_skew: f64) -> Result<(), SampleRefused> {
+    pub fn accept_survey(&mut self, message: &RigSurvey, now: i64, max_skew: f64) -> Result<Taken, SampleRefused> {
         let accepted = self.surveys.accept(message, now, max_skew);
         accepted.map_err(SampleRefused::Survey)
+    }
+
+    /// Takes the surveys of an earlier run; none where they are of another hole.
+    pub fn restore_surveys(&mut self, kept: &KeptSurveys) -> Option<Restored> {
+        self.surveys.restore(kept)
     }
 
     /// The surveys of the hole.

@@ -21,4 +21,4 @@ pub use fluctuation::Fluctuation;
 pub use intake::{Carried, Intake, RigSample, SampleRefused, SampleSource};
 pub use measured::{Measured, MeasuredRefused, MeasuredValue};
 pub use safe_value_watch::{SafeValueEvent, SafeValueWatch};
-pub use surveys::{SurveyRefused, Surveys};
+pub use surveys::{KeptSurveys, OfHole, Restored, SurveyCounts, SurveyRefused, Surveys, Taken};

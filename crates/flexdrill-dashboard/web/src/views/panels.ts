@@ -1,10 +1,11 @@
-// The panels next to the tool: alarms, location, transfer, rig, look-ahead, hole, steering; one of them is shown.
+// The panels next to the tool: alarms, location, transfer, rig, look-ahead, hole, joint life, steering; one of them is shown.
 
 import { h, setAttribute, setText, show } from "../dom";
 import type { Context, View } from "../view";
 import { AheadView } from "./ahead";
 import { Alarms } from "./alarms";
 import { HoleView } from "./hole";
+import { LifeView } from "./life";
 import { LocationView } from "./location";
 import { RigView } from "./rig";
 import type { Steer } from "./steer";
@@ -14,11 +15,13 @@ export class Panels implements View {
   readonly element: HTMLElement;
   private readonly tabs: { name: string; tab: HTMLButtonElement; panel: HTMLElement; view: View }[] = [];
   private location: unknown = null;
+  private readonly life: LifeView;
 
   constructor(
     private readonly context: Context,
     private readonly steer: Steer,
   ) {
+    this.life = new LifeView(context);
     const bar = h("div", { class: "tabs", role: "tablist", "aria-label": "Panels" });
     const holder = h("div", { class: "panels" });
     for (const [name, view] of [
@@ -28,6 +31,7 @@ export class Panels implements View {
       ["Rig", new RigView(context)],
       ["Ahead", new AheadView(context)],
       ["Hole", new HoleView(context)],
+      ["Life", this.life],
       ["Steer", steer],
     ] as const) {
       const id = name.toLowerCase();
@@ -85,6 +89,8 @@ export class Panels implements View {
     const { tab } = this.tabs[this.tabs.length - 1];
     setText(tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
     tab.classList.toggle("driving", driving !== null);
+    // Only a server that was started with a table has lives to show.
+    for (const { view, tab } of this.tabs) if (view === this.life) show(tab, this.life.offered);
     for (const { view } of this.tabs) view.draw(now);
   }
 }

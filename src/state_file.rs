@@ -1,5 +1,5 @@
-//! Acknowledgements and shelvings that outlast a restart: a small file, written as a whole by a separate thread, so that a
-//! slow disk delays nothing else. One node at a time writes it: the writer holds a lock next to it.
+//! States that outlast a restart of the node: small files, each written as a whole by a separate thread, so that a slow disk
+//! delays nothing else. One node at a time writes a file: the writer holds a lock next to it.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Write};
@@ -8,37 +8,73 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use flexdrill_alarms::Saved;
 use flexdrill_text::log_ending;
 
 /// Longest wait for the last state when the node ends.
 const LAST_STATE: Duration = Duration::from_secs(2);
 
+/// How errors name a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Words {
+    /// The state, such as "the alarms' state".
+    pub state: &'static str,
+    /// What a node keeps in the file, such as "the alarms".
+    pub of_node: &'static str,
+    /// What a run begins with without it.
+    pub without: &'static str,
+    /// What does not outlast a run that cannot write it.
+    pub lost: &'static str,
+}
+
+/// A state that outlasts a restart.
+pub trait Kept: Sized + Send + 'static {
+    /// How errors name it.
+    const WORDS: Words;
+
+    /// The bytes of its file.
+    ///
+    /// # Errors
+    /// When there is no memory.
+    fn encode(&self) -> std::io::Result<Vec<u8>>;
+
+    /// The state in the bytes of a file.
+    ///
+    /// # Errors
+    /// Why the bytes are none.
+    fn decode(bytes: &[u8]) -> Result<Self, String>;
+}
+
 /// Why a saved state cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum StateError {
     /// The file exists and cannot be read.
-    #[error("{}: the alarms' state cannot be read: {source}; all alarms begin as normal", path.display())]
+    #[error("{}: {} cannot be read: {source}; {}", path.display(), words.state, words.without)]
     Read {
+        /// How the state is named.
+        words: Words,
         /// The file.
         path: PathBuf,
         /// The cause.
         source: std::io::Error,
     },
     /// The file has another content, or only a part of it.
-    #[error("{}: the alarms' state is damaged: {source}; all alarms begin as normal", path.display())]
+    #[error("{}: {} is damaged: {why}; {}", path.display(), words.state, words.without)]
     Damaged {
+        /// How the state is named.
+        words: Words,
         /// The file.
         path: PathBuf,
         /// The cause.
-        source: serde_json::Error,
+        why: String,
     },
     /// The file cannot be written.
     #[error(
-        "{}: the alarms' state cannot be written: {source}; acknowledgements and shelvings will not outlast this run; \
-         --state-dir selects another folder", path.display()
+        "{}: {} cannot be written: {source}; {} will not outlast this run; --state-dir selects another folder",
+        path.display(), words.state, words.lost
     )]
     Write {
+        /// How the state is named.
+        words: Words,
         /// The file or its folder.
         path: PathBuf,
         /// The cause.
@@ -46,10 +82,12 @@ pub enum StateError {
     },
     /// Another node of the same name and domain writes the file.
     #[error(
-        "{}: process {owner} keeps the alarms of a node with this name and domain in it; acknowledgements and shelvings of \
-         this node will not outlast its run; start it with another --namespace or --state-dir", path.display()
+        "{}: process {owner} keeps {} of a node with this name and domain in it; {} of this node will not outlast its run; \
+         start it with another --namespace or --state-dir", path.display(), words.of_node, words.lost
     )]
     Owned {
+        /// How the state is named.
+        words: Words,
         /// The file.
         path: PathBuf,
         /// The number of the process, as the lock file has it.
@@ -68,31 +106,39 @@ pub fn default_folder(variable: impl Fn(&str) -> Option<String>) -> Option<PathB
 }
 
 /// The name of a node's file. Two nodes on one machine differ in domain or full name (`/rig_7/flexdrill`).
-pub fn file_name(domain: u16, node: &str) -> String {
-    format!("alarms_domain_{domain}{}.json", node.replace('/', "."))
+pub fn file_name(of: &str, domain: u16, node: &str, extension: &str) -> String {
+    format!("{of}_domain_{domain}{}.{extension}", node.replace('/', "."))
+}
+
+/// The file with something behind its name.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
 }
 
 /// Reads a state; none without a file.
 ///
 /// # Errors
 /// When the file cannot be read or has another content.
-pub fn read(path: &Path) -> Result<Option<Saved>, StateError> {
-    let text = match std::fs::read(path) {
-        Ok(text) => text,
+pub fn read<T: Kept>(path: &Path) -> Result<Option<T>, StateError> {
+    let words = T::WORDS;
+    let bytes = match std::fs::read(path) {
+        Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(source) => {
             return Err(StateError::Read {
+                words,
                 path: path.to_owned(),
                 source,
             });
         }
     };
-    serde_json::from_slice(&text)
-        .map(Some)
-        .map_err(|source| StateError::Damaged {
-            path: path.to_owned(),
-            source,
-        })
+    T::decode(&bytes).map(Some).map_err(|why| StateError::Damaged {
+        words,
+        path: path.to_owned(),
+        why,
+    })
 }
 
 /// Writes a state next to the old one and replaces the old one with it, so that one of the two is complete at any time.
@@ -100,23 +146,30 @@ pub fn read(path: &Path) -> Result<Option<Saved>, StateError> {
 ///
 /// # Errors
 /// When the disk refuses the write.
-pub fn write(path: &Path, saved: &Saved) -> Result<(), StateError> {
+pub fn write<T: Kept>(path: &Path, state: &T) -> Result<(), StateError> {
     let failed = |source| StateError::Write {
+        words: T::WORDS,
         path: path.to_owned(),
         source,
     };
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    let fresh = path.with_extension("json.new");
-    let mut file = std::fs::File::create(&fresh).map_err(failed)?;
-    // A state of numbers, words and lists fails to encode only without memory.
-    let text = serde_json::to_vec(saved).map_err(|error| failed(error.into()))?;
-    file.write_all(&text)
+    let bytes = state.encode().map_err(failed)?;
+    replace(path, &bytes).map_err(failed)
+}
+
+/// Writes bytes next to a file and replaces the file with them. They are on the disk when this returns.
+///
+/// # Errors
+/// When the disk refuses the write; the file is then as it was.
+pub fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let fresh = with_ending(path, ".new");
+    let mut file = File::create(&fresh)?;
+    file.write_all(bytes)
         .and_then(|()| file.sync_all())
         .and_then(|()| std::fs::rename(&fresh, path))
         .and_then(|()| sync_folder(path))
-        .map_err(failed)
 }
 
 /// Syncs the folder of a file, so that its new name is on the disk.
@@ -131,15 +184,16 @@ fn sync_folder(path: &Path) -> std::io::Result<()> {
 ///
 /// # Errors
 /// [`StateError::Owned`] if another process holds the lock; [`StateError::Write`] if the folder cannot be written.
-fn own(path: &Path) -> Result<File, StateError> {
+fn own(path: &Path, words: Words) -> Result<File, StateError> {
     let failed = |source| StateError::Write {
+        words,
         path: path.to_owned(),
         source,
     };
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    let lock_path = path.with_extension("json.lock");
+    let lock_path = with_ending(path, ".lock");
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);
     let mut lock = options.open(&lock_path).map_err(failed)?;
@@ -148,6 +202,7 @@ fn own(path: &Path) -> Result<File, StateError> {
         Err(TryLockError::WouldBlock) => {
             let owner = std::fs::read_to_string(&lock_path).unwrap_or_default();
             return Err(StateError::Owned {
+                words,
                 path: path.to_owned(),
                 owner: owner.chars().filter(char::is_ascii_digit).take(10).collect(),
             });
@@ -163,25 +218,25 @@ fn own(path: &Path) -> Result<File, StateError> {
 type Written = Box<dyn FnOnce(Result<(), String>) + Send>;
 
 /// A state to write.
-struct Order {
-    state: Saved,
+struct Order<T> {
+    state: T,
     written: Option<Written>,
 }
 
 /// Writes states in order. Of several waiting states it writes the newest, which includes the others.
-pub struct StateWriter {
-    sender: Option<Sender<Order>>,
+pub struct StateWriter<T: Kept> {
+    sender: Option<Sender<Order<T>>>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl StateWriter {
+impl<T: Kept> StateWriter<T> {
     /// Starts the thread that writes to a file, and locks the file for this process.
     ///
     /// # Errors
     /// [`StateError::Owned`] if another process writes the file; [`StateError::Write`] if the thread cannot be started. A
     /// folder that cannot be written is logged, and tried again with every state.
     pub fn start(path: PathBuf) -> Result<Self, StateError> {
-        let lock = match own(&path) {
+        let lock = match own(&path, T::WORDS) {
             Err(error @ StateError::Write { .. }) => {
                 tracing::warn!("{error}");
                 None
@@ -189,31 +244,35 @@ impl StateWriter {
             owned => Some(owned?),
         };
         let (sender, orders) = channel();
-        let started = std::thread::Builder::new().name("alarm state".into());
+        let started = std::thread::Builder::new().name("state file".into());
         let file = path.clone();
         match started.spawn(move || keep(&path, lock, &orders)) {
             Ok(thread) => Ok(Self {
                 sender: Some(sender),
                 thread: Some(thread),
             }),
-            Err(source) => Err(StateError::Write { path: file, source }),
+            Err(source) => Err(StateError::Write {
+                words: T::WORDS,
+                path: file,
+                source,
+            }),
         }
     }
 
     /// Queues a state.
-    pub fn save(&self, state: Saved) {
+    pub fn save(&self, state: T) {
         self.send(Order { state, written: None });
     }
 
     /// Queues a state. The writer's thread calls `written` when the state is on the disk or has failed.
-    pub fn save_then(&self, state: Saved, written: Written) {
+    pub fn save_then(&self, state: T, written: Written) {
         self.send(Order {
             state,
             written: Some(written),
         });
     }
 
-    fn send(&self, order: Order) {
+    fn send(&self, order: Order<T>) {
         if let Some(sender) = &self.sender {
             // The thread lives as long as this value.
             let _ = sender.send(order);
@@ -221,7 +280,7 @@ impl StateWriter {
     }
 }
 
-impl Drop for StateWriter {
+impl<T: Kept> Drop for StateWriter<T> {
     /// Waits a limited time until the last state is on the disk.
     fn drop(&mut self) {
         drop(self.sender.take());
@@ -231,7 +290,8 @@ impl Drop for StateWriter {
             if Instant::now() >= deadline {
                 // The thread is abandoned: a disk that does not answer must not delay the end of the node.
                 tracing::warn!(
-                    "the alarms' state was not written within {} s: the disk does not answer",
+                    "{} was not written within {} s: the disk does not answer",
+                    T::WORDS.state,
                     LAST_STATE.as_secs()
                 );
                 return;
@@ -242,7 +302,7 @@ impl Drop for StateWriter {
     }
 }
 
-fn keep(path: &Path, mut lock: Option<File>, orders: &Receiver<Order>) {
+fn keep<T: Kept>(path: &Path, mut lock: Option<File>, orders: &Receiver<Order<T>>) {
     let mut works = lock.is_some();
     while let Ok(first) = orders.recv() {
         let mut waiting = vec![first];
@@ -250,7 +310,7 @@ fn keep(path: &Path, mut lock: Option<File>, orders: &Receiver<Order>) {
         let Some(newest) = waiting.last() else { continue };
         let owned = match lock {
             Some(_) => Ok(()),
-            None => own(path).map(|owned| lock = Some(owned)),
+            None => own(path, T::WORDS).map(|owned| lock = Some(owned)),
         };
         let result = owned
             .and_then(|()| write(path, &newest.state))
@@ -259,7 +319,7 @@ fn keep(path: &Path, mut lock: Option<File>, orders: &Receiver<Order>) {
             Ok(()) => works = true,
             // One warning until a write succeeds again.
             Err(error) if works => {
-                if let Some(more) = log_ending("alarm state not written") {
+                if let Some(more) = log_ending(format!("{} not written", T::WORDS.state)) {
                     tracing::warn!("{error}{more}");
                 }
                 works = false;
@@ -275,7 +335,7 @@ fn keep(path: &Path, mut lock: Option<File>, orders: &Receiver<Order>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use flexdrill_alarms::{AlarmSystem, Definition, Delays};
+    use flexdrill_alarms::{AlarmSystem, Definition, Delays, Saved};
 
     fn saved() -> Saved {
         let definition = Definition {
@@ -290,14 +350,14 @@ mod tests {
     fn a_written_state_is_read_and_a_damaged_file_is_reported() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/alarms.json");
-        assert_eq!(read(&path).unwrap(), None);
+        assert_eq!(read::<Saved>(&path).unwrap(), None);
         let writer = StateWriter::start(path.clone()).unwrap();
         writer.save(saved());
         drop(writer);
         assert_eq!(read(&path).unwrap(), Some(saved()));
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, &text[..text.len() / 2]).unwrap();
-        let error = read(&path).unwrap_err().to_string();
+        let error = read::<Saved>(&path).unwrap_err().to_string();
         assert!(
             error.contains("damaged") && error.contains("begin as normal"),
             "{error}"
@@ -336,8 +396,8 @@ mod tests {
     fn a_second_writer_is_refused_while_the_first_lives() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("alarms.json");
-        let first = StateWriter::start(path.clone()).unwrap();
-        let Err(error) = StateWriter::start(path.clone()) else {
+        let first = StateWriter::<Saved>::start(path.clone()).unwrap();
+        let Err(error) = StateWriter::<Saved>::start(path.clone()) else {
             panic!("two writers of one file");
         };
         let error = error.to_string();
@@ -346,7 +406,7 @@ mod tests {
             assert!(error.contains(part), "'{part}' is not in: {error}");
         }
         drop(first);
-        StateWriter::start(path).unwrap();
+        StateWriter::<Saved>::start(path).unwrap();
     }
 
     #[test]
@@ -369,6 +429,9 @@ mod tests {
             Some("/var/state/flexdrill".into())
         );
         assert_eq!(with(&[("XDG_STATE_HOME", "relative")]), None);
-        assert_eq!(file_name(3, "/rig_7/flexdrill"), "alarms_domain_3.rig_7.flexdrill.json");
+        assert_eq!(
+            file_name("alarms", 3, "/rig_7/flexdrill", "json"),
+            "alarms_domain_3.rig_7.flexdrill.json"
+        );
     }
 }
