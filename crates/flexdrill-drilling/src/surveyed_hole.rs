@@ -202,6 +202,7 @@ pub fn laid(file: &str, rows: &[Row], config: &Config, bit: Option<f64>) -> Resu
         }
         course = begin;
     }
+    // Each interval begins where the one before has ended, so that a direction that is off at the first row is not carried on.
     let mut below = Vec::new();
     let mut at_top = config.well.course_to(top).position;
     let mut turned = keeps && course.inclination() - deg_to_rad(config.well.start_inclination_deg) > STRAIGHT;
@@ -223,6 +224,7 @@ pub fn laid(file: &str, rows: &[Row], config: &Config, bit: Option<f64>) -> Resu
             (true, false) => Interval::AfterArc,
         };
         below.push(points(ends - above.depth, curvatures, interval));
+        // A plan is laid from the new kick-off, wherever on the table that is.
         if (above.depth..to.depth).contains(&top) {
             let mut cut = course;
             cut.advance(top - above.depth, curvatures);
@@ -230,6 +232,7 @@ pub fn laid(file: &str, rows: &[Row], config: &Config, bit: Option<f64>) -> Resu
         }
         course.advance(piece, curvatures);
     }
+    // Without hole of the configuration the first row alone says how the hole begins.
     let start = if keeps {
         None
     } else {
