@@ -109,6 +109,7 @@ fn a_spine_off_the_axis_bends_towards_the_other_side() {
     assert!(
         uncertain
             .uncertainty
+            .as_ref()
             .unwrap()
             .position("tool.guide.spine_offset")
             .is_some()
