@@ -11,6 +11,7 @@
 //!   that differs by 15 % from what is configured, a half of that variance from part to part of the log.
 
 use flexdrill_calibration::fit::{Outcome, Problem, observations};
+use flexdrill_calibration::sensor::Sensor;
 use flexdrill_calibration::smoother::SmootherSettings;
 use flexdrill_calibration::study;
 use flexdrill_calibration::study::point::{Figures, Load};
@@ -95,9 +96,6 @@ pub struct Truth {
     whole: f64,
     /// Length after the arc (m).
     level: f64,
-    /// Another law of the bit than the twin's: force on the cutters (N) above which their torque no longer rises, as where
-    /// cuttings stay under the bit. Infinite for the twin's.
-    pub balled_from: f64,
     /// Another law of friction: share that the friction along the wall falls by from 50 to 70 r/min. 0 for the twin's.
     pub falls: f64,
 }
@@ -126,7 +124,6 @@ impl Truth {
             guide,
             whole: guide + weight(tool.pipe_sections[0]),
             level: config.well.length() - ARC * std::f64::consts::FRAC_PI_2,
-            balled_from: f64::INFINITY,
             falls: 0.0,
         }
     }
@@ -149,8 +146,7 @@ impl Truth {
         // The wear flats carry up to their force; what is beyond cuts.
         let on_flats = on_bit.min(self.flats);
         let cutting = (on_bit - on_flats) / self.inclination;
-        let cut = cutting.min(self.balled_from);
-        let bit_torque = 0.5 * BIT * (self.bit * on_flats + cut);
+        let bit_torque = 0.5 * BIT * (self.bit * on_flats + cutting);
         let torque = bit_torque * (1.0 + 0.6 * self.joints) + 40.0 * self.inside + 20.0 * self.joints;
         let depth_of_cut = cutting / (self.energy * BIT);
         let rate = load.rotary_speed / std::f64::consts::TAU * depth_of_cut;
@@ -324,6 +320,16 @@ impl Trial {
 
 pub fn trial(world: &World, log: &Log, channels: &[Channel], schedule: &[(f64, f64, u32)]) -> Trial {
     trial_of(world, &world.problem, log, channels, schedule)
+}
+
+/// The problem of a rig whose weight indicator is taken for exact.
+pub fn with_exact_indicator(world: &World) -> Problem {
+    let mut exact = world.problem.clone();
+    exact.indicator = Sensor::default();
+    for quantity in exact.quantities.iter_mut().filter(|of| of.channel == Channel::HookLoad) {
+        quantity.sensor.factor = None;
+    }
+    exact
 }
 
 /// The same with another problem: surrogates with other assumptions about the sensors.
