@@ -102,7 +102,7 @@ fn thrust_bends_a_guide_away_from_its_spine() {
 }
 
 /// Loads that bend and turn a guide in an arc, in the plane and out of it, and let it go: its energy is all that they have
-/// put into it, while it swings and stretches.
+/// put into it and what the scheme damps, while it swings and stretches.
 #[test]
 fn a_guide_that_swings_freely_keeps_its_energy() {
     for phase in [0.0, 0.7] {
@@ -120,8 +120,8 @@ fn a_guide_that_swings_freely_keeps_its_energy() {
         };
         tool.loads = vec![
             load(Direction::U, pulse(-2e4)),
-            middle(Direction::V, 1e3),
-            middle(Direction::Psi, 50.0),
+            middle(Direction::V, 2e4),
+            middle(Direction::Psi, 200.0),
         ];
         let mut simulation = simulation(&tool);
         let mut gone = None;
@@ -133,14 +133,13 @@ fn a_guide_that_swings_freely_keeps_its_energy() {
         }
         let (gone, audit) = (gone.unwrap(), *simulation.energy());
         println!("{phase}: {audit:?}");
-        assert!(audit.loads > 0.1, "{audit:?}");
+        assert!(audit.loads > 5e-3, "{audit:?}");
         assert!(
             (audit.loads - gone.loads).abs() < 1e-9 * audit.loads,
             "the loads have not ended"
         );
-        // Newton leaves up to 1 N of the 20 kN.
-        let without_law = audit.error - audit.axial_foresight;
-        assert!(without_law.abs() < 1e-4 * audit.loads, "{audit:?}");
+        // Newton leaves up to 1 N of the 20 kN: 5e-5, and as much again for both directions and the turn.
+        assert!(audit.error.abs() < 5e-4 * audit.loads, "{audit:?}");
     }
 }
 
