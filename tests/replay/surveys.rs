@@ -86,7 +86,9 @@ fn a_replay_repeats_when_surveys_were_used() {
         &at("run"),
     ]);
     assert!(
-        said.contains("at 3.00 s: rig/survey: a survey at 2005.53 m waits: the hole of the configuration ends at 2005.03 m"),
+        said.contains(
+            "at 3.00 s: rig/survey: a survey at 2005.53 m waits: the hole of the configuration ends at 2005.03 m"
+        ),
         "{said}"
     );
     let said = replayed(&[&at("run"), Path::new("--out"), &at("again")]);

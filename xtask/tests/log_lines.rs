@@ -44,11 +44,7 @@ const ALLOWED: &[(&str, &str, &str)] = &[
     ("src/node/running.rs", "the configured duration", "once, at the end"),
     ("src/node/running.rs", "the node ends without it", "once, at the end"),
     ("src/node/publish.rs", "did not reach the viewers", "once, at the end"),
-    (
-        "src/state_file.rs",
-        "tracing::warn!(\"{error}\")",
-        "once, at the start",
-    ),
+    ("src/state_file.rs", "tracing::warn!(\"{error}\")", "once, at the start"),
     ("src/state_file.rs", "does not answer", "once, at the end"),
     ("src/node/surveys.rs", "", "once, at the start"),
     ("src/node/life.rs", "does not answer", "once, at the end"),
