@@ -87,10 +87,9 @@ pub(crate) fn tables(config: &Config, duration: f64) -> anyhow::Result<String> {
     dull.drilling[2] *= 0.5;
     dull.drilling[0] -= dull.drilling[2];
     // The hook load and the shown weight stay; what depends on the true weight is that of the lower one.
-    let sensor = Shown {
-        drilling: [less_weight[0], healthy.drilling[1], less_weight[2], less_weight[3]],
-        ..healthy
-    };
+    let mut sensor = healthy;
+    sensor.drilling = less_weight;
+    sensor.drilling[1] = healthy.drilling[1];
     let faults = [
         ("friction of the wall doubled in the arc", arc),
         ("friction doubled in both layers of the tool", layers),
@@ -184,7 +183,7 @@ fn conditions(healthy: &Shown, faults: &[(&str, Shown)]) -> String {
     ]);
     for (name, shown) in [("the twin", *healthy)].iter().chain(faults) {
         for (motion, figures) in [("off bottom", shown.off_bottom), ("drilling", shown.drilling)] {
-            let [torque, hook, bit, weight] = figures;
+            let [torque, hook, bit, weight, ..] = figures;
             table.row([
                 (*name).to_owned(),
                 motion.to_owned(),
@@ -328,8 +327,8 @@ mod tests {
     use super::*;
 
     const TWIN: Shown = Shown {
-        off_bottom: [60.0, 200e3, 0.0, 0.0],
-        drilling: [300.0, 184e3, 200.0, 12e3],
+        off_bottom: [60.0, 200e3, 0.0, 0.0, 0.0],
+        drilling: [300.0, 184e3, 200.0, 12e3, 1e-3],
     };
 
     fn rig(in_the_hole: bool) -> Rig {

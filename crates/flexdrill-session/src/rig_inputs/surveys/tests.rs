@@ -224,7 +224,7 @@ fn a_survey_below_the_bit_waits_for_a_run_with_that_hole() {
 
     // The next run has the hole down to 2007.03 m, below a kick-off that is 2 m deeper.
     let mut kept = surveys.kept();
-    let text = include_str!("../../../config/default.yaml");
+    let text = include_str!("../../../../../config/default.yaml");
     let named = |well: &str| {
         let text = text.replace("\nwell:\n", "\nwell:\n  kick_off_depth: 2002\n");
         let config = Config::from_text("rebased", &text).unwrap();
