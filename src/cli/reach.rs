@@ -76,6 +76,7 @@ const MOST_LINKS: usize = 500;
 pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
     let (config, _) = built_in::load(&args.config)?;
     let plan = plan(args, &config)?;
+    // A sample that does not fit is refused before minutes are computed.
     let drawn = args.plausible.then(|| drawn(args, &config)).transpose()?;
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     if config.contact.outer.friction == FrictionLaw::Separate {
@@ -84,6 +85,7 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
              small; choose bristle"
         );
     }
+    // The configured tool first, then plausible ones, whose runs take the most time.
     let mut progress = Progress::share();
     let kept = args.resume.then(|| Kept::open(&args.out.join("points"))).transpose()?;
     let rows = study(&config, &plan, kept.as_ref(), |share| progress.at(share))?;
@@ -101,6 +103,7 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
         "reach.svg",
         &flexdrill_plot::svg(&picture::figure(&plan, &rows, &arrives))?,
     )?;
+    // In words what is in the files.
     for line in table::words(&plan, &rows) {
         say!("{line}");
     }

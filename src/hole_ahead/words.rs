@@ -302,6 +302,7 @@ fn notes(config: &Config, answer: &Answer) -> Vec<String> {
             }
         ));
     }
+    // The closed form is that of a long arc.
     let arc = arc_above_bit(config);
     if let Some(long) = answer.long
         && arc < 2.0 * long.free_length
@@ -312,6 +313,7 @@ fn notes(config: &Config, answer: &Answer) -> Vec<String> {
         ));
     }
     let (guide, weight) = (&answer.drilling.guide, answer.drilling.law.weight);
+    // What the weight bends, and what slots leave of it.
     if let Some(spine) = guide.spine {
         let bend = spine.bend(weight, guide.bending_stiffness);
         let is_shut = spine.most.is_some_and(|most| bend >= most);
@@ -334,6 +336,7 @@ fn notes(config: &Config, answer: &Answer) -> Vec<String> {
             "Slots that close (tool.guide.slots_close_at) are left out: the guide bends as with open ones.".to_owned()
         });
     }
+    // What acts on the bit and is not in the statics.
     if config.environment.pressure.is_some() {
         notes.push("Pump pressure (environment.pressure) is left out.".to_owned());
     }

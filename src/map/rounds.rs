@@ -369,8 +369,9 @@ mod tests {
         assert!(ran.first_looks > 0);
         let whole = made(slow.path(), &plan(false), 1, &stop, usize::MAX).unwrap();
         assert_eq!(whole.first_looks, 0);
+        // Two runs in five lie at the boundary for the most part, where all members run: a quarter is saved at least.
         assert!(
-            2 * members(&ran) < members(&whole),
+            4 * members(&ran) < 3 * members(&whole),
             "{} {}",
             members(&ran),
             members(&whole)

@@ -160,13 +160,14 @@ const ENDINGS: [&str; 10] = [
     ".rs", ".yaml", ".md", ".py", ".sh", ".msg", ".toml", ".ts", ".csv", ".json",
 ];
 /// Files that the program writes for a user.
-const WRITTEN_FILES: [&str; 22] = [
+const WRITTEN_FILES: [&str; 23] = [
     // by `flexdrill ahead`
     "surveys.csv",
     "metadata.yaml",
     "report.md",
     "findings.csv",
     "reach.csv",
+    "reach_plausible.csv",
     "sweep.json",
     "points.csv",
     "map.csv",

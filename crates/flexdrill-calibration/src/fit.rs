@@ -321,6 +321,8 @@ impl Problem {
         let posterior = smooth(self.unknowns.len(), &observed, &errors, settings, |z| self.predict(z))?;
         let (estimates, pairs) = identify(&self.unknowns, &posterior);
         let prior = self.predict(&vec![0.0; self.unknowns.len()]);
+        // Each member is predicted by itself: the surrogate is not linear, so that the mean of the figures is not that of the
+        // values.
         let members: Vec<Vec<f64>> = posterior
             .column_iter()
             .map(|member| self.predict(&member.iter().copied().collect::<Vec<_>>()))
@@ -334,6 +336,7 @@ impl Problem {
                     .map(|member| (member[k] - predicted).powi(2))
                     .sum::<f64>()
                     / count;
+                // A measurement scatters about the members by its error too.
                 let deviation = (spread + errors[(k, k)]).sqrt();
                 Explained {
                     prior: prior[k],
@@ -343,6 +346,7 @@ impl Problem {
                 }
             })
             .collect();
+        // A quantity is judged by what is left of it after the fit.
         let residuals: Vec<f64> = observed
             .iter()
             .zip(&explained)

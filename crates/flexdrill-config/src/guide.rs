@@ -228,6 +228,7 @@ impl Guide {
             "a spine lies in the wall of the tube",
         );
         c.number("spine_toolface_deg", toolface, PHASE, "deg", "one turn");
+        // Without an offset nothing but the default makes sense.
         if !self.has_spine_off_axis() {
             c.require(
                 toolface == LOW_SIDE,
@@ -239,6 +240,7 @@ impl Guide {
             );
             return;
         }
+        // With one, the tube must be one that has a spine: of its diameter, slotted, and free to bend.
         c.require(
             offset <= 0.5 * self.outer_diameter,
             "spine_offset",

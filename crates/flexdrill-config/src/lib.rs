@@ -301,6 +301,7 @@ impl Config {
         let hole = self.well.hole_diameter;
         let (links, uniform) = (self.tool.links, pipe.uniform_section().unwrap_or_default());
         ToolDescription::new(self.well.describe(), hole, links, uniform, guide.section()).with(|tool| {
+            // From the inside to the outside, in the order of the schema.
             tool.elements_per_link = elements;
             tool.material = self.tool.material.describe();
             tool.pipe_sections = pipe.element_sections(elements);
@@ -319,6 +320,7 @@ impl Config {
             tool.slip_speed = self.contact.slip_speed;
             tool.bit = self.tool.bit.describe();
             tool.gravity = self.environment.effective_gravity();
+            // Pressure acts on the sections that were set above.
             let sections = &tool.pipe_sections;
             tool.pressure = self.environment.pressure.map(|pressure| pressure.describe(sections));
             tool.mud = self.environment.mud.map(|mud| mud.describe());
@@ -333,6 +335,7 @@ impl Config {
             tool.initial_pipe_velocity = self.initial.velocity;
             tool.initial_pipe_displacement = self.initial.displacement;
             tool.initial_spin_rate = rpm_to_rad_per_s(self.initial.spin_rpm);
+            // A tool that slid in is in balance too.
             tool.static_start = self.start != Start::AsGiven;
             tool.slid_in = self.start == Start::SlidIn;
         })

@@ -202,9 +202,12 @@ fn numbers_without_a_bound_are_those_that_depend_on_other_keys() {
     // The upper end of a range is above its lower end.
     let ranges = [
         "calibration.bit.high",
+        "calibration.cutter_inclination.high",
         "calibration.follow_limits.high",
         "calibration.friction.high",
         "calibration.joint_friction.high",
+        "calibration.specific_energy.high",
+        "calibration.wear_flat_force.high",
     ];
     assert_eq!(without_low, of(&[&between[..], &ranges].concat()));
     let below_another = [

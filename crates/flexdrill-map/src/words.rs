@@ -54,6 +54,7 @@ impl Map {
         } else {
             format!("{least} to {most}")
         };
+        // Fewer than asked for needs a reason, or the reader takes the number for a fault.
         let why = match self.run_all {
             _ if least == self.members => "",
             true => "; the others failed",
@@ -67,6 +68,7 @@ impl Map {
             (false, _) => "members",
         };
         let mut text = format!("In each run {ended} of at most {} {members} ended{why}.", self.members);
+        // What no alarm excludes, so that "clear" is not taken for "never".
         if let Some((least, chance)) = self.excluded() {
             let cell = match self.first_looks {
                 0 => "a clear cell",

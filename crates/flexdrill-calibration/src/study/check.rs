@@ -147,6 +147,7 @@ impl fmt::Display for Objection {
             None => String::new(),
         };
         match self {
+            // What a reader can do comes last in each sentence.
             Self::Unexplained { times } => write!(
                 f,
                 "the twin does not explain the log: the residuals are {times:.1} times their stated errors (root mean \
@@ -161,6 +162,7 @@ impl fmt::Display for Objection {
                 rows: [first, last],
                 residual,
             } => {
+                // In the unit of the rig's display, since the log is to be looked at.
                 let (unit, factor) = shown(*channel);
                 write!(
                     f,
@@ -187,6 +189,7 @@ impl fmt::Display for Objection {
                  ({low:.4} to {high:.4}, SI, 90 %). It stands for something else that the fit does not have, such as another \
                  rock; or state a wider range, if such a value is possible"
             ),
+            // The surrogate is wrong here, and below it the tool itself.
             Self::Misled { channel, times } => write!(
                 f,
                 "full runs of the twin with what was found differ from the surrogate that was fitted{} by {times:.1} times \

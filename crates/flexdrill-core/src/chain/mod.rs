@@ -85,12 +85,15 @@ const TIE: usize = 15;
 const MOST_STATIONS: usize = 8;
 
 /// Least product of a span's slowest inner frequency, its ends clamped (rad/s), and the step (s). What a step resolves
-/// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 8^2.
-const LEAST_FREQUENCY: f64 = 8.0;
+/// is slower than 1 / h; inner stations answer it quasi-statically to 1 / 3^2.
+const LEAST_FREQUENCY: f64 = 3.0;
+/// The same for parts of a step, which keep the spans of the whole. A finer step is taken for faster motions, which inner
+/// stations must then answer to 1 / 8^2.
+const LEAST_REFINED: f64 = 8.0;
 /// Largest deflection of a span between its ends under what its contacts push back with when all its inner stations are
 /// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are deflected by the forces of
 /// the step before, an error of the deflection shrinks by this from step to step, and would grow above 1.
-const MOST_COMPLIANCE: f64 = 0.25;
+const MOST_COMPLIANCE: f64 = 0.5;
 
 /// Corrections of a step that are solved in single precision; a step that needs more is solved in double from there on.
 const SINGLE_CORRECTIONS: u32 = 6;
@@ -337,7 +340,7 @@ impl Chain {
     /// Halvings of a step of size `h` (s) down to the smallest that the slaving of inner stations holds for.
     pub(crate) fn finest_refinement(&self, h: f64) -> u32 {
         let mut halvings = 0;
-        while halvings < 31 && self.model.slowest * h / f64::from(2_u32 << halvings) >= LEAST_FREQUENCY {
+        while halvings < 31 && self.model.slowest * h / f64::from(2_u32 << halvings) >= LEAST_REFINED {
             halvings += 1;
         }
         halvings

@@ -20,8 +20,8 @@ fn spans_that_are_too_long_or_too_soft_have_nodes_inside() {
     // Links of a metre vibrate too slowly for steps of half a millisecond: (4.73 / l)^2 sqrt(EI / rho A) is 2000 rad/s.
     let mut long = default.clone().with_mesh(5, 5);
     (long.inner.stiffness, long.outer.stiffness) = (1e5, 2e5);
-    // Half of one still does, so that nodes are at every station.
-    assert_eq!((spans(&long, 5e-4), spans(&long, 1e-2)), (25, 5));
+    // Three fifths of one still do (5556 rad/s), two fifths do not: a link of five elements has spans of 2, 1 and 2.
+    assert_eq!((spans(&long, 5e-4), spans(&long, 1e-2)), (15, 5));
     // With contacts of their usual stiffness they deflect too much under them, whatever the step.
     assert!(spans(&default.clone().with_mesh(5, 5), 1e-2) > 5);
     // A soft guide on hard rock.

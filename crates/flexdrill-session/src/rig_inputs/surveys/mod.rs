@@ -129,6 +129,7 @@ impl fmt::Display for SurveyRefused {
             Self::NoStamp => f.write_str(
                 "its stamp is 0, so that its age is not known; set header.stamp to the time of the measurement",
             ),
+            // A difference of whole hours is a time zone, which has another cure than a clock that is off.
             Self::Ahead { ahead, most } => {
                 write!(
                     f,
@@ -139,6 +140,7 @@ impl fmt::Display for SurveyRefused {
                     None => f.write_str("synchronise the clocks"),
                 }
             }
+            // In degrees too: a value that makes sense there was sent in them.
             Self::Angle { field, value, bound } => write!(
                 f,
                 "{field} = {} rad ({} deg): must be {bound}; check the unit, which is rad",
