@@ -11,7 +11,7 @@ use super::{WrongUse, built_in, numbers, signals};
 use crate::ahead::keep_priority;
 use crate::cli::output::say;
 use crate::map::shared::Shared;
-use crate::map::study::{self, Question};
+use crate::map::study::{self, Question, Study};
 use crate::map::{picture, table};
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
@@ -163,18 +163,14 @@ pub fn run(args: &MapArgs) -> anyhow::Result<()> {
     let stop = signals::stop_flag()?;
     keep_priority();
     let mut progress = Progress::share();
-    let made = study::make(
-        &args.out,
-        &config,
-        &plan,
-        &question,
-        &shared,
-        args.jobs,
-        &stop,
-        |so_far| {
-            progress.at(so_far.done as f64 / so_far.most as f64);
-        },
-    )?;
+    let study = Study {
+        config: &config,
+        question: &question,
+        shared: &shared,
+    };
+    let made = study::make(&args.out, &plan, study, args.jobs, &stop, |so_far| {
+        progress.at(so_far.done as f64 / so_far.most as f64);
+    })?;
     progress.done();
     let Some(map) = made else {
         anyhow::bail!("stopped; the same command goes on");

@@ -121,6 +121,17 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
     Ok(plan)
 }
 
+/// What a map is made of.
+#[derive(Clone, Copy)]
+pub struct Study<'a> {
+    /// The tool.
+    pub config: &'a Config,
+    /// What is asked of it.
+    pub question: &'a Question,
+    /// States that several cells begin from.
+    pub shared: &'a Arc<Shared>,
+}
+
 /// Makes a map in a directory, on `jobs` threads; results that are there are used. Returns nothing when `stop` is set:
 /// then the same call continues later.
 ///
@@ -130,14 +141,17 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
 /// When the directory has another plan, or a file cannot be written or read or is damaged.
 pub fn make(
     out: &Path,
-    config: &Config,
     plan: &Plan,
-    question: &Question,
-    shared: &Arc<Shared>,
+    study: Study<'_>,
     jobs: usize,
     stop: &AtomicBool,
     progress: impl FnMut(Progress),
 ) -> Result<Option<Map>, SweepError> {
+    let Study {
+        config,
+        question,
+        shared,
+    } = study;
     let rounds = Rounds {
         share: question.share,
         jobs,

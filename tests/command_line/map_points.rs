@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use flexdrill::ahead::keep_priority;
 use flexdrill::map::point;
 use flexdrill::map::shared::Shared;
-use flexdrill::map::study::{self, Question};
+use flexdrill::map::study::{self, Question, Study};
 use flexdrill_alarms::Priority;
 use flexdrill_config::Config;
 use flexdrill_sweep::Outcome;
@@ -242,7 +242,12 @@ fn the_cells_of_a_fast_map_are_those_of_fresh_full_runs() {
     let (outcomes_of_fast, fast) = (fast, question(true));
     let plan = study::plan("small.yaml", &config, &fast).unwrap();
     let stop = AtomicBool::new(false);
-    let map = study::make(folder.path(), &config, &plan, &fast, &Arc::default(), 2, &stop, |_| ());
+    let study = Study {
+        config: &config,
+        question: &fast,
+        shared: &Arc::default(),
+    };
+    let map = study::make(folder.path(), &plan, study, 2, &stop, |_| ());
     let map = map.unwrap().unwrap();
     let starts = map.cells.iter().flat_map(|cell| &cell.starts);
     let found: Vec<bool> = starts.clone().map(|start| start.expected).collect();

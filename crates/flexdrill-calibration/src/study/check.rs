@@ -257,13 +257,12 @@ pub(super) fn objections(study: &Study) -> Vec<Objection> {
 fn beyond_prior(study: &Study) -> impl Iterator<Item = Objection> {
     let middles: Vec<f64> = study.outcome.posterior.row_iter().map(|row| row.mean()).collect();
     let known = study.problem.unknowns.iter().zip(&study.outcome.estimates);
-    known.zip(middles).filter_map(|((unknown, estimate), middle)| {
-        (middle.abs() > FARTHEST).then(|| Objection::BeyondPrior {
-            name: unknown.name.clone(),
-            value: estimate.value,
-            expected: unknown.prior(),
-            deviations: middle.abs(),
-        })
+    let beyond = known.zip(middles).filter(|(_, middle)| middle.abs() > FARTHEST);
+    beyond.map(|((unknown, estimate), middle)| Objection::BeyondPrior {
+        name: unknown.name.clone(),
+        value: estimate.value,
+        expected: unknown.prior(),
+        deviations: middle.abs(),
     })
 }
 
