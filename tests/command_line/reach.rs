@@ -221,8 +221,10 @@ fn plausible_tools_have_a_band() {
     for row in &rows {
         assert_eq!((&row[3], &row[4]), ("19", "0"), "{row:?}");
         let [low, median, high] = [5, 6, 7].map(|at| row[at].parse::<f64>().unwrap());
-        // Friction of 0.1 to 0.5 on a guide that lies on the wall moves what arrives of 2 kN.
-        assert!(low < median && median < high && high < 2.3 && low > 0.5, "{row:?}");
+        assert!(low <= median && median <= high && high < 2.3 && low > 0.5, "{row:?}");
+        // Friction of 0.1 to 0.5 moves what arrives of 2 kN under rotation. Friction that acts around and along by itself, as
+        // here, takes nothing of a guide that hardly advances.
+        assert_eq!(low < median && median < high, &row[2] == "true", "{row:?}");
     }
     // Nothing is drawn where all is known.
     std::fs::write(&config, own).unwrap();
