@@ -40,9 +40,8 @@ TOPICS = {
 # Newton leaves up to 10 mN on a node at rest and up to 1 N on a node in motion (docs/mechanics.md, A step).
 LEFT_AT_REST, LEFT_IN_MOTION = 0.010, 1.0
 # Standard errors by which the mean of samples may differ from the mean of all steps. The error is known from eight parts
-# (Student's t with 7 degrees of freedom): one mean of eleven thousand exceeds eight by chance, and the array has two
-# thousand.
-STANDARD_ERRORS = 8.0
+# (Student's t with 7 degrees of freedom): one mean of two thousand exceeds six by chance, as many as the array has.
+STANDARD_ERRORS = 6.0
 PARTS = 8
 X, Y, Z = range(3)
 
@@ -523,7 +522,7 @@ def moment_balances(tool, sampled, forces, moving, out):
         out.append(Balance("forces on pipe and guide alone", why=why))
 
 
-SCATTER = ", and eight standard errors of the samples' mean"
+SCATTER = ", and six standard errors of the samples' mean"
 # Displacements enter the arms of the model's moments to first order (docs/mechanics.md, geometric stiffness): what is
 # left out is of the order of the square of the guide's tilt in the hole, some 0.01 rad.
 SECOND_ORDER = 1e-4
@@ -553,7 +552,7 @@ def instant_balances(tool, sampled, moving, out):
     weight = float(array(sampled.reactions[0].weight)[Z])
     out.append(Balance("weight of the tool", "N", sampled.weight_error, weight, 1e-6 * abs(weight) + 1e-9, "rounding"))
     size, limit, error = sampled.bit_error()
-    reason = "an instant against the mean before it: 0.01 %, and eight standard errors of the samples' mean"
+    reason = "an instant against the mean before it: 0.01 %, and six standard errors of the samples' mean"
     out.append(Balance("weight on bit along the bit's axis", "N", error, size, limit, reason))
     if tool.hoist:
         out.append(Balance("supports in the list and their sum", why="the string's pull is not in the list"))
