@@ -487,8 +487,8 @@ def moment_balances(tool, sampled, forces, moving, out):
         out.append(Balance("forces and moments", why=f"the bag lacks {', '.join(sorted(set(sampled.missing)))}"))
         return
     nodes = 2 * len(tool.depth)
-    # In motion residuals lie evenly within the limit of either sign, with a deviation of 1 / sqrt(3) of it: three deviations of
-    # their sum. At rest they may have one sign.
+    # In motion residuals lie evenly within the limit of either sign, with a deviation of 1 / sqrt(3) of it: three
+    # deviations of their sum. At rest they may have one sign.
     rest = (LEFT_IN_MOTION if moving else LEFT_AT_REST) * (math.sqrt(3 * nodes) if moving else nodes)
     why_rest = f"Newton's residual of {nodes} nodes" + (", of either sign, three deviations of their sum" if moving else "")
     centres = [(f"the centre of arc {i + 1}", c[0]) for i, c in enumerate(tool.well.centres)]
