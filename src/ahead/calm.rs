@@ -8,8 +8,8 @@ use flexdrill_motion::{HazardKind, Severity};
 /// Largest share of a level that counts as away from it. A margin of a fifth is what calibration leaves of friction.
 const AWAY: f64 = 0.8;
 
-/// The second half of the time after which a calm member ends, in two parts: what the first one has, the second may not exceed by
-/// so much that the rest of the horizon would reach a level.
+/// The second half of the time after which a calm member ends, in two parts. A figure that grew from the first to the second, and
+/// would reach a level by the end of the horizon, is not calm.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Calm {
     /// Looks after which a calm member ends, and those of its horizon.

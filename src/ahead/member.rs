@@ -100,7 +100,7 @@ pub(super) struct Member {
     pub measured: Option<Measured>,
     /// Model time that it was judged over (s).
     pub judged: f64,
-    /// Model time of its own way before (s).
+    /// Model time of its way to the judged time (s).
     pub way: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Joint life of a running node: what its joints have lived in this run, by serial number, added to a table while it runs. A thread
-//! of its own counts and writes, so that neither disk nor another program with the table delays anything.
+//! Joint life of a running node: what its joints have lived in this run, by serial number, added to a table while it runs. A
+//! separate thread counts and writes, so that neither disk nor another program with the table delays anything.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};

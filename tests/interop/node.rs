@@ -111,6 +111,7 @@ fn inputs_go_in_and_all_outputs_come_out() {
         "solver",
         "inputs",
         "measured",
+        "surveys",
         "configuration",
         "whirl",
         "stick-slip",

@@ -50,8 +50,8 @@ impl Config {
         self.with_hole_below(None, length, vec![drilled], length + spacing * points.len() as f64)
     }
 
-    /// A copy whose hole is its own down to a depth `from` (m), with sections below it, down to a bit at a depth `bit` (m). Where
-    /// none of its own remains, `start_deg` is the inclination of the first of them at its top.
+    /// A copy that keeps its hole down to a depth `from` (m), with sections below it, down to a bit at a depth `bit` (m). Where
+    /// nothing of its hole remains, `start_deg` is the inclination of the first of them at its top.
     ///
     /// The tool fills its hole from end to end as before, so that the hole loses at its top what it gains below. There is the new
     /// kick-off: depths count from it, `well.kick_off_depth` is as much deeper, and the string above as much longer. A plan is

@@ -263,7 +263,7 @@ mod tests {
         assert_eq!(tare.per_value, 1e-3);
         assert!(known(Of::Channel(Channel::SurfaceTorque), Part::Factor).is_some());
         assert!(known(Of::Channel(Channel::HookLoad), Part::Factor).is_none());
-        // A hook load without an error of its own has the indicator's factor, about the load of hanging.
+        // A hook load whose error is not stated has the indicator's factor, about the load of hanging.
         let first = unknowns.modelled.len();
         let hook = unknowns.sensor(Of::Channel(Channel::HookLoad), 61e3);
         assert_eq!(hook.factor, unknowns.sensor(Of::Indicator, 0.0).factor);
