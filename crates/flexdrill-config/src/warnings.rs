@@ -2,7 +2,7 @@
 
 use super::solver::{Solver, StepTaken};
 use super::{Config, HardBounds, WallFrictionFactors};
-use flexdrill_core::tool::{AddedMass, HoleInterval, Location, TorsionalMode};
+use flexdrill_core::tool::{AddedMass, FrictionLaw, HoleInterval, Location, MudFilm, SectionProperties, TorsionalMode};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
 
 /// Smallest duration of a collision of pipe and guide, in steps. The default tool's lasts 1.5 steps and is accurate; at
@@ -20,6 +20,18 @@ const LEAST_DECAY: f64 = 1e-3;
 
 /// Strain at which a guide of good steel yields: API 5DP grade S-135 has a yield strength of 931 MPa, at 206 GPa.
 const YIELD_STRAIN: f64 = 931e6 / 206e9;
+
+/// Bending length on the springs of the wall, in stations, below which the stations of a guide vibrate there by themselves:
+/// 2.5 for the guide of `config/rig.yaml`, which rings without damping; 3.9 for 0.05 of a tube's stiffness, which does
+/// not.
+const LONE_STATIONS: f64 = 3.0;
+
+/// Least share of critical damping of such a station, under [`JUDGED_THRUST`]. The rig's tool rings at 2.6 % and is calm at
+/// 6.6 % (`docs/measurements.md`, the rig's tool by step).
+const LEAST_DAMPING: f64 = 0.04;
+
+/// Thrust (N) whose side force in the arc presses the stations on the wall: an ordinary weight on bit of such tools.
+const JUDGED_THRUST: f64 = 10e3;
 
 /// Torsional modes that are shown and judged: higher ones decay as fast, and the joints' ripple is above them.
 const SHOWN_MODES: usize = 4;
@@ -62,6 +74,7 @@ impl Config {
         self.warn_of_short_contacts(&mut warnings);
         self.warn_of_play(&mut warnings);
         self.warn_of_yield(&mut warnings);
+        self.warn_of_a_guide_that_rings(&mut warnings);
         self.warn_of_ringing(&mut warnings);
         self.warn_of_mud(&mut warnings);
         self.warn_of_idle_factors(&mut warnings);
@@ -228,6 +241,42 @@ impl Config {
         }
     }
 
+    /// Warns of a soft guide that nothing calms on the wall: its stations ring there by themselves, which takes friction off
+    /// the guide, more so in finer steps. The weight at the bit then depends on the step.
+    fn warn_of_a_guide_that_rings(&self, warnings: &mut Vec<String>) {
+        let (guide, outer) = (&self.tool.guide, &self.contact.outer);
+        let has_film = self
+            .environment
+            .mud
+            .as_ref()
+            .is_some_and(|mud| mud.film != MudFilm::None);
+        // Only a guide that advances loses weight to the wall; `separate` has the paper's guide, which does not.
+        if guide.fixed || has_film || outer.friction == FrictionLaw::Separate {
+            return;
+        }
+        let section = SectionProperties::of(guide.section(), self.tool.material.describe(), guide.bending_factor);
+        let spacing = self.link_length() / self.tool.elements_per_link as f64;
+        // A beam on springs, k per spacing: its bending length is (4 EI / (k / spacing))^(1/4).
+        let bending_length = (4.0 * section.bending * spacing / outer.stiffness).powf(0.25);
+        if bending_length >= LONE_STATIONS * spacing {
+            return;
+        }
+        // The contact damps by c = d F: the more, the harder the station is pressed.
+        let weight = section.mass * self.environment.gravity * self.environment.buoyancy_factor;
+        let pressed = (weight + JUDGED_THRUST / self.well.smallest_radius()) * spacing;
+        let critical = 2.0 * (outer.stiffness * section.mass * spacing).sqrt();
+        let ratio = outer.damping * pressed / critical;
+        if ratio < LEAST_DAMPING {
+            warnings.push(format!(
+                "contact.outer.damping {} s/m: on the wall each station of this soft guide vibrates by itself, damped by {:.1} % of critical under a thrust of {:.0} kN. It rings, which takes friction off the guide, and what arrives at the bit then depends on the step; give at least {:.0} s/m, or environment.mud.film: squeeze",
+                outer.damping,
+                100.0 * ratio,
+                1e-3 * JUDGED_THRUST,
+                (LEAST_DAMPING * critical / pressed).ceil()
+            ));
+        }
+    }
+
     fn warn_of_sagitta(&self, warnings: &mut Vec<String>) {
         let (sagitta, clearance) = (self.chord_sagitta(), self.inner_clearance());
         if sagitta > clearance {
@@ -278,6 +327,34 @@ mod tests {
         }
         let finer = stiff.with_value("solver.time_step", 3.8e-4).unwrap();
         assert!(short_contacts(&finer).is_empty());
+    }
+
+    #[test]
+    fn a_soft_guide_that_rings_on_the_wall_is_warned_of() {
+        let rings = |changes: &[(&str, serde_json::Value)]| {
+            let rig = Config::load("../../config/rig.yaml").unwrap();
+            let mut warnings = Vec::new();
+            rig.with_values("test", changes.iter().cloned())
+                .unwrap()
+                .warn_of_a_guide_that_rings(&mut warnings);
+            warnings
+        };
+        assert!(rings(&[]).is_empty());
+        let dry = ("contact.outer.damping", 0.5.into());
+        let warnings = rings(std::slice::from_ref(&dry));
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        // 24.69 kg/m of steel in stations of 30.5 mm: critical 2 sqrt(2e7 x 0.752) = 7758 N s/m; pressed by 208 N/m and
+        // 10 kN over 3.2 m, 101.6 N.
+        for part in ["damping 0.5 s/m", "0.7 % of critical", "10 kN", "at least 4 s/m"] {
+            assert!(warnings[0].contains(part), "'{part}' is not in {}", warnings[0]);
+        }
+        for cure in [
+            ("environment.mud.film", "squeeze".into()),
+            ("tool.guide.bending_factor", 0.05.into()),
+            ("contact.outer.friction", "separate".into()),
+        ] {
+            assert!(rings(&[dry.clone(), cure.clone()]).is_empty(), "{cure:?}");
+        }
     }
 
     #[test]
