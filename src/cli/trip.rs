@@ -8,7 +8,7 @@ use clap::Args;
 use super::progress::Progress;
 use super::{WrongUse, built_in, numbers, whole_file};
 use crate::cli::output::say;
-use crate::trip::{Plan, picture, stuck, study, table, words};
+use crate::trip::{Plan, picture, reached, stuck, study, table, words};
 use flexdrill_config::Config;
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 use flexdrill_text::counted;
@@ -80,7 +80,7 @@ pub fn run(args: &TripArgs) -> anyhow::Result<()> {
     };
     if let Some(freed) = &freed {
         whole_file::write(&args.out, "stuck.csv", &stuck::csv(freed))?;
-        whole_file::write(&args.out, "reached.csv", &stuck::reached_csv(freed))?;
+        whole_file::write(&args.out, "reached.csv", &reached::csv(&freed.along))?;
         whole_file::write(&args.out, "stuck.svg", &flexdrill_plot::svg(&stuck::figure(freed))?)?;
     }
     for line in words::words(&config, &plan, &rows, assembly.tool().as_built) {

@@ -2,6 +2,7 @@
 //! threads, table, picture and words. [`flexdrill_trip`] has the mechanics.
 
 pub mod picture;
+pub mod reached;
 pub mod stuck;
 pub mod table;
 pub mod words;

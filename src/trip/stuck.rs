@@ -7,8 +7,9 @@ use flexdrill_drilling::Band;
 use flexdrill_plot::{Figure as Drawn, Legend, Line, Panel};
 use flexdrill_text::fixed;
 use flexdrill_trip::unknowns::priors;
-use flexdrill_trip::{Assembly, Limits, Stuck};
+use flexdrill_trip::{Assembly, Limits, Reached, Stuck};
 
+use super::reached::{self, Along};
 use super::{Plan, StudyError};
 use crate::runs::{KeptAs, Work, run_all};
 
@@ -35,6 +36,8 @@ pub struct Freed {
     pub limits: Limits,
     /// From the bottom up.
     pub rows: Vec<Row>,
+    /// From the rig down, with the bit at the first depth; empty where nothing is known there.
+    pub along: Vec<Along>,
     /// Plausible tools that were drawn.
     pub drawn: usize,
 }
@@ -47,7 +50,7 @@ struct Run<'a> {
 }
 
 impl Work for Run<'_> {
-    /// [`FIGURES`] of each depth; not a number where there are none.
+    /// [`FIGURES`] of each depth, not a number where there are none; then the stations with the bit at the first depth.
     type Found = Vec<f64>;
 
     fn cost(&self) -> f64 {
@@ -62,10 +65,14 @@ impl Work for Run<'_> {
     fn run(&self, report: &mut impl FnMut(f64)) -> Result<Vec<f64>, String> {
         let assembly = self.assembly.as_ref().map_err(Clone::clone)?;
         let mut figures = Vec::with_capacity(FIGURES * self.depths.len());
+        let mut along = Vec::new();
         for (index, &depth) in self.depths.iter().enumerate() {
             // A depth without a solution leaves the others as they are.
             figures.extend(match assembly.pull(depth, self.limits) {
                 Ok(stuck) => {
+                    if index == 0 {
+                        along.extend(reached::numbers(&stuck.reached));
+                    }
                     let lost = if stuck.holds_at.is_some() { 1.0 } else { 0.0 };
                     [stuck.at_bit, stuck.torque_at_bit(), lost]
                 }
@@ -73,6 +80,7 @@ impl Work for Run<'_> {
             });
             report((index + 1) as f64 / self.depths.len() as f64);
         }
+        figures.append(&mut along);
         Ok(figures)
     }
 
@@ -92,6 +100,7 @@ impl Work for Run<'_> {
 pub fn study(config: &Config, plan: &Plan, limits: Limits, progress: impl FnMut(f64)) -> Result<Freed, StudyError> {
     let assembly = Assembly::of(config)?;
     let priors = priors(config)?;
+    // Plausible tools first, on threads: the ranges of all depths and stations need all of them.
     let runs: Vec<Run<'_>> = super::members(&priors, plan)
         .map(|assembly| Run {
             assembly,
@@ -114,9 +123,19 @@ pub fn study(config: &Config, plan: &Plan, limits: Limits, progress: impl FnMut(
             members: [known.len(), known.iter().filter(|of| of[2] > 0.0).count()],
         }
     };
+    let rows: Vec<Row> = plan.depths.iter().enumerate().map(row).collect();
+    // The stations follow the figures of all depths.
+    let first = FIGURES * plan.depths.len();
+    let members: Vec<Vec<Reached>> = found
+        .iter()
+        .map(|of| reached::stations(of.as_ref().ok().and_then(|of| of.get(first..)).unwrap_or_default()))
+        .collect();
+    let on_bottom = rows.first().and_then(|row| row.stuck.as_ref().ok());
+    let along = on_bottom.map_or_else(Vec::new, |stuck| reached::rows(&stuck.reached, &members));
     Ok(Freed {
         limits,
-        rows: plan.depths.iter().enumerate().map(row).collect(),
+        along,
+        rows,
         drawn: plan.members,
     })
 }
@@ -129,7 +148,7 @@ impl Freed {
 }
 
 /// A cell; empty for what is not known.
-fn cell(value: Option<f64>, digits: usize) -> String {
+pub(super) fn cell(value: Option<f64>, digits: usize) -> String {
     value
         .filter(|value| value.is_finite())
         .map_or_else(String::new, |value| fixed(value, digits))
@@ -168,37 +187,34 @@ pub fn csv(freed: &Freed) -> String {
     out
 }
 
-/// The table along string and tool, with the bit on the bottom.
-pub fn reached_csv(freed: &Freed) -> String {
-    let mut out = "measured_depth_m,pull_kn,overpull_kn,torque_nm\n".to_owned();
-    for at in freed.on_bottom().iter().flat_map(|stuck| &stuck.reached) {
-        let cells = [
-            cell(Some(at.depth), 4),
-            cell(Some(n_to_kn(at.tension)), 4),
-            cell(Some(n_to_kn(at.overpull)), 4),
-            cell(Some(at.torque), 2),
-        ];
-        out.push_str(&cells.join(","));
-        out.push('\n');
-    }
-    out
-}
-
 /// Pull and overpull along string and tool with the bit on the bottom, and the pull at the bit over its depth.
 pub fn figure(freed: &Freed) -> Drawn {
     let along = |title: &str, x: &str, of_tool: bool| {
-        let points = |of: &dyn Fn(&flexdrill_trip::Reached) -> f64| -> Vec<(f64, f64)> {
-            let stations = freed.on_bottom().into_iter().flat_map(|stuck| &stuck.reached);
-            // The tool's top is the last station at or above the kick-off, where the bit is on the bottom.
-            stations
-                .filter(|at| if of_tool { at.depth >= 0.0 } else { at.depth <= 0.0 })
-                .map(|at| (at.depth, n_to_kn(of(at))))
-                .collect()
+        // The tool's top is the last station at or above the kick-off, where the bit is on the bottom.
+        let stations = || {
+            let within = |row: &&Along| {
+                let depth = row.at.depth;
+                if of_tool { depth >= 0.0 } else { depth <= 0.0 }
+            };
+            freed.along.iter().filter(within)
         };
-        Panel::new(title, x, "kN")
-            .legend(Legend::Stacked)
-            .line(Line::new("pull that arrives", points(&|at| at.tension)).color(0))
-            .line(Line::new("beyond what slides out freely", points(&|at| at.overpull)).color(1))
+        let points = |of: &dyn Fn(&Along) -> Option<f64>| -> Vec<(f64, f64)> {
+            let known = stations().filter_map(|row| Some((row.at.depth, of(row)?)));
+            known.map(|(depth, force)| (depth, n_to_kn(force))).collect()
+        };
+        let mut panel = Panel::new(title, x, "kN").legend(Legend::Stacked);
+        // Ranges come first: they would cover the curves.
+        for index in [0, 1] {
+            let low = points(&|row| Some(row.bands[index]?.low));
+            let high = points(&|row| Some(row.bands[index]?.high));
+            if low.len() > 1 {
+                let around = high.into_iter().chain(low.into_iter().rev()).collect();
+                panel = panel.line(Line::new("", around).area().color(index));
+            }
+        }
+        panel
+            .line(Line::new("pull that arrives", points(&|row| Some(row.at.tension))).color(0))
+            .line(Line::new("beyond what slides out freely", points(&|row| Some(row.at.overpull))).color(1))
     };
     let below = "measured depth below the kick-off (m)";
     let at_bit = freed.rows.iter().filter_map(|row| {

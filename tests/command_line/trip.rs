@@ -97,6 +97,8 @@ fn a_largest_pull_has_what_reaches_the_stuck_tool() {
         "{:?}",
         reached[0]
     );
+    // One plausible tool has no range.
+    assert!(reached.iter().all(|row| row["pull_low_kn"].is_empty()), "{last:?}");
     assert!(words.contains(&format!("{at_bit:.1} kN pull at the bit")), "{words}");
     assert!(
         std::fs::read_to_string(folder.path().join("stuck.svg"))
@@ -113,18 +115,20 @@ fn a_largest_pull_has_what_reaches_the_stuck_tool() {
 }
 
 /// The band of each depth is that of the plausible tools there: it holds the tool as configured, and a pull of little more than
-/// that of pulling out does not reach the bit of some.
+/// that of pulling out does not reach the bit of some. So is that of each station with the bit on the bottom.
 #[test]
-fn what_reaches_a_stuck_tool_has_a_range_at_each_depth() {
+fn what_reaches_a_stuck_tool_has_a_range_at_each_depth_and_station() {
     let folder = tempfile::tempdir().unwrap();
-    let rows = |pull: &str, name: &str| -> Vec<std::collections::BTreeMap<String, String>> {
+    let rows = |pull: &str, name: &str| {
         let out = folder.path().join(name);
         let more = ["--every", "2.5", "--members", "19", "--max-pull", pull];
         trip("rig", &out, &more);
-        let mut reader = csv::Reader::from_path(out.join("stuck.csv")).unwrap();
-        reader.deserialize().map(Result::unwrap).collect()
+        ["stuck.csv", "reached.csv"].map(|table| -> Vec<std::collections::BTreeMap<String, String>> {
+            let mut reader = csv::Reader::from_path(out.join(table)).unwrap();
+            reader.deserialize().map(Result::unwrap).collect()
+        })
     };
-    let strong = rows("150", "strong");
+    let [strong, along] = rows("150", "strong");
     assert_eq!(strong.len(), 4);
     for row in &strong {
         let [low, at, high] =
@@ -140,7 +144,35 @@ fn what_reaches_a_stuck_tool_has_a_range_at_each_depth() {
             ("0", "0")
         );
     }
-    let weak = rows("20", "weak");
+    for row in &along {
+        for figure in ["pull", "overpull"] {
+            let [low, median, high] = ["low", "median", "high"].map(|end| number(row, &format!("{figure}_{end}_kn")));
+            assert!(low <= median && median <= high, "{figure}: {row:?}");
+        }
+        assert_eq!(row["tools_unknown"], "0");
+    }
+    // At the rig all tools have the pull, to the accuracy to which it is found, and what is beyond their load of pulling out.
+    let [rig, bit] = [along.first().unwrap(), along.last().unwrap()];
+    for end in ["low", "median", "high"] {
+        assert!((number(rig, &format!("pull_{end}_kn")) - 150.0).abs() < 0.01, "{rig:?}");
+    }
+    for row in [rig, bit] {
+        let [low, at, high] = ["overpull_low_kn", "overpull_kn", "overpull_high_kn"].map(|column| number(row, column));
+        assert!(low < at && at < high, "{row:?}");
+    }
+    // At the bit the torque is that of the other table; on the way there the pipe's friction is known as a whole.
+    for end in ["low", "high"] {
+        assert_eq!(
+            bit[&format!("torque_{end}_nm")],
+            strong[0][&format!("torque_at_bit_{end}_nm")]
+        );
+    }
+    let above_bit = &along[along.len() - 2];
+    assert!(
+        above_bit["torque_nm"].is_empty() && above_bit["torque_low_nm"].is_empty(),
+        "{above_bit:?}"
+    );
+    let [weak, _] = rows("20", "weak");
     assert!(weak.iter().all(|row| row["tools_not_reached"] == "19"), "{weak:?}");
 }
 
