@@ -237,6 +237,7 @@ impl StatusKeeper {
         self.fill_phases(&mut status, gauges);
         self.fill_inputs(&mut status, sources);
         fill_outputs(&mut status, sources);
+        fill_surveys(&mut status, sources);
         fill_network(&mut status, sources);
         status
     }
@@ -291,6 +292,14 @@ impl StatusKeeper {
             status.input_suspect.push(source.suspect);
         }
     }
+}
+
+/// The same counts as those of the item `surveys` of the diagnostics.
+fn fill_surveys(status: &mut TwinStatus, sources: &Sources<'_>) {
+    let counts = sources.intake.surveys().counts();
+    status.surveys_known = counts.known;
+    status.surveys_waiting = counts.waiting;
+    status.surveys_refused = counts.refused;
 }
 
 fn fill_network(status: &mut TwinStatus, sources: &Sources<'_>) {

@@ -9,6 +9,7 @@ use flexdrill::bag;
 use serde_json::{Value, json};
 
 const AHEAD: (&str, &str) = ("/twin/hole_ahead", "flexdrill/msg/HoleAhead");
+const STATUS: &str = "/twin/status";
 const DIAGNOSTICS: (&str, &str) = ("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray");
 
 /// Measured depths of the kick-off and of the bit below it (m).
@@ -124,6 +125,7 @@ fn surveys_narrow_the_hole_ahead_are_counted_and_outlast_a_restart() {
     let mut first = twin(&network, &config, &[]);
     first.wait_for("model time runs");
     peer.subscribe(AHEAD.0, AHEAD.1, "reliable");
+    peer.subscribe(STATUS, "flexdrill/msg/TwinStatus", "reliable");
     peer.subscribe(DIAGNOSTICS.0, DIAGNOSTICS.1, "reliable");
     let before = ahead(&mut peer, |message| message["known"] == true);
     assert_eq!(before["surveys_used"], 0);
@@ -145,6 +147,13 @@ fn surveys_narrow_the_hole_ahead_are_counted_and_outlast_a_restart() {
             ("known", "2"),
         ],
     );
+    let of_status = |known: u64, waiting: u64, refused: u64| {
+        move |status: &Value| {
+            ["surveys_known", "surveys_waiting", "surveys_refused"].map(|count| status[count].as_u64())
+                == [known, waiting, refused].map(Some)
+        }
+    };
+    peer.status_with(STATUS, of_status(2, 1, 2));
     let refusal = values["last refusal"].as_str().unwrap();
     assert!(refusal.contains("measured_depth = 2065.03 m"), "{refusal}");
     let age: f64 = values["age of the newest (s)"].as_str().unwrap().parse().unwrap();
@@ -181,6 +190,7 @@ fn surveys_narrow_the_hole_ahead_are_counted_and_outlast_a_restart() {
             ("known", "2"),
         ],
     );
+    peer.status_with(STATUS, of_status(2, 1, 0));
     ends(second);
     let replay = folder.path().join("replay");
     let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))

@@ -258,6 +258,8 @@ fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
             model_quality: u8::from(index >= 75),
             model_quality_cause: "steps too long".to_owned(),
             recording_drops: 17,
+            surveys_known: 4,
+            surveys_refused: 2,
             ..TwinStatus::default()
         };
         bag.put("/rig_7/twin/status", time, &to_cdr(&status).unwrap());
@@ -283,6 +285,10 @@ fn alarms_and_health_are_told_and_texts_of_others_stay_text() {
     assert!(page.contains("pipe, 2.50 m") && page.contains("Lower the speed."));
     assert!(page.contains("Inspect the joints."), "what the engineer can do");
     // Good from 0 to 15 s, degraded from there to the last message at 19.8 s.
+    assert!(
+        page.contains("waiting below the bit, refused</th><td>4, 0, 2</td>"),
+        "{page}"
+    );
     assert!(page.contains("good 75.8 %, degraded 24.2 %") && page.contains("steps too long"));
     assert!(page.contains("0.250 to 1") && page.contains("recording 17"));
     assert!(

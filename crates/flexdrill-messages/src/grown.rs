@@ -3,7 +3,7 @@
 
 use byteorder::{BigEndian, LittleEndian};
 
-use super::{AppliedInputs, Bands, Message, RigInputs, RigMeasured, Transfer, to_cdr_body};
+use super::{AppliedInputs, Bands, Message, RigInputs, RigMeasured, Transfer, TwinStatus, to_cdr_body};
 
 /// What an older sender leaves out.
 struct Missing {
@@ -46,6 +46,8 @@ const LISTS: Missing = Missing {
 
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.
 const NOT_APPLIED: &[f64] = &[0.0; 4];
+/// The counts of surveys of a twin that did not count them; the bytes of a count 0 are those of the number 0.
+const NO_SURVEYS: &[f64] = &[0.0; 3];
 /// NaN is a value that is not given.
 const NOT_GIVEN: &[f64] = &[f64::NAN; 2];
 
@@ -74,6 +76,7 @@ const MISSING: &[(&str, &[Missing])] = &[
     ),
     (RigMeasured::ROS_TYPE, &[GIVEN]),
     (Bands::ROS_TYPE, &[LISTS]),
+    (TwinStatus::ROS_TYPE, &[Missing::numbers(NO_SURVEYS)]),
 ];
 
 /// Messages that grow by figures at their end, with the last field of the first version. An older twin does not say what
@@ -210,6 +213,44 @@ mod tests {
         let older = body.len() - LISTS.last;
         assert_eq!(message_from_cdr_body::<Bands>(&body[..older]).unwrap(), whole);
         assert!(message_from_cdr_body::<Bands>(&body[..older - 8]).is_err());
+    }
+
+    #[test]
+    fn an_older_status_counts_no_surveys() {
+        for changed in [
+            vec![],
+            vec!["a".to_owned()],
+            vec!["rate (Hz)".to_owned(), String::new()],
+        ] {
+            let whole = TwinStatus {
+                sequence: 7,
+                steps_stood_still: 5,
+                changed_parameter: changed.clone(),
+                ..TwinStatus::default()
+            };
+            let body = to_cdr_body(&whole).unwrap();
+            // The texts follow a count of eight bytes. An older body ends with the last of them, without the bytes up to the
+            // next multiple of eight.
+            let mut texts: usize = 4;
+            for text in &changed {
+                texts = texts.next_multiple_of(4) + 4 + text.len() + 1;
+            }
+            let padded = body.len() - 8 * NO_SURVEYS.len();
+            let end = padded - (texts.next_multiple_of(8) - texts);
+            for older in [end, padded] {
+                assert_eq!(
+                    message_from_cdr_body::<TwinStatus>(&body[..older]).unwrap(),
+                    whole,
+                    "{changed:?}"
+                );
+            }
+            for cut in [end - 2, padded + 8] {
+                assert!(
+                    message_from_cdr_body::<TwinStatus>(&body[..cut]).is_err(),
+                    "{changed:?}: {cut}"
+                );
+            }
+        }
     }
 
     #[test]

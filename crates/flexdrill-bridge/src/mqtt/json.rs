@@ -67,6 +67,11 @@ pub fn status(status: &TwinStatus) -> Value {
         "model_quality": words::model_quality(status.model_quality),
         "model_quality_cause": text(&status.model_quality_cause),
         "inputs": inputs,
+        "surveys": {
+            "known": status.surveys_known,
+            "waiting": status.surveys_waiting,
+            "refused": status.surveys_refused,
+        },
         "recording": words::recording_state(status.recording_state),
         "recording_messages_lost": status.recording_drops,
         "config_hash": status.config_hash,
@@ -382,6 +387,8 @@ mod tests {
             input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
             input_state: vec![TwinStatus::INPUT_OK],
             input_applied: vec![6.0, 20e3],
+            surveys_known: 2,
+            surveys_refused: 1,
             ..TwinStatus::default()
         };
         let document = status(&message);
@@ -389,6 +396,7 @@ mod tests {
         assert_eq!(document["state"], "running");
         assert_eq!(document["inputs"][0]["applied"], json!({"value": 6.0, "unit": "rad/s"}));
         assert_eq!(document["inputs"][1]["applied"], json!({"value": 20e3, "unit": "N"}));
+        assert_eq!(document["surveys"], json!({"known": 2, "waiting": 0, "refused": 1}));
         // Arrays of a damaged message may differ in length.
         assert_eq!(document["inputs"][1]["state"], Value::Null);
         let figures = figures(&TwinFigures::default(), 0);

@@ -2159,6 +2159,12 @@ export interface TwinStatus {
   steps_stood_still: number;
   /** Values on which motion or alarms depend and that a client has changed since the start, each with the configured value. */
   changed_parameter: string[];
+  /** Surveys of the hole (rig/survey) that are taken into account, also those of an earlier run. */
+  surveys_known: number;
+  /** Surveys below the bit of the configuration: they wait for a run with that hole as drilled. */
+  surveys_waiting: number;
+  /** Surveys refused since the start. */
+  surveys_refused: number;
 }
 export const TwinStatus = {
   /** The tool is being brought to rest under gravity and weight on bit. */
@@ -2274,6 +2280,9 @@ export function decodeTwinStatus(reader: CdrReader): TwinStatus {
     recording_drops_cause: reader.string(),
     steps_stood_still: reader.uint64(),
     changed_parameter: reader.many(reader.length(), () => reader.string()),
+    surveys_known: reader.uint64(),
+    surveys_waiting: reader.uint64(),
+    surveys_refused: reader.uint64(),
   };
 }
 

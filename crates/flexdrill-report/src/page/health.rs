@@ -58,6 +58,12 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
                             (status.dds_restarts)
                             @if !status.dds_restart_cause.is_empty() { "; the last: " (status.dds_restart_cause) }
                         } }
+                        // Only of a rig that sends surveys.
+                        @if status.surveys_known + status.surveys_waiting + status.surveys_refused > 0 {
+                            tr { th { "surveys taken into account, waiting below the bit, refused" } td {
+                                (status.surveys_known) ", " (status.surveys_waiting) ", " (status.surveys_refused)
+                            } }
+                        }
                         tr { th { "messages lost" } td { (lost(status)) } }
                         // Only where the clock was set, which is rare.
                         @if status.clock_set_by != 0.0 {

@@ -1,9 +1,11 @@
 //! The nodes of the server: what each variable is, and its value from the twin's messages.
 
+mod status;
+
 use ::opcua::types::{DataTypeId, Variant};
 use flexdrill_core::inputs::{InputKind, Unit};
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{Bands, FigureBand, Residual, SafeWindow, TwinStatus};
+use flexdrill_messages::{Bands, FigureBand, Residual, SafeWindow};
 use flexdrill_outputs::figures::OverTools;
 
 use super::state::{Meaning, TwinState};
@@ -136,8 +138,8 @@ pub(super) fn number(value: f64) -> Option<Variant> {
 /// All variables but those of the alarms, which the twin names.
 pub fn variables() -> Vec<Variable> {
     let mut all: Vec<Variable> = Figure::all().map(of_figure).collect();
-    all.extend(of_status());
-    all.extend(InputKind::ALL.into_iter().flat_map(of_input));
+    all.extend(status::of_status());
+    all.extend(InputKind::ALL.into_iter().flat_map(status::of_input));
     all.extend(of_residuals());
     all.extend(of_window());
     all.extend(of_bands());
@@ -160,126 +162,6 @@ fn of_figure(figure: Figure) -> Variable {
     );
     variable.figure = Some(figure);
     variable
-}
-
-fn of_status() -> Vec<Variable> {
-    // One constructor per type: the closures read one field, and the rest of a variable cannot differ between them.
-    let text = |name: &str, description: &str, read: fn(&TwinStatus) -> String| {
-        Variable::new("status", name, description, Kind::Text, &topics::STATUS, move |twin| {
-            Some(Variant::from(read(twin.status()?)))
-        })
-    };
-    let count = |name: &str, description: &str, read: fn(&TwinStatus) -> u64| {
-        Variable::new("status", name, description, Kind::Count, &topics::STATUS, move |twin| {
-            // `?` makes a variable without its message unknown (no value), never zero.
-            Some(Variant::from(read(twin.status()?)))
-        })
-    };
-    vec![
-        // Words and not codes, because clients show the value without a table.
-        text("state", "starting, running, paused or failed", |status| {
-            match status.state {
-                TwinStatus::STARTING => "starting",
-                TwinStatus::RUNNING => "running",
-                TwinStatus::PAUSED => "paused",
-                TwinStatus::FAILED => "failed",
-                _ => "unknown",
-            }
-            .to_owned()
-        }),
-        text("version", "Version of flexdrill", |status| status.version.clone()),
-        text(
-            "configuration_hash",
-            "SHA-256 of the configuration in force",
-            |status| status.config_hash.clone(),
-        ),
-        text(
-            "model_quality_cause",
-            "Why the model quality is not good; empty if it is",
-            |status| status.model_quality_cause.clone(),
-        ),
-        count("heartbeat", "One more in every status of the twin", |status| {
-            status.sequence
-        }),
-        count("deadline_misses", "Steps that ended after their deadline", |status| {
-            status.deadline_misses
-        }),
-        count("steps_skipped", "Steps skipped because the model was late", |status| {
-            status.steps_skipped
-        }),
-    ]
-}
-
-fn of_input(kind: InputKind) -> Vec<Variable> {
-    // OPC UA carries SI here, with its unit in the node, so that no client converts twice.
-    let unit = match kind {
-        InputKind::RotarySpeed => Unit::RadianPerSecond,
-        InputKind::WeightOnBit => Unit::Newton,
-        InputKind::RateOfPenetration => Unit::MetrePerSecond,
-        InputKind::StandpipePressure => Unit::Pascal,
-    };
-    // The status lists an input only where it plays a part.
-    let of = move |status: &TwinStatus| status.input_name.iter().position(|name| name == kind.name());
-    // The index is found in each message: its order is not part of the contract.
-    let numbers = move |name: &str, description: &str, unit, read: fn(&TwinStatus) -> &[f64]| {
-        Variable::new(
-            "inputs",
-            format!("{}/{name}", kind.name()),
-            description,
-            Kind::Number(unit),
-            &topics::STATUS,
-            move |twin| {
-                let status = twin.status()?;
-                number(*read(status).get(of(status)?)?)
-            },
-        )
-    };
-    let texts = move |name: &str, description: &str, read: fn(&TwinStatus, usize) -> Option<String>| {
-        Variable::new(
-            "inputs",
-            format!("{}/{name}", kind.name()),
-            description,
-            Kind::Text,
-            &topics::STATUS,
-            move |twin| {
-                let status = twin.status()?;
-                read(status, of(status)?).map(Variant::from)
-            },
-        )
-    };
-    // The names are those of the message, so that both interfaces are described in one page.
-    vec![
-        numbers("applied", "Value that acts on the model", unit, |status| {
-            &status.input_applied
-        }),
-        numbers("received", "Newest sample as received", unit, |status| {
-            &status.input_received
-        }),
-        numbers("age", "Time since the newest good sample", Unit::Second, |status| {
-            &status.input_age
-        }),
-        texts(
-            "state",
-            "not received, ok, slow, stale, rejected or assumed",
-            |status, index| {
-                let state = match *status.input_state.get(index)? {
-                    TwinStatus::INPUT_NOT_RECEIVED => "not received",
-                    TwinStatus::INPUT_OK => "ok",
-                    TwinStatus::INPUT_SLOW => "slow",
-                    TwinStatus::INPUT_STALE => "stale",
-                    TwinStatus::INPUT_REJECTED => "rejected",
-                    TwinStatus::INPUT_ASSUMED => "assumed",
-                    _ => "unknown",
-                };
-                Some(state.to_owned())
-            },
-        ),
-        texts(
-            "driver",
-            "The publisher that drives it; empty while there is none",
-            |status, index| status.input_driver.get(index).cloned(),
-        ),
-    ]
 }
 
 /// The quantities that are compared, in their SI units.
