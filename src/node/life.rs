@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use flexdrill_config::{Config, ConfigError};
-use flexdrill_life::{Counted, LifeError, RunLife};
+use flexdrill_life::{Counted, LifeError, LivingJoints, RunLife};
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Ageing, CdrError, SessionInfo, from_cdr};
 use flexdrill_text::log_ending;
@@ -30,6 +30,16 @@ pub struct LifeSetup {
     pub table: PathBuf,
     /// Serial numbers of joints whose life begins with this run.
     pub new: Vec<String>,
+}
+
+impl LifeSetup {
+    /// The joints of a configuration with what the table has of them now. What other programs add to it later is of the next run.
+    ///
+    /// # Errors
+    /// When the table cannot be read or has other joints, or the configuration has no class or no serial numbers.
+    pub fn living(&self, config: &Config) -> Result<LivingJoints, TableError> {
+        Ok(LivingJoints::of_table(config, life_table::read(&self.table)?)?)
+    }
 }
 
 /// A message that the life of joints is made of.

@@ -306,6 +306,11 @@ impl PreparedNode {
         );
         let mut session = Session::new(Arc::clone(&self.config), book);
         session.continue_hole(&self.earlier);
+        // A table that has become unreadable since it was checked ends no node.
+        match setup.life.as_ref().map(|life| life.living(&self.config)).transpose() {
+            Ok(lives) => lives.into_iter().for_each(|lives| session.continue_lives(lives)),
+            Err(error) => tracing::warn!("{} has no lives of joints: {error}", topics::AGEING.name),
+        }
         if let Some(window) = self.window {
             session.judge_by(window);
         }

@@ -5,6 +5,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use crate::common::{Network, Program, small_config};
+use flexdrill::bag;
+use flexdrill::messages::Ageing;
 use flexdrill_life::Lives;
 
 /// The short tool with serial numbers and a class.
@@ -34,6 +36,15 @@ fn lives(table: &Path) -> Lives {
     Lives::from_csv("joints.csv", &std::fs::read(table).unwrap()).unwrap()
 }
 
+/// `twin/ageing` of a recording, as bytes and read.
+fn ageing(recording: &Path) -> Vec<(Vec<u8>, Ageing)> {
+    let messages = bag::open(recording).unwrap().map(Result::unwrap);
+    let counts = messages.filter(|message| message.topic.is("twin/ageing"));
+    counts
+        .map(|message| (message.data.clone(), message.decode().unwrap()))
+        .collect()
+}
+
 #[test]
 fn a_run_is_in_the_table_while_it_runs_and_counts_once() {
     let Some(network) = Network::new() else { return };
@@ -60,6 +71,41 @@ fn a_run_is_in_the_table_while_it_runs_and_counts_once() {
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success() && !said.contains("added the run"), "{said}");
     assert_eq!(lives(&table).runs(), 1);
+
+    // The next run has the lives in its messages: those of the table, from the top down, and what it adds. Its replay, which has
+    // no table, has the same.
+    let (copy, next, replay) = (at("copy.csv"), at("next.mcap"), at("replay"));
+    std::fs::copy(&table, &copy).unwrap();
+    let more = ["--duration", "3", "--record", next.to_str().unwrap()];
+    assert_eq!(Program::start(command(&network, &config, &copy, &more)).end(), Some(0));
+    let recorded = ageing(&next);
+    let last = &recorded.last().unwrap().1;
+    assert_eq!(last.joint_serial_number, ["J-6", "J-5", "J-4", "J-3", "J-2", "J-1"]);
+    for (index, serial) in last.joint_serial_number.iter().enumerate() {
+        let row = known.rows.iter().find(|row| row.serial == *serial).unwrap();
+        let before = [last.stop_life_damage_before[index], last.link_life_damage_before[index]];
+        assert_eq!(before, [row.stop, row.link], "{serial}");
+        let [low, at, high] = [
+            last.link_life_damage_low[index],
+            last.link_life_damage[index],
+            last.link_life_damage_high[index],
+        ];
+        assert!(
+            before[1] <= at && low <= at && at <= high,
+            "{serial}: {at} ({low} to {high})"
+        );
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .arg("replay")
+        .arg(&next)
+        .arg("--out")
+        .arg(&replay)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let replayed = ageing(&replay);
+    assert!(recorded.len() > 1 && recorded.len() <= replayed.len());
+    assert!(recorded.iter().zip(&replayed).all(|(run, again)| run.0 == again.0));
 
     // A node that is killed leaves what it had written by then.
     let mut second = Program::start(command(&network, &config, &table, &[]));

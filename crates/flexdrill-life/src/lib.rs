@@ -4,6 +4,7 @@
 //!
 //! # Layout
 //! - `counted`: the cycles that a recording has counted, over resets and gaps.
+//! - `living`: the lives of the joints of a run while it lasts.
 //! - `run`: the damages of a run, by serial number. `kind`: what a damage means: which joint, which class.
 //! - `lives`: the table of all runs, and what may be added to it. `text`: the table as text.
 //! - `ranking`: joints to inspect, in words.
@@ -12,6 +13,7 @@ mod counted;
 mod error;
 mod kind;
 mod lives;
+mod living;
 mod ranking;
 mod run;
 mod text;
@@ -20,6 +22,7 @@ pub use counted::Counted;
 pub use error::LifeError;
 pub use kind::Kind;
 pub use lives::{Added, Lives, Row};
+pub use living::LivingJoints;
 pub use ranking::{Band, JointOfFile, Part, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words, ranked, verdict};
 pub use run::{JointOfRun, RunLife};
 

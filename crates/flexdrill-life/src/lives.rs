@@ -131,6 +131,15 @@ impl Lives {
         Ok(if grown { Added::Grown } else { Added::New })
     }
 
+    /// Median damages of a joint, of its stop and of the link below it, in the runs before one that begins at an instant (ns) with
+    /// a configuration of a hash. Of a run on the model's own time, all others are before it.
+    pub(crate) fn damages_before(&self, (start, configuration): (i64, &str), serial: &str) -> [f64; 2] {
+        let before = self.rows.iter().filter(|row| {
+            row.serial == serial && row.run() != (start, configuration) && (start < FIRST_DATE || row.start < start)
+        });
+        before.fold([0.0; 2], |[stop, link], row| [stop + row.stop, link + row.link])
+    }
+
     /// Rows of the run, if the table has it.
     fn same_run(&self, run: &RunLife) -> Vec<Row> {
         let same = |row: &&Row| row.run() == (run.start, run.configuration.as_str());

@@ -23,7 +23,8 @@ pub struct Band {
 }
 
 impl Band {
-    fn of(median: f64, factor: f64) -> Self {
+    /// From a median and the factor to either end.
+    pub(crate) fn of(median: f64, factor: f64) -> Self {
         Self {
             low: median / factor,
             median,

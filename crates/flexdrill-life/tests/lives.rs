@@ -7,7 +7,7 @@
 )]
 
 use flexdrill_config::Config;
-use flexdrill_life::{Added, Counted, LifeError, Lives, Part, RunLife, Verdict, ranked};
+use flexdrill_life::{Added, Counted, LifeError, Lives, LivingJoints, Part, RunLife, Verdict, ranked};
 use flexdrill_messages::Ageing;
 use flexdrill_messages::builtin_interfaces::Time;
 
@@ -33,7 +33,13 @@ fn run(config: &Config, begin: i64, seconds: f64, stop: [f64; JOINTS], link: [f6
 }
 
 fn counted(config: &Config, begin: i64, seconds: f64, stop: [f64; JOINTS], link: [f64; JOINTS]) -> Counted {
-    let per_hour = 3600.0 / seconds;
+    let mut counted = Counted::default();
+    assert!(counted.push(&message(config, begin, seconds, stop, link), begin));
+    counted
+}
+
+fn message(config: &Config, begin: i64, seconds: f64, stop: [f64; JOINTS], link: [f64; JOINTS]) -> Ageing {
+    let per_hour = if seconds > 0.0 { 3600.0 / seconds } else { 0.0 };
     let settings = config.simulation().ageing;
     let mut message = Ageing {
         duration: seconds,
@@ -44,9 +50,7 @@ fn counted(config: &Config, begin: i64, seconds: f64, stop: [f64; JOINTS], link:
         ..Ageing::default()
     };
     message.header.stamp = Time::from_nanoseconds(begin).plus_seconds(seconds);
-    let mut counted = Counted::default();
-    assert!(counted.push(&message, begin));
-    counted
+    message
 }
 
 const F1: &str = "class: F1, stress_concentration: 1.5";
@@ -265,4 +269,104 @@ fn a_damaged_table_is_named_with_its_line() {
         }
     }
     assert_eq!(Lives::from_csv("lives.csv", sheet.as_bytes()).unwrap(), lives);
+}
+
+/// Damages by the count (`unit`) of each joint from the top.
+#[track_caller]
+fn are(found: &[f64], counts: [f64; JOINTS]) {
+    assert_eq!(found.len(), JOINTS);
+    for (found, count) in found.iter().zip(counts) {
+        assert!(close(*found, count * unit()), "{found}, not {count} counts");
+    }
+}
+
+/// J-1 and J-4 change places between the run of the table and this one; a run of the table that began later is not before it.
+#[test]
+fn a_run_that_lasts_adds_to_what_the_table_has_of_its_joints() {
+    let first = tool(NAMES, F1);
+    let one = run(&first, BEGIN, 3600.0, [4e6, 3e6, 2e6, 1e6], [0.0, 0.0, 0.0, 9e6]);
+    let mut table = Lives::new("lives.csv", one.kind.clone());
+    table.add(&one, &[], false).unwrap();
+    let mut longer = table.clone();
+    let later = run(&first, BEGIN + 86_400 * SECOND, 60.0, [1e9; 4], [1e9; 4]);
+    longer.add(&later, &[], false).unwrap();
+
+    let (config, begin) = (tool(["J-4", "J-2", "J-3", "J-1"], F1), BEGIN + 7200 * SECOND);
+    let mut living = LivingJoints::of_table(&config, Some(longer)).unwrap();
+    living.begin(begin);
+    let mut at_begin = message(&config, begin, 0.0, [0.0; 4], [0.0; 4]);
+    living.complete(&mut at_begin);
+    assert_eq!(at_begin.joint_serial_number, ["J-1", "J-3", "J-2", "J-4"]);
+    are(&at_begin.stop_life_damage_before, [1e6, 3e6, 2e6, 4e6]);
+    are(&at_begin.link_life_damage_before, [9e6, 0.0, 0.0, 0.0]);
+    assert_eq!(at_begin.stop_life_damage, at_begin.stop_life_damage_before);
+
+    // An hour of it, which the table has in the end with the same bands.
+    let (stop, link) = ([1e6, 0.0, 0.0, 5e6], [1e6, 0.0, 0.0, 0.0]);
+    let mut after = message(&config, begin, 3600.0, stop, link);
+    living.complete(&mut after);
+    are(&after.stop_life_damage, [2e6, 3e6, 2e6, 9e6]);
+    are(&after.link_life_damage, [1e7, 0.0, 0.0, 0.0]);
+    are(&after.stop_life_damage_before, [1e6, 3e6, 2e6, 4e6]);
+    table.add(&run(&config, begin, 3600.0, stop, link), &[], false).unwrap();
+    for joint in table.ranked() {
+        let at = after
+            .joint_serial_number
+            .iter()
+            .position(|serial| *serial == joint.serial);
+        let at = at.unwrap();
+        for (found, expected) in [
+            (after.stop_life_damage_low[at], joint.stop.low),
+            (after.stop_life_damage_high[at], joint.stop.high),
+            (after.link_life_damage_low[at], joint.link.low),
+            (after.link_life_damage_high[at], joint.link.high),
+        ] {
+            assert!(close(found, expected), "{}: {found}, not {expected}", joint.serial);
+        }
+    }
+
+    // After a reset of the twin the count begins at zero, and the lives go on.
+    let mut reset = message(&config, begin + 3600 * SECOND, 60.0, [1e6, 0.0, 0.0, 0.0], [0.0; 4]);
+    living.complete(&mut reset);
+    are(&reset.stop_life_damage, [3e6, 3e6, 2e6, 9e6]);
+
+    // A replay knows what was lived before from any message of the recording.
+    for known in [&at_begin, &reset] {
+        let mut replayed = LivingJoints::of_recording(&config, known).unwrap();
+        replayed.begin(begin);
+        for message in [&at_begin, &after, &reset] {
+            let mut again = message.clone();
+            again.link_life_damage_low.clear();
+            again.joint_serial_number.clear();
+            replayed.complete(&mut again);
+            assert_eq!(again, *message);
+        }
+    }
+}
+
+#[test]
+fn lives_that_are_not_known_are_not_in_a_message() {
+    let config = tool(NAMES, F1);
+    let counts = message(&config, BEGIN, 3600.0, [1e6; 4], [0.0; 4]);
+    assert!(LivingJoints::of_recording(&config, &counts).is_none());
+    // A new table: the lives begin with this run.
+    let mut living = LivingJoints::of_table(&config, None).unwrap();
+    living.begin(BEGIN);
+    let mut whole = counts.clone();
+    living.complete(&mut whole);
+    are(&whole.stop_life_damage, [1e6; 4]);
+    are(&whole.stop_life_damage_before, [0.0; 4]);
+    // The counts of another tool have no lives of this one.
+    let mut other = whole;
+    other.stop_damage_rate.pop();
+    other.bending_damage_rate.pop();
+    living.complete(&mut other);
+    assert!(other.joint_serial_number.is_empty() && other.link_life_damage_before.is_empty());
+    // Damages of another class do not add up.
+    let mut table = Lives::new("lives.csv", run(&config, BEGIN, 60.0, [0.0; 4], [0.0; 4]).kind);
+    table
+        .add(&run(&config, BEGIN, 60.0, [1e6; 4], [0.0; 4]), &[], false)
+        .unwrap();
+    let refused = LivingJoints::of_table(&tool(NAMES, "class: D"), Some(table));
+    assert!(matches!(refused, Err(LifeError::OtherKind { what: "class", .. })));
 }

@@ -508,7 +508,8 @@ pub mod flexdrill {
     }
 
     /// Fatigue damage and friction work since the start or the last reset, to compare joints, stations and drilling
-    /// parameters with each other. No absolute life follows from them.
+    /// parameters with each other. No absolute life follows from them. The damages by serial number at the end are parts of a
+    /// life.
     #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
     pub struct Ageing {
         /// Stamp: model time on the rig's clock. Frame: the tool.
@@ -537,6 +538,24 @@ pub mod flexdrill {
         pub pipe_guide_friction_work: Vec<f64>,
         /// Work of the friction between guide pipe and wall (J).
         pub guide_wall_friction_work: Vec<f64>,
+        /// Per joint: serial number. This list and those below are empty unless the run began with a table of lives.
+        pub joint_serial_number: Vec<std::string::String>,
+        /// Damage of the joint's stop in all its runs: the median. 1 is a life, by which half of such details have a crack.
+        pub stop_life_damage: Vec<f64>,
+        /// End of its band: 5 % of the scatter of class and stress concentration are below.
+        pub stop_life_damage_low: Vec<f64>,
+        /// End of its band: 5 % are above.
+        pub stop_life_damage_high: Vec<f64>,
+        /// Its part from the runs before this one, by the table as it was when this run began: the median.
+        pub stop_life_damage_before: Vec<f64>,
+        /// The same of the link below the joint, by bending at its middle: the median.
+        pub link_life_damage: Vec<f64>,
+        /// End of its band: 5 % of the scatter of class and stress concentration are below.
+        pub link_life_damage_low: Vec<f64>,
+        /// End of its band: 5 % are above.
+        pub link_life_damage_high: Vec<f64>,
+        /// Its part from the runs before this one, by the table as it was when this run began: the median.
+        pub link_life_damage_before: Vec<f64>,
     }
 
     impl Message for Ageing {
@@ -544,7 +563,7 @@ pub mod flexdrill {
         const NAME: &'static str = "Ageing";
         const ROS_TYPE: &'static str = "flexdrill/msg/Ageing";
         const DDS_TYPE: &'static str = "flexdrill::msg::dds_::Ageing_";
-        const RIHS01: &'static str = "RIHS01_72c5f2871b8731f13692cacc928acc8a85285e08ee9a77a264a6f3ab903f6a25";
+        const RIHS01: &'static str = "RIHS01_ec0bd0abdd01e7f7682b6b9bb109220a4c3fad6025d2d0dedd8f9d74d237ae83";
         const SCHEMA: &'static str = concat!(
             include_str!("../../../msg/Ageing.msg"),
             "================================================================================\nMSG: std_msgs/Header\n",
@@ -552,7 +571,7 @@ pub mod flexdrill {
             "================================================================================\nMSG: builtin_interfaces/Time\n",
             include_str!("../../../crates/flexdrill-messages/external/builtin_interfaces/msg/Time.msg"),
         );
-        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Ageing", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "woehler_slope", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rated_moment", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "relative_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
+        const DESCRIPTION: &'static str = r#"{"type_name": "flexdrill/msg/Ageing", "fields": [{"name": "header", "type": {"type_id": 1, "capacity": 0, "string_capacity": 0, "nested_type_name": "std_msgs/msg/Header"}}, {"name": "duration", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "woehler_slope", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "rated_moment", "type": {"type_id": 11, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "bending_damage_rate", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "relative_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_measured_depth", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "station_inclination", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "pipe_guide_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "guide_wall_friction_work", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "joint_serial_number", "type": {"type_id": 161, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_life_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_life_damage_low", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_life_damage_high", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "stop_life_damage_before", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "link_life_damage", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "link_life_damage_low", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "link_life_damage_high", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}, {"name": "link_life_damage_before", "type": {"type_id": 155, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}"#;
     }
 
     /// The state of one alarm: one condition that an operator can act on. docs/alarms.md explains each alarm.

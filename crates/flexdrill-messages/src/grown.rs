@@ -3,7 +3,7 @@
 
 use byteorder::{BigEndian, LittleEndian};
 
-use super::{AppliedInputs, Bands, Message, RigInputs, RigMeasured, Transfer, TwinStatus, to_cdr_body};
+use super::{Ageing, AppliedInputs, Bands, Message, RigInputs, RigMeasured, Transfer, TwinStatus, to_cdr_body};
 
 /// What an older sender leaves out.
 struct Missing {
@@ -44,6 +44,14 @@ const LISTS: Missing = Missing {
     last: 12,
 };
 
+/// The lists at the end of ageing, which are empty without a table of lives: serial numbers, and four damages of two parts.
+const NO_LIVES: Missing = Missing {
+    first: 0,
+    align: 4,
+    numbers: &[],
+    last: 36,
+};
+
 /// The rate and the pressure that older twins did not know did not act: no value, and no slew.
 const NOT_APPLIED: &[f64] = &[0.0; 4];
 /// The counts of surveys of a twin that did not count them; the bytes of a count 0 are those of the number 0.
@@ -76,6 +84,7 @@ const MISSING: &[(&str, &[Missing])] = &[
     ),
     (RigMeasured::ROS_TYPE, &[GIVEN]),
     (Bands::ROS_TYPE, &[LISTS]),
+    (Ageing::ROS_TYPE, &[NO_LIVES]),
     (TwinStatus::ROS_TYPE, &[Missing::numbers(NO_SURVEYS)]),
 ];
 
@@ -213,6 +222,23 @@ mod tests {
         let older = body.len() - LISTS.last;
         assert_eq!(message_from_cdr_body::<Bands>(&body[..older]).unwrap(), whole);
         assert!(message_from_cdr_body::<Bands>(&body[..older - 8]).is_err());
+    }
+
+    #[test]
+    fn older_ageing_has_no_lives() {
+        for works in [vec![], vec![3.5, 4.5]] {
+            let whole = Ageing {
+                duration: 7.0,
+                guide_wall_friction_work: works,
+                ..Ageing::default()
+            };
+            let body = to_cdr_body(&whole).unwrap();
+            let older = body.len() - NO_LIVES.last;
+            assert_eq!(message_from_cdr_body::<Ageing>(&body[..older]).unwrap(), whole);
+            for cut in [older - 4, older + 4] {
+                assert!(message_from_cdr_body::<Ageing>(&body[..cut]).is_err(), "{cut}");
+            }
+        }
     }
 
     #[test]

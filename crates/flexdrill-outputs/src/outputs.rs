@@ -160,13 +160,15 @@ impl Outputs {
         self.timeline.at(ticks)
     }
 
-    /// Sends the messages that are due with a frame. A whirl warning is sent at the start and when its level has changed.
+    /// Sends the messages that are due with a frame. A whirl warning is sent at the start and when its level has changed. `complete`
+    /// adds to the ageing what a snapshot does not have.
     ///
     /// # Errors
     /// When a message cannot be encoded, and those of `send`.
     pub fn frame<E: From<CdrError>>(
         &mut self,
         frame: &Frame,
+        mut complete: impl FnMut(&mut Ageing),
         mut send: impl FnMut(Encoded<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
         // One header for all messages of a frame, as they are of one instant.
@@ -210,6 +212,7 @@ impl Outputs {
                 }
                 Output::Ageing => {
                     fill::ageing(snapshot, &header, &mut self.ageing);
+                    complete(&mut self.ageing);
                     to_cdr_into(&self.ageing, &mut self.bytes)?;
                     &topics::AGEING
                 }

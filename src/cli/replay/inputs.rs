@@ -12,6 +12,7 @@ use crate::messages::topics::TopicInfo;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_core::twin::RunInputs;
+use flexdrill_life::LivingJoints;
 use flexdrill_realtime::INPUT_PERIOD;
 use flexdrill_text::{counted, fixed};
 use flexdrill_uncertainty::Posterior;
@@ -20,13 +21,14 @@ use flexdrill_uncertainty::Posterior;
 const TAIL: f64 = 1.0;
 
 /// Runs the model through the samples, which are in the order of their times. Plausible tools are drawn from `posterior`
-/// where the configuration names one.
+/// where the configuration names one, and `lives` are those of its joints, where a table has them.
 pub(super) fn replay(
     config: Config,
     samples: Samples,
     out: &Path,
     duration: Option<f64>,
     posterior: Option<Arc<Posterior>>,
+    lives: Option<LivingJoints>,
 ) -> anyhow::Result<(Player, Progress)> {
     // The messages are formed before the samples are taken apart: the recording
     // gets them as received, the conditioner gets their values.
@@ -68,6 +70,9 @@ pub(super) fn replay(
     )?;
     player.end_by_signal()?;
     player.run_ensemble(Vec::new(), posterior)?;
+    if let Some(lives) = lives {
+        player.continue_lives(lives);
+    }
     // An optional input that is missing everywhere is said once; each sample that lacks it would repeat it.
     for kind in InputKind::ALL.into_iter().filter(|kind| kind.is_optional()) {
         if conditioner.is_of_interest(kind) && !samples.iter().any(|sample| sample.kind == kind) {

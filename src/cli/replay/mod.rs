@@ -9,6 +9,7 @@ mod recording;
 mod show;
 mod sink;
 mod steady;
+mod steps;
 mod summary;
 
 use std::net::SocketAddr;
@@ -24,7 +25,9 @@ use super::run::load_config;
 use super::{Ended, WrongUse, life, numbers, source};
 use crate::bag;
 use crate::cli::output::{say, say_text, tell};
+use crate::life_table::{self, TableError};
 use crate::messages::topics;
+use flexdrill_life::LivingJoints;
 use flexdrill_text::{counted, printable};
 
 /// Run a bag or a field log through the model as fast as possible, into a bag.
@@ -133,7 +136,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
                     topics::APPLIED_INPUTS.name
                 )
             })?;
-            inputs::replay(config, samples, out, args.duration, posterior)?
+            inputs::replay(config, samples, out, args.duration, posterior, None)?
         } else {
             script.replay(out, args.duration, posterior)?
         };
@@ -162,7 +165,10 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     } else {
         args.source.read(&args.input)?
     };
-    let done = inputs::replay(config, samples, out, args.duration, posterior)?;
+    // Before the run, which may take long: a tool without a class or serial numbers has no lives.
+    let table = args.life.as_deref();
+    let lives = table.map(|table| Ok::<_, TableError>(LivingJoints::of_table(&config, life_table::read(table)?)?));
+    let done = inputs::replay(config, samples, out, args.duration, posterior, lives.transpose()?)?;
     finish(done, args.incidents.as_deref())
 }
 

@@ -23,6 +23,7 @@ use flexdrill_config::{Config, Members, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
 use flexdrill_hole::Survey;
+use flexdrill_life::LivingJoints;
 use flexdrill_outputs::{ParameterChange, schedule};
 use flexdrill_realtime::monotonic;
 use flexdrill_uncertainty::Posterior;
@@ -161,6 +162,11 @@ impl Player {
     /// the rig sent.
     pub(super) fn survey_with(&mut self, surveys: impl IntoIterator<Item = (i64, Arc<[Survey]>)>) {
         self.sink.survey_with(surveys);
+    }
+
+    /// Continues the lives of the joints. Call it before the first inputs.
+    pub(super) fn continue_lives(&mut self, lives: LivingJoints) {
+        self.session.continue_lives(lives);
     }
 
     /// The parameters that are to follow the rig from now on, as changes; none where none moves. A recorded run has them

@@ -5,12 +5,16 @@
 //! inputs that the program received. No message holds the model's state at that step, so its replay begins with the
 //! tool at rest.
 
+#[cfg(test)]
+mod tests;
+
 use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::Context as _;
 
 use super::player::{Player, asks_for_members};
+use super::steps::{Base, Pace, step_of};
 use crate::bag::{self, Bag, BagError, Gap, Gaps, PartFault};
 use crate::cli::output::{say, tell};
 use crate::cli::progress::Progress;
@@ -19,13 +23,14 @@ use crate::drilling::live::surveys_of;
 use crate::ensemble::Generation;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{
-    AppliedInputs, Bands, HoleAhead, JointDeflections, Message, Residuals, RigInputs, RigMeasured, RigSurvey,
+    Ageing, AppliedInputs, Bands, HoleAhead, JointDeflections, Message, Residuals, RigInputs, RigMeasured, RigSurvey,
     SessionInfo, TwinStatus,
 };
 use crate::residuals::Samples;
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_hole::Survey;
+use flexdrill_life::LivingJoints;
 use flexdrill_outputs::{ParameterChange, run_inputs};
 use flexdrill_text::printable;
 use flexdrill_uncertainty::Posterior;
@@ -49,6 +54,8 @@ pub(super) struct Script {
     samples: Vec<(i64, Samples)>,
     /// The surveys that were known at an instant (ns since 1970), from there on until others were, in the order of time.
     surveys: Vec<(i64, Arc<[Survey]>)>,
+    /// The first ageing, which says what the joints had lived before the run.
+    ageing: Option<Ageing>,
     /// Plausible tools that ran with it, by the instant at which they began (ns since 1970), in the order of time.
     ensembles: Vec<(i64, Generation)>,
     /// Names of the recorded topics by relative name.
@@ -82,6 +89,7 @@ impl Script {
             HoleAhead::ROS_TYPE,
             Residuals::ROS_TYPE,
             Bands::ROS_TYPE,
+            Ageing::ROS_TYPE,
         ];
         // Only these types are decoded: they drive the model or say where
         // it was; the rest of a recording is far larger.
@@ -106,6 +114,7 @@ impl Script {
         let (mut status_step, mut newest_stamp) = (0, None);
         let mut ensembles: Vec<(i64, Generation)> = Vec::new();
         let mut surveys: Vec<(i64, Arc<[Survey]>)> = Vec::new();
+        let mut ageing: Option<Ageing> = None;
         for message in bag.by_ref() {
             let message = match message {
                 // The sequence numbers of the messages around a damaged part show the loss.
@@ -147,6 +156,12 @@ impl Script {
                     let before = surveys.last().map_or(&[] as &[Survey], |(_, known)| known);
                     if *before != *known {
                         surveys.push((hole.header.stamp.to_nanoseconds(), known.into()));
+                    }
+                }
+                Ageing::ROS_TYPE => {
+                    // What was lived before is the same in all of them. Twins that knew no lives say none.
+                    if ageing.is_none() {
+                        ageing = message.decode().ok();
                     }
                 }
                 TwinStatus::ROS_TYPE => {
@@ -194,6 +209,7 @@ impl Script {
             from_rig,
             samples,
             surveys,
+            ageing,
             ensembles,
             names,
             last_step,
@@ -343,6 +359,10 @@ impl Script {
         player.end_by_signal()?;
         player.compare_with(self.samples.iter().copied());
         player.survey_with(self.surveys.iter().cloned());
+        let lives = self.ageing.as_ref();
+        if let Some(lives) = lives.and_then(|ageing| LivingJoints::of_recording(player.config(), ageing)) {
+            player.continue_lives(lives);
+        }
         let ensembles = self.ensembles.iter().map(|(begun, generation)| Generation {
             begun: ((begun - base.start) as f64 * 1e-9 / time_step).round().max(0.0) as u64,
             ..generation.clone()
@@ -413,69 +433,6 @@ impl Script {
     }
 }
 
-/// Origin of the replay's counts within the recording's.
-struct Base {
-    /// Instant of the replay's step 0 (ns since 1970).
-    start: i64,
-    /// Steps taken before it, since the last reset.
-    step: u64,
-    /// Steps skipped before it.
-    skipped: u64,
-}
-
-impl Base {
-    fn of(session: &SessionInfo, first: Option<&AppliedInputs>) -> Self {
-        match first {
-            Some(first) if first.step > 0 || first.reset => Self {
-                start: first.header.stamp.to_nanoseconds(),
-                step: first.step,
-                skipped: first.skipped_steps,
-            },
-            _ => Self {
-                start: session.start.to_nanoseconds(),
-                step: 0,
-                skipped: 0,
-            },
-        }
-    }
-
-    /// The replay's number of a recorded step; `None` before its beginning.
-    fn step(&self, recorded: u64) -> Option<u64> {
-        recorded.checked_sub(self.step)
-    }
-}
-
-/// Progress of a replay.
-struct Pace {
-    /// Steps taken, over all resets.
-    taken: u64,
-    most: u64,
-    time_step: f64,
-    progress: Progress,
-}
-
-impl Pace {
-    fn advance(&mut self, player: &mut Player, until: u64) -> anyhow::Result<()> {
-        while player.step() < until && self.taken < self.most && !player.is_stopped() {
-            player.advance_or_fail()?;
-            self.taken += 1;
-            self.progress.at(self.taken as f64 * self.time_step);
-        }
-        Ok(())
-    }
-}
-
-/// Steps since the last reset at the newest output, for recordings whose last status is older than that.
-fn step_of(newest: Option<i64>, session: &SessionInfo, applied: &[AppliedInputs]) -> u64 {
-    let (Some(newest), Some(last)) = (newest, applied.last()) else {
-        return 0;
-    };
-    let before = if last.reset { 0 } else { last.step };
-    let since = (newest - last.header.stamp.to_nanoseconds()) as f64 * 1e-9 / session.time_step;
-    // An output older than the last change of inputs gives no step after it.
-    before + since.round().max(0.0) as u64
-}
-
 fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {
     let values = message.parameter_name.iter().zip(&message.parameter_value);
     let mut asked_by = message.parameter_asked_by.iter().cloned();
@@ -490,69 +447,4 @@ fn changes_of(message: &AppliedInputs) -> Vec<ParameterChange> {
 
 fn short(hash: &str) -> &str {
     hash.get(..12).unwrap_or(hash)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bag::{BagMessage, Topic};
-    use crate::messages::to_cdr;
-
-    fn recorded(message: &AppliedInputs, shorter: usize) -> BagMessage {
-        let mut data = to_cdr(message).unwrap();
-        data.truncate(data.len() - shorter);
-        BagMessage {
-            topic: Arc::new(Topic::new(
-                "/twin/applied_inputs",
-                &AppliedInputs::INFO,
-                topics::APPLIED_INPUTS.qos,
-            )),
-            topic_index: 0,
-            log_time: 0,
-            publish_time: 0,
-            sequence: None,
-            data,
-        }
-    }
-
-    /// Bytes that older twins do not publish at the end of the message: rate and pressure with their slew limits, from
-    /// the next multiple of eight on; before that, refinement and the list of who asked (empty: its length alone).
-    fn older(message: &AppliedInputs) -> [BagMessage; 2] {
-        let length = to_cdr(message).unwrap().len() - 4;
-        // The refinement ends before the four numbers, padded to a multiple of eight.
-        let unpadded = (0..8).find(|padding| {
-            let data = to_cdr(message).unwrap();
-            let end = 4 + length - 32 - padding;
-            data[end - 1] == message.refinement
-        });
-        let without_rate = 32 + unpadded.unwrap();
-        [recorded(message, without_rate), recorded(message, without_rate + 5)]
-    }
-
-    #[test]
-    fn applied_inputs_of_older_twins_are_read() {
-        for (names, values) in [(vec![], vec![]), (vec!["whirl.hysteresis".to_owned()], vec![0.25])] {
-            let mut message = AppliedInputs {
-                rotary_speed: 4.0,
-                parameter_name: names,
-                parameter_value: values,
-                refinement: 2,
-                ..AppliedInputs::default()
-            };
-            let [before_rate, before_refinement] = older(&message);
-            assert_eq!(before_rate.decode::<AppliedInputs>().unwrap(), message);
-            let read = before_refinement.decode::<AppliedInputs>().unwrap();
-            assert_eq!(
-                read,
-                AppliedInputs {
-                    refinement: 0,
-                    ..message.clone()
-                }
-            );
-            assert!(changes_of(&read).iter().all(|change| change.asked_by.is_empty()));
-            message.parameter_asked_by = vec!["somebody".to_owned(); message.parameter_name.len()];
-            message.rate_of_penetration = 1e-3;
-            assert_eq!(recorded(&message, 0).decode::<AppliedInputs>().unwrap(), message);
-        }
-    }
 }

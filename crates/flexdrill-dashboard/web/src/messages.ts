@@ -28,7 +28,8 @@ export function decodeHeader(reader: CdrReader): Header {
 
 /**
  * Fatigue damage and friction work since the start or the last reset, to compare joints, stations and drilling
- * parameters with each other. No absolute life follows from them.
+ * parameters with each other. No absolute life follows from them. The damages by serial number at the end are parts of a
+ * life.
  */
 export interface Ageing {
   /** Stamp: model time on the rig's clock. Frame: the tool. */
@@ -57,6 +58,24 @@ export interface Ageing {
   pipe_guide_friction_work: Float64Array;
   /** Work of the friction between guide pipe and wall (J). */
   guide_wall_friction_work: Float64Array;
+  /** Per joint: serial number. This list and those below are empty unless the run began with a table of lives. */
+  joint_serial_number: string[];
+  /** Damage of the joint's stop in all its runs: the median. 1 is a life, by which half of such details have a crack. */
+  stop_life_damage: Float64Array;
+  /** End of its band: 5 % of the scatter of class and stress concentration are below. */
+  stop_life_damage_low: Float64Array;
+  /** End of its band: 5 % are above. */
+  stop_life_damage_high: Float64Array;
+  /** Its part from the runs before this one, by the table as it was when this run began: the median. */
+  stop_life_damage_before: Float64Array;
+  /** The same of the link below the joint, by bending at its middle: the median. */
+  link_life_damage: Float64Array;
+  /** End of its band: 5 % of the scatter of class and stress concentration are below. */
+  link_life_damage_low: Float64Array;
+  /** End of its band: 5 % are above. */
+  link_life_damage_high: Float64Array;
+  /** Its part from the runs before this one, by the table as it was when this run began: the median. */
+  link_life_damage_before: Float64Array;
 }
 /** Reads a `flexdrill/msg/Ageing`. */
 export function decodeAgeing(reader: CdrReader): Ageing {
@@ -74,6 +93,15 @@ export function decodeAgeing(reader: CdrReader): Ageing {
     station_inclination: reader.float64Array(reader.length()),
     pipe_guide_friction_work: reader.float64Array(reader.length()),
     guide_wall_friction_work: reader.float64Array(reader.length()),
+    joint_serial_number: reader.many(reader.length(), () => reader.string()),
+    stop_life_damage: reader.float64Array(reader.length()),
+    stop_life_damage_low: reader.float64Array(reader.length()),
+    stop_life_damage_high: reader.float64Array(reader.length()),
+    stop_life_damage_before: reader.float64Array(reader.length()),
+    link_life_damage: reader.float64Array(reader.length()),
+    link_life_damage_low: reader.float64Array(reader.length()),
+    link_life_damage_high: reader.float64Array(reader.length()),
+    link_life_damage_before: reader.float64Array(reader.length()),
   };
 }
 

@@ -19,9 +19,10 @@ use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs, Snapshot};
 use flexdrill_hole::Survey;
+use flexdrill_life::LivingJoints;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{AlarmEvent, CdrError, Residuals, to_cdr, topics};
+use flexdrill_messages::{Ageing, AlarmEvent, CdrError, Residuals, to_cdr, topics};
 use flexdrill_outputs::{Encoded, Outputs, ParameterChange};
 
 /// What a session takes from the program that hosts it.
@@ -67,6 +68,8 @@ pub struct Session {
     hole: LiveHole,
     /// Points of the hole from an earlier run, until they are published.
     earlier: Vec<Appended>,
+    /// The lives of the joints; none without a table.
+    lives: Option<LivingJoints>,
     /// None before the instant of the first step is known, and in a run that publishes nothing.
     outputs: Option<Outputs>,
 }
@@ -79,6 +82,7 @@ impl Session {
             rig: RigComparison::new(&config),
             hole: LiveHole::new(&config),
             earlier: Vec::new(),
+            lives: None,
             config,
             alarms,
             residuals: None,
@@ -107,6 +111,9 @@ impl Session {
     /// When a message cannot be encoded, or what the host says.
     pub fn begin<H: Host>(&mut self, start: i64, host: &mut H) -> Result<(), H::Error> {
         let mut outputs = Outputs::new(&self.config, start);
+        if let Some(lives) = &mut self.lives {
+            lives.begin(start);
+        }
         let configuration = self.config.to_yaml().unwrap_or_default();
         // The session is first in a recording, since all other messages refer to its configuration.
         let sent = outputs.session(&self.config.hash(), &configuration, |encoded| host.send(encoded));
@@ -212,7 +219,13 @@ impl Session {
         let Some(outputs) = &mut self.outputs else {
             return Ok(());
         };
-        let sent = outputs.frame(frame, |encoded| host.send(encoded));
+        let lives = &mut self.lives;
+        let complete = |ageing: &mut Ageing| {
+            if let Some(lives) = lives {
+                lives.complete(ageing);
+            }
+        };
+        let sent = outputs.frame(frame, complete, |encoded| host.send(encoded));
         // Alarms are judged at their rate in model time, so that a replay judges at the same steps.
         if frame.due.has(Output::Alarms) {
             let stamp = outputs.instant(frame.ticks);
@@ -359,6 +372,14 @@ impl Session {
     /// recording has all of the hole.
     pub fn continue_hole(&mut self, points: &[Point]) {
         self.earlier = self.hole.continue_with(points);
+    }
+
+    /// Continues the lives of the joints, which `twin/ageing` then has by serial number. To be called before the first frame.
+    pub fn continue_lives(&mut self, mut lives: LivingJoints) {
+        if let Some(outputs) = &self.outputs {
+            lives.begin(outputs.instant(0));
+        }
+        self.lives = Some(lives);
     }
 
     /// Publishes points of the hole at an instant (ns since 1970).
