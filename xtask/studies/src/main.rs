@@ -30,6 +30,8 @@ enum Which {
     Physics,
     /// That of README.md, from benches/speed.csv.
     Speed,
+    /// That of docs/effects/spine.md.
+    Spine,
     /// That of docs/whirl.md.
     Whirl,
 }
@@ -39,6 +41,7 @@ fn main() -> anyhow::Result<()> {
         Study::Figure { which, to } => match which {
             Which::Physics => figures::physics::draw(&to),
             Which::Speed => figures::speed::draw(&to),
+            Which::Spine => figures::spine::draw(&to),
             Which::Whirl => figures::whirl::draw(&to),
         },
         Study::Search(args) => search::command::run(&args),

@@ -2,4 +2,5 @@
 
 pub(crate) mod physics;
 pub(crate) mod speed;
+pub(crate) mod spine;
 pub(crate) mod whirl;
