@@ -109,6 +109,7 @@ pub fn study(config: &Config, plan: &Plan, limits: Limits, progress: impl FnMut(
         })
         .collect();
     let found = run_all(&runs, plan.jobs, None, progress)?;
+    // A tool without a solution at one depth counts at the others.
     let row = |(index, &depth): (usize, &f64)| {
         let of_depth = found
             .iter()

@@ -80,6 +80,7 @@ impl LivingJoints {
         // A count of another tool or class adds nothing, as in the table.
         self.counted.push(message, self.start);
         let joints = self.before.len();
+        // A run that begins has added nothing yet; counts of another class are no part of these lives.
         let run = match damages(&self.kind, &self.counted) {
             Ok(run) => run,
             Err(LifeError::NothingCounted) => vec![[0.0; 2]; joints],
@@ -91,25 +92,10 @@ impl LivingJoints {
         } else {
             message.joint_serial_number.clear();
         }
-        // The scatter is that of the joint, the same in all its runs: its band is that of the sum.
-        let lists = |of: usize, [median, low, high, before]: [&mut Vec<f64>; 4]| {
-            for list in [&mut *median, &mut *low, &mut *high, &mut *before] {
-                list.clear();
-            }
-            if !known {
-                return;
-            }
-            let factor = self.kind.details[of].band();
-            for (lived, counted) in self.before.iter().zip(&run) {
-                let band = Band::of(lived[of] + counted[of], factor);
-                median.push(band.median);
-                low.push(band.low);
-                high.push(band.high);
-                before.push(lived[of]);
-            }
-        };
-        lists(
+        let run = if known { run } else { Vec::new() };
+        self.fill(
             0,
+            &run,
             [
                 &mut message.stop_life_damage,
                 &mut message.stop_life_damage_low,
@@ -117,8 +103,9 @@ impl LivingJoints {
                 &mut message.stop_life_damage_before,
             ],
         );
-        lists(
+        self.fill(
             1,
+            &run,
             [
                 &mut message.link_life_damage,
                 &mut message.link_life_damage_low,
@@ -126,5 +113,22 @@ impl LivingJoints {
                 &mut message.link_life_damage_before,
             ],
         );
+    }
+
+    /// Fills median, ends of the band and part before the run of the stops (0) or links (1), with the damages of the run; empty
+    /// without them.
+    fn fill(&self, of: usize, run: &[[f64; 2]], [median, low, high, before]: [&mut Vec<f64>; 4]) {
+        for list in [&mut *median, &mut *low, &mut *high, &mut *before] {
+            list.clear();
+        }
+        // The scatter is that of the joint, the same in all its runs: the band is that of the sum.
+        let factor = self.kind.details[of].band();
+        for (lived, counted) in self.before.iter().zip(run) {
+            let band = Band::of(lived[of] + counted[of], factor);
+            median.push(band.median);
+            low.push(band.low);
+            high.push(band.high);
+            before.push(lived[of]);
+        }
     }
 }

@@ -325,7 +325,7 @@ fn a_run_that_lasts_adds_to_what_the_table_has_of_its_joints() {
         }
     }
 
-    // After a reset of the twin the count begins at zero, and the lives go on.
+    // After a reset of the twin the count begins at zero, and the lives continue.
     let mut reset = message(&config, begin + 3600 * SECOND, 60.0, [1e6, 0.0, 0.0, 0.0], [0.0; 4]);
     living.complete(&mut reset);
     are(&reset.stop_life_damage, [3e6, 3e6, 2e6, 9e6]);

@@ -89,6 +89,7 @@ fn by_toolface(guide: &Guide) -> anyhow::Result<Panel> {
             .map(|toolface| (toolface, tilt * of(bend(toolface))))
             .collect()
     };
+    // Lines below, points above: where both agree, a point hides its line.
     let [high, right] = statics;
     Ok(Panel::new(
         "Column of 1.5 m under 20 kN: tilt of its lower end",
