@@ -177,6 +177,38 @@ fn a_hole_that_an_earlier_run_has_drilled_is_published_at_the_start() {
     assert_eq!(host.sent.len(), before);
 }
 
+/// A host that has a table of lives gives them to the session; the joints count from the top in messages, from the bit up in a
+/// configuration.
+#[test]
+fn ageing_has_the_lives_of_the_joints_where_the_host_has_a_table() {
+    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/default.yaml")).unwrap();
+    let joints = config.tool.links - 1;
+    let serials: Vec<String> = (1..=joints).map(|place| format!("J-{place}")).collect();
+    let config = config
+        .with_value("tool.joint.life", serde_json::json!({"class": "F1"}))
+        .unwrap();
+    let config = Arc::new(config.with_value("tool.joint.serial_numbers", serials).unwrap());
+    let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let mut run = Run::new(simulation, schedule(&config, &config.outputs.rates));
+    let mut frame = run.new_frame();
+    run.capture(&mut frame);
+    let ageing = |lives: Option<LivingJoints>| -> Ageing {
+        let (mut session, mut host) = (session(&config), Kept::default());
+        session.begin(START, &mut host).unwrap();
+        lives.into_iter().for_each(|lives| session.continue_lives(lives));
+        session.frame(&frame, &mut host).unwrap();
+        let mut sent = host.sent.iter().filter(|(topic, ..)| *topic == topics::AGEING.name);
+        from_cdr(&sent.next().unwrap().2).unwrap()
+    };
+    let without = ageing(None);
+    assert!(without.joint_serial_number.is_empty() && without.stop_life_damage.is_empty());
+    let with = ageing(Some(LivingJoints::of_table(&config, None).unwrap()));
+    assert_eq!(with.joint_serial_number.first().unwrap(), &format!("J-{joints}"));
+    assert_eq!(with.joint_serial_number.last().unwrap(), "J-1");
+    assert_eq!(with.link_life_damage_high, vec![0.0; joints]);
+    assert_eq!(with.stop_damage_rate, without.stop_damage_rate);
+}
+
 /// A member of a look-ahead and the twin of the package for Python have a session that was never begun: it judges as the
 /// others do, and sends nothing.
 #[test]
