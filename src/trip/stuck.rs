@@ -193,7 +193,7 @@ pub fn figure(freed: &Freed) -> Drawn {
     let along = |title: &str, x: &str, of_tool: bool| {
         // The tool's top is the last station at or above the kick-off, where the bit is on the bottom.
         let stations = || {
-            let within = |row: &&Along| {
+            let within = move |row: &&Along| {
                 let depth = row.at.depth;
                 if of_tool { depth >= 0.0 } else { depth <= 0.0 }
             };
