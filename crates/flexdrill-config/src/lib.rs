@@ -24,6 +24,7 @@ mod hard_limits;
 mod inputs;
 mod joint_life;
 mod json_schema;
+mod keys;
 pub mod lines;
 mod loads;
 mod look_ahead;
@@ -121,6 +122,7 @@ use flexdrill_core::tool::{FrictionLaw, GapDescription, LiveParameters, ToolDesc
 use flexdrill_core::twin::SimulationSettings;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use flexdrill_motion::WhirlSettings;
+use keys::{kind, left_out, meant, slot};
 use lines::Lines;
 use place::Mesh;
 
@@ -448,92 +450,4 @@ impl Config {
 /// SHA-256 in hex.
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// The optional keys that a tree leaves out, with their texts.
-fn left_out(tree: &Value) -> BTreeMap<String, String> {
-    let texts = key_texts();
-    let is_section = |key: &str| {
-        let below = format!("{key}.");
-        texts
-            .range(below.clone()..)
-            .next()
-            .is_some_and(|(next, _)| next.starts_with(&below))
-    };
-    let is_left_out = |key: &str| {
-        let parent = key.rsplit_once('.').map_or("", |(parent, _)| parent);
-        let parent = if parent.is_empty() {
-            Some(tree)
-        } else {
-            tree.pointer(&pointer(parent))
-        };
-        let value = tree.pointer(&pointer(key));
-        parent.is_some_and(Value::is_object) && value.is_none_or(Value::is_null) && !is_section(key)
-    };
-    let keys = texts.iter().filter(|(key, _)| is_left_out(key));
-    keys.map(|(key, text)| (key.clone(), text.clone())).collect()
-}
-
-/// The place of a key in a tree, made for an optional one that is left out; `None` for a key that does not exist.
-fn slot<'a>(tree: &'a mut Value, key: &str) -> Option<&'a mut Value> {
-    if tree.pointer(&pointer(key)).is_none() {
-        if !left_out(tree).contains_key(key) {
-            return None;
-        }
-        let (parent, name) = key.rsplit_once('.').unwrap_or(("", key));
-        let parent = if parent.is_empty() {
-            Some(&mut *tree)
-        } else {
-            tree.pointer_mut(&pointer(parent))
-        };
-        parent?.as_object_mut()?.insert(name.to_owned(), Value::Null);
-    }
-    tree.pointer_mut(&pointer(key))
-}
-
-/// The JSON pointer of a dotted key.
-/// The dotted path of the number, word or list of `tree` that was probably meant by `key`: misspelt, or in another section.
-fn meant(key: &str, tree: &Value) -> Option<String> {
-    let mut known = Vec::new();
-    leaves(tree, "", &mut known);
-    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
-    let misspelt = reading::nearest(key, known.iter().map(String::as_str)).map(str::to_owned);
-    misspelt.or_else(|| {
-        let mut elsewhere = known.iter().filter(|path| last(path) == last(key));
-        // Several sections with the key are no hint.
-        elsewhere.next().filter(|_| elsewhere.next().is_none()).cloned()
-    })
-}
-
-/// The dotted paths of all values that are no mapping.
-fn leaves(tree: &Value, path: &str, into: &mut Vec<String>) {
-    match tree {
-        Value::Object(map) => {
-            for (key, value) in map {
-                let below = if path.is_empty() {
-                    key.clone()
-                } else {
-                    format!("{path}.{key}")
-                };
-                leaves(value, &below, into);
-            }
-        }
-        _ => into.push(path.to_owned()),
-    }
-}
-
-fn pointer(key: &str) -> String {
-    format!("/{}", key.replace('.', "/"))
-}
-
-/// The kind of a value, for error messages.
-fn kind(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "left out",
-        Value::Bool(_) => "true or false",
-        Value::Number(_) => "a number",
-        Value::String(_) => "text",
-        Value::Array(_) => "a list",
-        Value::Object(_) => "a mapping",
-    }
 }

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::string::Model;
-use super::{Config, sha256};
+use super::{Config, keys, sha256};
 
 /// Sections that determine the motion or its levels.
 const SECTIONS: &[&str] = &[
@@ -124,13 +124,8 @@ impl Config {
             if key == "calibration.friction_factor" {
                 factor = 1.0;
             }
-            let (parent, name) = key.rsplit_once('.').unwrap_or(("", key));
-            let parent = if parent.is_empty() {
-                Some(&mut tree)
-            } else {
-                tree.pointer_mut(&super::pointer(parent))
-            };
-            match parent {
+            let (parent, name) = keys::parent(key);
+            match tree.pointer_mut(&parent) {
                 Some(Value::Object(section)) => {
                     section.remove(name);
                 }
