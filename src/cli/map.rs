@@ -20,7 +20,7 @@ use flexdrill_sweep::directory::write_whole;
 use flexdrill_sweep::envelope::Envelope;
 use flexdrill_sweep::map::{MOST_CELLS, MOST_VALUES, Map, ROTARY_SPEED, WEIGHT_ON_BIT};
 use flexdrill_sweep::plan::{HORIZONS, MOST_MEMBERS, Plan};
-use flexdrill_sweep::spec::evenly;
+use flexdrill_sweep::values::evenly;
 use flexdrill_uncertainty::{Posterior, Priors};
 
 /// Maps the chance of every alarm over rotary speed and weight on bit, or over another pair of keys.

@@ -2,7 +2,7 @@
 //! here: the program computes a point, this crate keeps it. The file of a map is the crate [`flexdrill_map`].
 //!
 //! # Layout
-//! - [`spec`]: what a person writes (YAML). [`plan`]: what follows from it, `sweep.json`.
+//! - [`spec`]: what a person writes (YAML). [`values`]: the rows that it means. [`plan`]: what follows, `sweep.json`.
 //! - [`directory`]: the plan and a file per result. [`outcome`]: that file.
 //! - [`work`]: computes what has no result yet. [`collect`]: all results as one table.
 //! - [`choice`]: which runs of a map to make next, by Gaussian processes ([`gauss`]). [`cover`]: what runs must show before a
@@ -23,6 +23,7 @@ pub mod gauss;
 pub mod outcome;
 pub mod plan;
 pub mod spec;
+pub mod values;
 pub mod work;
 
 pub use flexdrill_map as map;

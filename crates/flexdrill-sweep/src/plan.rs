@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use flexdrill_alarms::Priority;
+use flexdrill_config::{Config, ConfigError};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+use crate::error::SweepError;
 use crate::map::Start;
 
 /// The format of plans and points that this build writes and reads. Points of format 1 do not count the members that saw
@@ -298,6 +300,75 @@ impl Plan {
         }
         None
     }
+
+    /// Checks every row by the configuration, and the plan's own numbers.
+    ///
+    /// # Errors
+    /// With the first that is refused.
+    pub fn check_rows(&self, name: &str, config: &Config) -> Result<(), SweepError> {
+        if let Some(problem) = self.problem() {
+            let name = name.to_owned();
+            return Err(SweepError::Plan { name, problem });
+        }
+        let rpm = self.runs.running.rpm;
+        let mut beyond = None;
+        for row in 0..self.rows.len() {
+            let changed = config.with_values(name, self.values(row).map(|(key, value)| (key, value.clone())));
+            let changed = changed.map_err(|reason| SweepError::Row {
+                name: name.to_owned(),
+                row: row + 1,
+                reason,
+            })?;
+            let limits = &changed.inputs.rotary_speed;
+            if self.starts.contains(&Start::Running) && !(limits.min_rpm..=limits.max_rpm).contains(&rpm) {
+                beyond.get_or_insert([limits.min_rpm, limits.max_rpm]);
+            }
+        }
+        // After all rows: where a row is beyond a limit itself, that is what is wrong.
+        let Some([least, most]) = beyond else { return Ok(()) };
+        Err(SweepError::Plan {
+            name: name.to_owned(),
+            problem: Problem {
+                what: "running.rpm".to_owned(),
+                value: rpm.to_string(),
+                bound: format!("within inputs.rotary_speed, {least} to {most} r/min"),
+            },
+        })
+    }
+
+    /// The configuration of a row.
+    ///
+    /// # Errors
+    /// When the plan's configuration or the row is refused, which those of a checked plan are not.
+    pub fn config(&self, base: &Config, row: usize) -> Result<Config, ConfigError> {
+        base.with_values("sweep", self.values(row).map(|(key, value)| (key, value.clone())))
+    }
+
+    /// The first thing in which another plan differs.
+    pub(crate) fn difference(&self, other: &Self) -> Option<&'static str> {
+        let (a, b) = (&self.runs, &other.runs);
+        let parts = [
+            (
+                "the program or its arithmetic",
+                a.program == b.program && a.arithmetic == b.arithmetic,
+            ),
+            ("the configuration", a.hash == b.hash),
+            ("horizon, members, run_all, alarms or figures", a == b),
+            ("the keys", self.keys == other.keys),
+            // As text: a number may have been rounded to its last bit when it was read.
+            ("the values", same_text(&self.rows, &other.rows)),
+            ("the starts", self.starts == other.starts),
+            ("the seeds", self.seeds == other.seeds),
+            ("the grid of the map", self.map == other.map),
+        ];
+        parts.into_iter().find(|(_, same)| !same).map(|(what, _)| what)
+    }
+}
+
+/// Whether two tables are equal once the second is written and read as the first was.
+fn same_text(read: &[Vec<Value>], given: &[Vec<Value>]) -> bool {
+    let written = serde_json::to_string(given).and_then(|text| serde_json::from_str::<Vec<Vec<Value>>>(&text));
+    written.is_ok_and(|again| again == read)
 }
 
 /// A number of a plan that is out of its bounds.
