@@ -9,7 +9,7 @@ use flexdrill_messages::rosgraph_msgs::Clock;
 use flexdrill_realtime::clock::LEAP;
 use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::{Inbox, Sample};
-use flexdrill_text::log_ending;
+use flexdrill_text::{hex, log_ending};
 
 /// Wall time for which messages must agree on another time before it is adopted (ns).
 const AGREED_FOR: u64 = 2_000_000_000;
@@ -118,10 +118,6 @@ pub async fn follow(inputs: RigInputs, messages: Arc<Inbox<Sample>>, newest: Arc
             }
         }
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

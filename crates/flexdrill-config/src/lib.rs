@@ -122,6 +122,7 @@ use flexdrill_core::tool::{FrictionLaw, GapDescription, LiveParameters, ToolDesc
 use flexdrill_core::twin::SimulationSettings;
 use flexdrill_core::units::{kn_to_n, m_per_h_to_m_per_s, mpa_to_pa, rpm_to_rad_per_s};
 use flexdrill_motion::WhirlSettings;
+use flexdrill_text::hex;
 use keys::{kind, left_out, meant, slot};
 use lines::Lines;
 use place::Mesh;
@@ -449,5 +450,5 @@ impl Config {
 
 /// SHA-256 in hex.
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    hex(&Sha256::digest(bytes))
 }

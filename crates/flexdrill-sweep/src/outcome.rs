@@ -9,7 +9,8 @@ use sha2::{Digest, Sha256};
 use flexdrill_alarms::Priority;
 
 use crate::map::{AlarmCount, Figure, Start};
-use crate::plan::{FORMAT, Plan, Point, hex};
+use crate::plan::{FORMAT, Plan, Point};
+use flexdrill_text::hex;
 
 /// Largest file of a point that is read (bytes): all alarms with all priorities and all figures have a twentieth of it.
 pub const MOST_BYTES: u64 = 1 << 18;

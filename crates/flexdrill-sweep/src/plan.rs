@@ -1,9 +1,8 @@
 //! A sweep's plan (`sweep.json`): everything that determines its points.
 
-use std::fmt::Write as _;
-
 use flexdrill_alarms::Priority;
 use flexdrill_config::{Config, ConfigError};
+use flexdrill_text::hex;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -387,14 +386,4 @@ pub struct Problem {
 fn hash_text(hasher: &mut Sha256, text: &str) {
     hasher.update((text.len() as u64).to_le_bytes());
     hasher.update(text.as_bytes());
-}
-
-/// Bytes in hexadecimal digits.
-pub(crate) fn hex(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(2 * bytes.len());
-    for byte in bytes {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-    }
-    text
 }

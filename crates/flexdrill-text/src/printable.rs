@@ -25,6 +25,11 @@ pub fn table_cell(text: &str) -> Cow<'_, str> {
     printable_lines(text)
 }
 
+/// Bytes as hexadecimal digits, two each.
+pub fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 fn escaped(text: &str, lines: bool) -> Cow<'_, str> {
     let is_harmless = |c: char| (lines && c == '\n') || !is_executed(c);
     if text.chars().all(is_harmless) {

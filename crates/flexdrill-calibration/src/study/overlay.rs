@@ -57,11 +57,7 @@ pub fn sha256(path: &Path) -> std::io::Result<String> {
             digest.update(&buffer[..read]);
         }
     }
-    Ok(digest.finalize().iter().fold(String::new(), |mut text, byte| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    }))
+    Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// A key of the configuration with its value, its band and what it is.

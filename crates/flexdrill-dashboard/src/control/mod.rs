@@ -20,7 +20,7 @@ use flexdrill_messages::std_msgs::Header;
 use flexdrill_messages::{RigInputs, TwinStatus, to_cdr_body};
 use flexdrill_outputs::InputValues as _;
 use flexdrill_ros2::dds::port::Monitor;
-use flexdrill_text::{beyond, log_ending, six_digits};
+use flexdrill_text::{beyond, hex, log_ending, six_digits};
 
 /// Time between two samples.
 pub(crate) const PERIOD: Duration = Duration::from_millis(100);
@@ -250,8 +250,4 @@ impl Steering {
         self.drive = None;
         self.ended = Some(why);
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

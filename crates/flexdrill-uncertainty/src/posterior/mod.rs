@@ -30,7 +30,6 @@ use std::path::{Path, PathBuf};
 use flexdrill_config::Config;
 use flexdrill_config::checker::number;
 use flexdrill_config::reading::nearest;
-use sha2::{Digest, Sha256};
 
 pub use error::PosteriorError;
 pub(crate) use sample::Sample;
@@ -93,15 +92,6 @@ pub struct Weighted {
     pub values: Vec<f64>,
     /// Line in the file.
     line: usize,
-}
-
-/// SHA-256 in hex.
-fn hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }
 
 /// The text of a file for these rows: weight, then the values by key.

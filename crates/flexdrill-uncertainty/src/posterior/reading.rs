@@ -3,7 +3,7 @@
 use super::error::PosteriorError;
 use super::{
     FORMAT, LEAST_EFFECTIVE, MOST_BYTES, MOST_KEYS, MOST_MEMBERS, Posterior, Provenance, WEIGHT, Weighted,
-    effective_number, hex,
+    effective_number,
 };
 
 /// What a line is to say, and does not.
@@ -71,7 +71,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Posterior, PosteriorError
     Ok(Posterior {
         provenance,
         file: file.to_owned(),
-        sha256: hex(bytes),
+        sha256: flexdrill_config::sha256(bytes),
         keys,
         members,
     })

@@ -15,6 +15,7 @@ use super::logs::RepairWatch;
 use super::raw::RawCdr;
 use crate::dds::frames::{Peer, Peers};
 use crate::dds::plan::{Guid, GuidPrefix, Plan, dds_topic_name};
+use flexdrill_text::hex;
 
 /// Most participants that are remembered, so that forged ones cannot exhaust memory.
 const MOST_PARTICIPANTS: usize = 1024;
@@ -247,7 +248,7 @@ pub(super) fn incompatible(event: &DomainParticipantStatusEvent, participant: &D
             Some(format!(
                 "a reader of {} (id {}) receives nothing: it requests {}, and the twin offers {}",
                 ros_name(&reader.subscription_topic_data.topic_name),
-                hexadecimal(&remote_reader.to_bytes()),
+                hex(&remote_reader.to_bytes()),
                 qualities(requested_qos),
                 qualities(offered_qos)
             ))
@@ -265,7 +266,7 @@ pub(super) fn incompatible(event: &DomainParticipantStatusEvent, participant: &D
             Some(format!(
                 "a writer of {} (id {}) is not received: it offers {}, and the twin requests {}",
                 ros_name(&writer.publication_topic_data.topic_name),
-                hexadecimal(&remote_writer.to_bytes()),
+                hex(&remote_writer.to_bytes()),
                 qualities(offered_qos),
                 qualities(requested_qos)
             ))
@@ -290,15 +291,6 @@ fn qualities(qos: &rustdds::QosPolicies) -> String {
         Some(Durability::Persistent) => "persistent",
     };
     format!("{reliability}, {durability}")
-}
-
-fn hexadecimal(id: &Guid) -> String {
-    use std::fmt::Write as _;
-    id.iter().fold(String::new(), |mut text, byte| {
-        // Writing to a string does not fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
 }
 
 fn prefix(guid: &GUID) -> GuidPrefix {

@@ -1,10 +1,7 @@
 //! Surveys over a restart of the node: a table (CSV) under a head that says which hole they are of. Numbers are written so that
 //! they are read with the same bits.
 
-use std::fmt::Write as _;
-
 use serde::{Deserialize, Serialize};
-use sha2::{Digest as _, Sha256};
 
 use super::Held;
 use flexdrill_config::Config;
@@ -23,19 +20,10 @@ pub struct OfHole {
     pub hole: String,
 }
 
-/// SHA-256 of parts, in hex.
+/// SHA-256 of parts, a line each, in hex.
 fn sha256(parts: &[&str]) -> String {
-    let mut hash = Sha256::new();
-    for part in parts {
-        hash.update(part.as_bytes());
-        hash.update(b"\n");
-    }
-    let mut text = String::new();
-    for byte in hash.finalize() {
-        // Writing to a text does not fail.
-        let _ = write!(text, "{byte:02x}");
-    }
-    text
+    let lines: String = parts.iter().map(|part| format!("{part}\n")).collect();
+    flexdrill_config::sha256(lines.as_bytes())
 }
 
 impl OfHole {
