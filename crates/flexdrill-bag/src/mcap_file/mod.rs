@@ -14,6 +14,7 @@ mod chunk;
 pub(super) mod early_end;
 mod records;
 mod scan;
+mod search;
 mod stream;
 
 pub(super) use stream::McapStream;
