@@ -191,7 +191,7 @@ fn find_header(
             }),
         };
     }
-    let names = mapping.column_names();
+    let names = mapping.columns.names();
     let mut best: Option<(usize, u64, csv::ByteRecord, Lines<'_>)> = None;
     let mut ahead = lines.clone();
     for _ in 0..PREAMBLE {

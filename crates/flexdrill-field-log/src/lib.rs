@@ -45,11 +45,7 @@ pub use condition::Condition;
 pub use error::FieldLogError;
 pub use guess::{Guess, LeftOut, Proposal, Quantity, Sure, guess, guess_bytes, is_proposed};
 pub use log_rows::{LogRows, row_source};
-pub use mapping::{
-    Columns, Decimal, Direct, Hookload, Mapping, MeasuredColumn, Quality, RotarySpeedColumn, TimeColumn,
-    WeightOnBitColumn,
-};
-pub use mapping::{SpeedUnit, TorqueColumn, TorqueUnit, WeightUnit};
+pub use mapping::{Column, Columns, Decimal, Hookload, Mapping, Quality, ScaledColumn, TimeColumn, WeightOnBitColumn};
 pub use measured::{MeasuredRow, MeasuredSequence};
 pub use range::{Position, Range};
 pub use read::{read, read_bytes, read_range};

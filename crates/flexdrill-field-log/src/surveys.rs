@@ -1,6 +1,6 @@
 //! The surveys of a log: rare rows, or the newest survey repeated in each row.
 
-use crate::mapping::{Mapping, MeasuredColumn, SurveyColumns};
+use crate::mapping::{Column, Mapping, SurveyColumns};
 use flexdrill_core::inputs::Unit;
 
 /// A survey of a log. A tool without an azimuth has NaN.
@@ -26,7 +26,7 @@ pub(crate) struct SurveyIndices([Option<(usize, Unit)>; 3]);
 pub(crate) type Values = [f64; 3];
 
 impl SurveyColumns {
-    fn all(&self) -> [(&'static str, Option<&MeasuredColumn>); 3] {
+    fn all(&self) -> [(&'static str, Option<&Column>); 3] {
         [
             ("measured_depth", Some(&self.measured_depth)),
             ("inclination", Some(&self.inclination)),
@@ -35,7 +35,7 @@ impl SurveyColumns {
     }
 
     /// The columns that are there, by key.
-    pub(crate) fn columns(&self) -> impl Iterator<Item = (&'static str, &MeasuredColumn)> {
+    pub(crate) fn columns(&self) -> impl Iterator<Item = (&'static str, &Column)> {
         self.all().into_iter().filter_map(|(key, column)| Some((key, column?)))
     }
 }

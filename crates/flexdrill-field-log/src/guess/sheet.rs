@@ -4,9 +4,9 @@
 use crate::compressed::unpacked;
 use crate::layout::{LONGEST_LINE, Layout, separator_line};
 use crate::lines::{LineReader, Lines};
-use crate::mapping::{Columns, Decimal, Direct, RotarySpeedColumn, TimeColumn};
+use crate::mapping::{Columns, Decimal, ScaledColumn, TimeColumn};
 use crate::table::{MISSING_CODES, foreign_encoding};
-use crate::{FieldLogError, Mapping, Quality, SpeedUnit, WeightOnBitColumn, WeightUnit, las};
+use crate::{FieldLogError, Mapping, Quality, WeightOnBitColumn, las};
 use flexdrill_core::inputs::Unit;
 use flexdrill_text::counted;
 
@@ -223,14 +223,14 @@ fn draft(begin: Option<Begin>) -> Mapping {
                 clock: None,
                 format: None,
             },
-            rotary_speed: RotarySpeedColumn {
+            rotary_speed: ScaledColumn {
                 column: column(),
-                unit: SpeedUnit::RevolutionsPerMinute,
+                unit: Unit::TurnPerMinute,
                 scale: 1.0,
             },
-            weight_on_bit: WeightOnBitColumn::Direct(Direct {
+            weight_on_bit: WeightOnBitColumn::Direct(ScaledColumn {
                 column: column(),
-                unit: WeightUnit::Kilonewton,
+                unit: Unit::Kilonewton,
                 scale: 1.0,
             }),
             torque: None,
