@@ -11,7 +11,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::Decimal;
 
 /// Notation of time in a log. Only differences matter to the model; the dates are kept for the way back to the log.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[serde(remote = "Self", rename_all = "snake_case")]
 pub enum TimeFormat {
     /// A number of seconds.
     #[default]
@@ -34,22 +35,8 @@ pub enum TimeFormat {
     /// `23:59:58.5`, `23:59`, `11:59:58 PM`, or a number of seconds since midnight. It restarts at midnight.
     TimeOfDay,
     /// A pattern of strftime, such as `%d/%m/%Y %H:%M:%S%.f`.
+    #[serde(skip)]
     Pattern(String),
-}
-
-/// The words of a mapping file for the formats that are no pattern.
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Word {
-    Seconds,
-    Milliseconds,
-    Microseconds,
-    Nanoseconds,
-    Minutes,
-    Hours,
-    ExcelDays,
-    Iso8601,
-    TimeOfDay,
 }
 
 impl<'de> Deserialize<'de> for TimeFormat {
@@ -58,17 +45,8 @@ impl<'de> Deserialize<'de> for TimeFormat {
         if text.contains('%') {
             return Ok(Self::Pattern(text));
         }
-        Ok(match Word::deserialize(StrDeserializer::<D::Error>::new(&text))? {
-            Word::Seconds => Self::Seconds,
-            Word::Milliseconds => Self::Milliseconds,
-            Word::Microseconds => Self::Microseconds,
-            Word::Nanoseconds => Self::Nanoseconds,
-            Word::Minutes => Self::Minutes,
-            Word::Hours => Self::Hours,
-            Word::ExcelDays => Self::ExcelDays,
-            Word::Iso8601 => Self::Iso8601,
-            Word::TimeOfDay => Self::TimeOfDay,
-        })
+        // The derived function knows the words of the other formats.
+        Self::deserialize(StrDeserializer::<D::Error>::new(&text))
     }
 }
 
