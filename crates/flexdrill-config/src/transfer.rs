@@ -4,7 +4,7 @@ use super::checker::Checker;
 use super::section::section;
 use super::vibration::Steps;
 use flexdrill_core::units::{kn_to_n, n_to_kn};
-use flexdrill_motion::{AlarmThresholds, LoadSettings, TransferSettings};
+use flexdrill_motion::{LoadSettings, TransferSettings};
 
 section! {
     /// Torque and weight from the surface to the bit (`twin/transfer`), and the levels of what does not arrive. Judged
@@ -87,11 +87,7 @@ impl Transfer {
 
     pub(super) fn describe(&self) -> TransferSettings {
         let mut settings = TransferSettings::default();
-        let of = |levels: &Steps| AlarmThresholds {
-            levels: levels.levels(),
-            hysteresis: self.hysteresis,
-            hold_off: self.hold_off,
-        };
+        let of = |levels: &Steps| levels.thresholds(self.hysteresis, self.hold_off);
         settings.window = self.window;
         settings.least_weight = kn_to_n(self.least_weight_kn);
         settings.steadiness = self.steadiness;
@@ -137,10 +133,6 @@ fn rated(rating: f64, interval: f64, levels: &Steps, hysteresis: f64, hold_off: 
     (rating > 0.0).then(|| LoadSettings {
         rating,
         interval,
-        thresholds: AlarmThresholds {
-            levels: levels.levels(),
-            hysteresis,
-            hold_off,
-        },
+        thresholds: levels.thresholds(hysteresis, hold_off),
     })
 }

@@ -160,6 +160,15 @@ impl Steps {
         [self.watch, self.warning, self.critical]
     }
 
+    /// With the way out of a level: hysteresis as a share, hold-off (s).
+    pub(super) fn thresholds(&self, hysteresis: f64, hold_off: f64) -> AlarmThresholds {
+        AlarmThresholds {
+            levels: self.levels(),
+            hysteresis,
+            hold_off,
+        }
+    }
+
     /// `most` is at most that of [`THRESHOLD`].
     pub(super) fn check(&self, c: &mut Checker, most: f64, unit: &'static str) {
         let keys = [
@@ -188,11 +197,7 @@ impl StickSlip {
         let mut settings = StickSlipSettings::default();
         settings.window = self.window;
         settings.gate_speed = rpm_to_rad_per_s(self.gate_speed_rpm);
-        settings.thresholds = AlarmThresholds {
-            levels: self.levels.levels(),
-            hysteresis: self.hysteresis,
-            hold_off: self.hold_off,
-        };
+        settings.thresholds = self.levels.thresholds(self.hysteresis, self.hold_off);
         settings
     }
 }
@@ -218,11 +223,7 @@ impl Shock {
         let mut settings = ShockSettings::default();
         settings.interval = self.interval;
         settings.mean_time = self.mean_time;
-        settings.thresholds = AlarmThresholds {
-            levels: self.levels.levels(),
-            hysteresis: self.hysteresis,
-            hold_off: self.hold_off,
-        };
+        settings.thresholds = self.levels.thresholds(self.hysteresis, self.hold_off);
         settings.repeats = [self.repeats.watch, self.repeats.warning, self.repeats.critical];
         settings.span = self.span;
         settings
@@ -238,11 +239,7 @@ impl ChaoticWhirl {
     pub(super) fn describe(&self) -> ChaoticWhirlSettings {
         let mut settings = ChaoticWhirlSettings::default();
         settings.window = self.window;
-        settings.thresholds = AlarmThresholds {
-            levels: self.levels.levels(),
-            hysteresis: self.hysteresis,
-            hold_off: self.hold_off,
-        };
+        settings.thresholds = self.levels.thresholds(self.hysteresis, self.hold_off);
         settings
     }
 }
@@ -264,11 +261,7 @@ impl JointLoad {
         let mut settings = JointLoadSettings::default();
         settings.rated_moment = self.rated_moment_nm;
         settings.interval = self.interval;
-        settings.thresholds = AlarmThresholds {
-            levels: self.levels.levels(),
-            hysteresis: self.hysteresis,
-            hold_off: self.hold_off,
-        };
+        settings.thresholds = self.levels.thresholds(self.hysteresis, self.hold_off);
         settings
     }
 }
