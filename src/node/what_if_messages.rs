@@ -1,11 +1,11 @@
 //! What a look-ahead is asked and answers, as messages of the action `~/what_if`.
 
 use crate::ahead::{AlarmChance as Seen, Answer, Candidate, CandidateAnswer, Ends, Figure, Goal, Progress};
-use crate::alarms::priority_code;
 use flexdrill_messages::unique_identifier_msgs::UUID;
 use flexdrill_messages::{
     AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
 };
+use flexdrill_outputs::words::priority_code;
 use flexdrill_ros2::action::GoalId;
 use flexdrill_text::{counted, six_digits};
 

@@ -34,6 +34,16 @@ pub fn alarm_priority(code: u8) -> &'static str {
     }
 }
 
+/// An alarm's priority in messages.
+pub fn priority_code(priority: Option<Priority>) -> u8 {
+    match priority {
+        None => Alarm::NO_PRIORITY,
+        Some(Priority::Low) => Alarm::LOW,
+        Some(Priority::Medium) => Alarm::MEDIUM,
+        Some(Priority::High) => Alarm::HIGH,
+    }
+}
+
 /// The kind of whirl in one word.
 pub fn whirl_kind(code: u8) -> &'static str {
     match code {

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use flexdrill_config::Config;
 use flexdrill_map::{Axis, Cell, Map, MapError, ROTARY_SPEED, Verdict, WEIGHT_ON_BIT};
+use flexdrill_messages::SafeWindow as Message;
 use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{Alarm, SafeWindow as Message};
+use flexdrill_outputs::words::priority_code;
 
 /// Why a map is not loaded.
 #[derive(Debug, thiserror::Error)]
@@ -186,7 +187,6 @@ impl SafeWindow {
 
     /// As a message.
     pub fn message(&self, header: Header) -> Message {
-        use flexdrill_alarms::Priority;
         let map = &self.map;
         let [least_members, most_members] = map.members_ended().unwrap_or_default();
         let mut message = Message {
@@ -199,11 +199,7 @@ impl SafeWindow {
             least_members,
             most_members,
             limit: map.limit,
-            priority: match map.priority {
-                Priority::Low => Alarm::LOW,
-                Priority::Medium => Alarm::MEDIUM,
-                Priority::High => Alarm::HIGH,
-            },
+            priority: priority_code(Some(map.priority)),
             rotary_speed_rpm: self.speeds().values.clone(),
             weight_on_bit_kn: self.weights().values.clone(),
             ..Message::default()

@@ -9,8 +9,9 @@ use super::worst_moment::WorstMoment;
 use crate::messages::builtin_interfaces::Time;
 use crate::messages::std_msgs::Header;
 use crate::messages::{Alarm, AlarmEvent, AlarmList};
-use flexdrill_alarms::{AlarmSystem, Change, Event, Priority, State, Unshelving};
+use flexdrill_alarms::{AlarmSystem, Change, Event, State, Unshelving};
 use flexdrill_core::tool::Body;
+use flexdrill_outputs::words::priority_code;
 
 /// All alarms, the worst first. `restored` says per alarm whether its state began in an earlier run, `tools` what plausible
 /// tools say of it.
@@ -77,7 +78,7 @@ fn alarm(system: &AlarmSystem, id: AlarmId, moment: &WorstMoment) -> Alarm {
         id: id.id().to_owned(),
         name: id.name().to_owned(),
         state: standing.state() as u8,
-        priority: priority(standing.priority()),
+        priority: priority_code(standing.priority()),
         active: standing.active().is_some(),
         acknowledged: standing.unacknowledged().is_none(),
         since: Time::from_nanoseconds(alarm.since),
@@ -137,7 +138,7 @@ pub(super) fn event(event: &Event, stamp: i64, moment: &WorstMoment, frame_id: &
         change: change(&event.change),
         from_state: event.from as u8,
         to_state: event.to as u8,
-        priority: priority(event.priority),
+        priority: priority_code(event.priority),
         annunciates: event.annunciates(),
         operator_name: event.operator.clone(),
         reason: reason.to_owned(),
@@ -176,16 +177,6 @@ fn place(finding: &Finding) -> (u8, f64, f64) {
             };
             (body, place.measured_depth, place.inclination)
         }
-    }
-}
-
-/// A priority in messages.
-pub fn priority(priority: Option<Priority>) -> u8 {
-    match priority {
-        None => Alarm::NO_PRIORITY,
-        Some(Priority::Low) => Alarm::LOW,
-        Some(Priority::Medium) => Alarm::MEDIUM,
-        Some(Priority::High) => Alarm::HIGH,
     }
 }
 

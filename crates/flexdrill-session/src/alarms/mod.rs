@@ -35,7 +35,6 @@ mod worst_moment;
 pub use advice::{Change, Knob, Leading, TRIED_SPEED, TRIED_WEIGHT, Tested, Trial, Unknown};
 pub use catalogue::AlarmId;
 pub use changed::FOLLOW;
-pub use fill::priority as priority_code;
 pub use finding::Finding;
 pub use request::Request;
 pub use rig::{Followed, Judged, in_words};

@@ -4,7 +4,7 @@ use super::engine::{Counts, Ensemble};
 use super::evidence::channel;
 use super::member::Second;
 use super::place::{Place, State};
-use crate::alarms::{AlarmId, priority_code};
+use crate::alarms::AlarmId;
 use flexdrill_alarms::Priority;
 use flexdrill_calibration::residual::RigQuantity;
 use flexdrill_config::Config;
@@ -12,6 +12,7 @@ use flexdrill_ensemble::{Band, Chance, LEAST_MEMBERS, effective_number};
 use flexdrill_messages::{AlarmChance, Bands, FigureBand};
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::figures::OverTools;
+use flexdrill_outputs::words::priority_code;
 use flexdrill_uncertainty::UncertaintyError;
 
 /// Why there are no bands while members run that were chosen by what is withdrawn.

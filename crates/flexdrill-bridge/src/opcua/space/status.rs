@@ -4,6 +4,7 @@ use ::opcua::types::Variant;
 use flexdrill_core::inputs::{InputKind, Unit};
 use flexdrill_messages::TwinStatus;
 use flexdrill_messages::topics;
+use flexdrill_outputs::words::{input_state, twin_state};
 
 use super::{Kind, Variable, number};
 
@@ -24,14 +25,7 @@ pub(super) fn of_status() -> Vec<Variable> {
     vec![
         // Words and not codes, because clients show the value without a table.
         text("state", "starting, running, paused or failed", |status| {
-            match status.state {
-                TwinStatus::STARTING => "starting",
-                TwinStatus::RUNNING => "running",
-                TwinStatus::PAUSED => "paused",
-                TwinStatus::FAILED => "failed",
-                _ => "unknown",
-            }
-            .to_owned()
+            twin_state(status.state).to_owned()
         }),
         text("version", "Version of flexdrill", |status| status.version.clone()),
         text(
@@ -122,16 +116,8 @@ pub(super) fn of_input(kind: InputKind) -> Vec<Variable> {
             "state",
             "not received, ok, slow, stale, rejected or assumed",
             |status, index| {
-                let state = match *status.input_state.get(index)? {
-                    TwinStatus::INPUT_NOT_RECEIVED => "not received",
-                    TwinStatus::INPUT_OK => "ok",
-                    TwinStatus::INPUT_SLOW => "slow",
-                    TwinStatus::INPUT_STALE => "stale",
-                    TwinStatus::INPUT_REJECTED => "rejected",
-                    TwinStatus::INPUT_ASSUMED => "assumed",
-                    _ => "unknown",
-                };
-                Some(state.to_owned())
+                let state = status.input_state.get(index)?;
+                Some(input_state(*state).to_owned())
             },
         ),
         texts(
