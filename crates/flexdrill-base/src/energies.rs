@@ -22,8 +22,6 @@ pub struct Term {
     pub joules: &'static str,
     /// Its side of the balance.
     pub side: Side,
-    /// What it is, in a sentence.
-    pub text: &'static str,
     /// Its value.
     pub of: fn(&Energies) -> f64,
 }
@@ -43,7 +41,6 @@ macro_rules! ledger {
                 name: stringify!($name),
                 joules: concat!(stringify!($name), "_j"),
                 side: Side::$side,
-                text: concat!($($text),+),
                 of: |energies| energies.$name,
             }),+];
 

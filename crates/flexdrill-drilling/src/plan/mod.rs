@@ -338,11 +338,6 @@ impl Plan {
         (self.inclinations[1] - self.inclinations[0]) / self.ahead()
     }
 
-    /// Inclination at the bit (deg).
-    pub fn inclination_at_bit_deg(&self) -> f64 {
-        rad_to_deg(self.inclinations[0])
-    }
-
     /// Its points.
     pub fn points(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         self.points.iter().map(|(_, at)| *at)
