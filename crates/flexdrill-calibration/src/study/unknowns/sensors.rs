@@ -46,155 +46,100 @@ pub struct OfSensor {
     pub per_value: f64,
 }
 
-/// Middle and half width of the 90 % of a prior, in the unit of its key.
-type Stated = [f64; 2];
+/// An unknown as the configuration states it.
+struct Stated {
+    of: Of,
+    part: Part,
+    /// Middle and half width of the 90 % of its prior, in the unit of the key.
+    prior: [f64; 2],
+    key: Option<&'static str>,
+}
+
+/// Rows of what is measured, the part of its error, and the path of both numbers, of which the first is the key.
+macro_rules! stated {
+    ($($of:expr, $part:ident: $($section:ident).+ [$middle:ident, $half:ident];)+) => {
+        vec![$(Stated {
+            of: $of,
+            part: Part::$part,
+            prior: [$($section).+.$middle, $($section).+.$half],
+            key: Some(concat!($(stringify!($section), ".",)+ stringify!($middle))),
+        }),+]
+    };
+}
 
 /// The unknowns of all sensors: the tares of surface torque and hook load, then what is stated of factors and further tares.
 pub(super) fn of(config: &Config) -> Result<Vec<OfSensor>, CalibrationError> {
-    let given = &config.calibration;
-    let sensors = config
-        .uncertainty
-        .as_ref()
-        .map(|stated| stated.sensors)
-        .unwrap_or_default();
-    let weight = sensors.weight_indicator;
-    let (kn, one) = (n_to_kn(1.0), 1.0);
-    let of = Of::Channel;
-    let row = |name, unit, whose, part, stated: Stated, key, per_value| {
-        (name, unit, whose, part, stated, Some(key), per_value)
+    let calibration = &config.calibration;
+    let uncertainty = config.uncertainty.clone().unwrap_or_default();
+    let [torque, load, bit_torque, bit_weight] = [
+        Channel::SurfaceTorque,
+        Channel::HookLoad,
+        Channel::BitTorque,
+        Channel::BitWeight,
+    ]
+    .map(Of::Channel);
+    let mut rows = stated! {
+        torque, Tare: calibration[torque_tare_nm, torque_tare_range_nm];
+        load, Tare: calibration[hook_load_tare_kn, hook_load_tare_range_kn];
+        Of::Indicator, Factor: uncertainty.sensors.weight_indicator[factor, factor_error];
+        Of::Indicator, Tare: uncertainty.sensors.weight_indicator[tare_kn, tare_range_kn];
+        torque, Factor: uncertainty.sensors.surface_torque[factor, factor_error];
+        load, Factor: uncertainty.sensors.hook_load[factor, factor_error];
+        bit_torque, Factor: uncertainty.sensors.downhole_torque[factor, factor_error];
+        bit_torque, Tare: uncertainty.sensors.downhole_torque[tare_nm, tare_range_nm];
+        bit_weight, Factor: uncertainty.sensors.downhole_weight[factor, factor_error];
+        bit_weight, Tare: uncertainty.sensors.downhole_weight[tare_kn, tare_range_kn];
     };
-    let mut rows = vec![
-        row(
-            "tare of the surface torque",
-            "N m",
-            of(Channel::SurfaceTorque),
-            Part::Tare,
-            [given.torque_tare_nm, given.torque_tare_range_nm],
-            "calibration.torque_tare_nm",
-            one,
-        ),
-        row(
-            "tare of the hook load",
-            "N",
-            of(Channel::HookLoad),
-            Part::Tare,
-            [given.hook_load_tare_kn, given.hook_load_tare_range_kn],
-            "calibration.hook_load_tare_kn",
-            kn,
-        ),
-        row(
-            "factor of the weight indicator",
-            "",
-            Of::Indicator,
-            Part::Factor,
-            [weight.factor, weight.factor_error],
-            "uncertainty.sensors.weight_indicator.factor",
-            one,
-        ),
-        row(
-            "tare of the weight indicator",
-            "N",
-            Of::Indicator,
-            Part::Tare,
-            [weight.tare_kn, weight.tare_range_kn],
-            "uncertainty.sensors.weight_indicator.tare_kn",
-            kn,
-        ),
-        row(
-            "factor of the surface torque",
-            "",
-            of(Channel::SurfaceTorque),
-            Part::Factor,
-            [sensors.surface_torque.factor, sensors.surface_torque.factor_error],
-            "uncertainty.sensors.surface_torque.factor",
-            one,
-        ),
-        row(
-            "factor of the hook load",
-            "",
-            of(Channel::HookLoad),
-            Part::Factor,
-            [sensors.hook_load.factor, sensors.hook_load.factor_error],
-            "uncertainty.sensors.hook_load.factor",
-            one,
-        ),
-        row(
-            "factor of the torque at the bit",
-            "",
-            of(Channel::BitTorque),
-            Part::Factor,
-            [sensors.downhole_torque.factor, sensors.downhole_torque.factor_error],
-            "uncertainty.sensors.downhole_torque.factor",
-            one,
-        ),
-        row(
-            "tare of the torque at the bit",
-            "N m",
-            of(Channel::BitTorque),
-            Part::Tare,
-            [sensors.downhole_torque.tare_nm, sensors.downhole_torque.tare_range_nm],
-            "uncertainty.sensors.downhole_torque.tare_nm",
-            one,
-        ),
-        row(
-            "factor of the weight at the bit",
-            "",
-            of(Channel::BitWeight),
-            Part::Factor,
-            [sensors.downhole_weight.factor, sensors.downhole_weight.factor_error],
-            "uncertainty.sensors.downhole_weight.factor",
-            one,
-        ),
-        row(
-            "tare of the weight at the bit",
-            "N",
-            of(Channel::BitWeight),
-            Part::Tare,
-            [sensors.downhole_weight.tare_kn, sensors.downhole_weight.tare_range_kn],
-            "uncertainty.sensors.downhole_weight.tare_kn",
-            kn,
-        ),
-    ];
     // An indicator of which nothing is stated is not exact: none is. Its values have no key then.
-    if weight.factor_error == 0.0 && weight.tare_range_kn == 0.0 {
+    let indicator = uncertainty.sensors.weight_indicator;
+    if indicator.factor_error == 0.0 && indicator.tare_range_kn == 0.0 {
         let [error, tare] = INDICATOR;
-        for (_, _, whose, part, stated, key, _) in &mut rows {
-            if *whose == Of::Indicator {
-                stated[1] = if *part == Part::Factor { error } else { tare };
-                *key = None;
-            }
+        for row in rows.iter_mut().filter(|row| row.of == Of::Indicator) {
+            row.prior[1] = if row.part == Part::Factor { error } else { tare };
+            row.key = None;
         }
     }
     // Of the error of the rate of penetration, a half of the variance is that of all windows: a factor that no length of the log
     // averages away. As a covariance it would pull the rates down, since low ones would have small errors.
     if config.rock.law == Law::DepthOfCut {
-        let half = crate::BAND * given.rate_of_penetration_error / 2.0_f64.sqrt();
-        rows.push((
-            "error of the twin's rate of penetration",
-            "",
-            of(Channel::RateOfPenetration),
-            Part::Factor,
-            [1.0, half],
-            None,
-            one,
-        ));
+        let half = crate::BAND * calibration.rate_of_penetration_error / 2.0_f64.sqrt();
+        rows.push(Stated {
+            of: Of::Channel(Channel::RateOfPenetration),
+            part: Part::Factor,
+            prior: [1.0, half],
+            key: None,
+        });
     }
-    let mut all = Vec::new();
-    for (name, unit, of, part, [middle, half], key, per_value) in rows {
-        // What has no range is exact.
-        if half == 0.0 {
-            continue;
-        }
+    // What has no range is exact.
+    rows.retain(|row| row.prior[1] != 0.0);
+    rows.into_iter().map(OfSensor::of).collect()
+}
+
+impl OfSensor {
+    fn of(stated: Stated) -> Result<Self, CalibrationError> {
+        let Stated { of, part, prior, key } = stated;
+        let (sensor, unit) = match of {
+            Of::Indicator => ("weight indicator", "N"),
+            Of::Channel(channel) => channel.name_and_unit(),
+        };
+        let (name, unit) = match part {
+            // It is no sensor's.
+            _ if of == Of::Channel(Channel::RateOfPenetration) => (format!("error of the twin's {sensor}"), ""),
+            Part::Factor => (format!("factor of the {sensor}"), ""),
+            Part::Tare => (format!("tare of the {sensor}"), unit),
+        };
+        // Keys have forces in kN.
+        let per_value = if unit == "N" { n_to_kn(1.0) } else { 1.0 };
+        let [middle, half] = prior;
         let ends = [middle - half, middle + half].map(|end| end / per_value);
-        all.push(OfSensor {
-            unknown: Unknown::new(name, unit, Shape::Normal, ends)?,
+        Ok(Self {
+            unknown: Unknown::new(&name, unit, Shape::Normal, ends)?,
             of,
             part,
             key,
             per_value,
-        });
+        })
     }
-    Ok(all)
 }
 
 /// The sensor of what is measured, by the numbers of its unknowns, which begin at `first`. Without an own factor the hook load
