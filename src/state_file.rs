@@ -164,12 +164,39 @@ pub fn write<T: Kept>(path: &Path, state: &T) -> Result<(), StateError> {
 /// # Errors
 /// When the disk refuses the write; the file is then as it was.
 pub fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let fresh = with_ending(path, ".new");
-    let mut file = File::create(&fresh)?;
-    file.write_all(bytes)
-        .and_then(|()| file.sync_all())
-        .and_then(|()| std::fs::rename(&fresh, path))
-        .and_then(|()| sync_folder(path))
+    replace_by(&with_ending(path, ".new"), path, bytes)
+}
+
+/// As [`replace`], for a file that several processes may write: they write under different names first.
+///
+/// # Errors
+/// When the disk refuses the write; the file is then as it was.
+pub fn replace_shared(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    replace_by(&with_ending(path, &format!(".{}", std::process::id())), path, bytes)
+}
+
+fn replace_by(fresh: &Path, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let replaced = File::create(fresh)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.sync_all()
+        })
+        .and_then(|()| std::fs::rename(fresh, path));
+    if replaced.is_err() {
+        // The first error is the one to report.
+        let _ = std::fs::remove_file(fresh);
+    }
+    replaced.and_then(|()| sync_folder(path))
+}
+
+/// A name from outside as part of a file's name: letters, digits and the bytes `kept` are as they are, others are `%` and two
+/// hexadecimal digits.
+pub fn plain(name: &str, kept: &[u8]) -> String {
+    let plain = |byte: u8| match byte {
+        byte if byte.is_ascii_alphanumeric() || kept.contains(&byte) => char::from(byte).to_string(),
+        byte => format!("%{byte:02x}"),
+    };
+    name.bytes().map(plain).collect()
 }
 
 /// Syncs the folder of a file, so that its new name is on the disk.

@@ -1,10 +1,10 @@
 //! The number of the last pair of birth and death of a Sparkplug node, which the next start of the bridge continues: a
 //! small file. With a number that began again, a death certificate that arrives late would end the new session.
 
-use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{ErrorKind, Write as _};
+use std::io::ErrorKind;
 use std::path::Path;
+
+use crate::state_file::{plain, replace_shared};
 
 /// Most bytes of a name in a file's name; file systems allow 255.
 const LONGEST_NAME: usize = 200;
@@ -32,18 +32,8 @@ pub enum NumberError {
 
 /// The name of the file of a node (`GROUP/NODE`).
 pub fn file_name(node: &str) -> String {
-    let mut name = String::from("sparkplug_");
-    for byte in node.bytes() {
-        match byte {
-            b'/' => name.push('.'),
-            b'-' | b'_' => name.push(char::from(byte)),
-            byte if byte.is_ascii_alphanumeric() => name.push(char::from(byte)),
-            // Writing to a string does not fail.
-            byte => {
-                let _ = write!(name, "%{byte:02x}");
-            }
-        }
-    }
+    let parts: Vec<String> = node.split('/').map(|part| plain(part, b"-_")).collect();
+    let mut name = format!("sparkplug_{}", parts.join("."));
     name.truncate(LONGEST_NAME);
     name + ".bdseq"
 }
@@ -73,12 +63,8 @@ pub fn write(path: &Path, number: u8) -> std::io::Result<()> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    // Two bridges of one node write different files.
-    let fresh = path.with_extension(format!("bdseq.{}", std::process::id()));
-    let mut file = File::create(&fresh)?;
-    writeln!(file, "{number}")?;
-    file.sync_all()?;
-    std::fs::rename(&fresh, path)
+    // Two bridges of one node may write it.
+    replace_shared(path, format!("{number}\n").as_bytes())
 }
 
 #[cfg(test)]

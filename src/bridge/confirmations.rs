@@ -1,11 +1,11 @@
 //! Whether a person has compared what a mapping makes of a source with the rig's display: a small file per mapping and
 //! source, and a line in a journal. A mapping that was changed has another file, so that it counts as not compared.
 
-use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
+use crate::state_file::{plain, replace_shared};
 use flexdrill_text::{date_time, printable};
 
 /// Digits of the hash that people see and that a file's name has: enough that two mappings of a site never share them.
@@ -111,7 +111,8 @@ impl Confirmations {
         let journal = folder.join(JOURNAL);
         append(&journal, &entry).map_err(|error| failed(&journal, error))?;
         let text = format!("{}confirmed {when}\n", self.head(source));
-        write(&file, &text).map_err(|error| failed(&file, error))?;
+        // Complete or absent, also when the power fails; two bridges may write it.
+        replace_shared(&file, text.as_bytes()).map_err(|error| failed(&file, error))?;
         Ok(file)
     }
 
@@ -127,17 +128,7 @@ impl Confirmations {
 
     /// The file of a source.
     fn file(&self, source: &str) -> Option<PathBuf> {
-        let mut plain = String::new();
-        for byte in source.bytes() {
-            match byte {
-                b'-' | b'_' | b'.' => plain.push(char::from(byte)),
-                byte if byte.is_ascii_alphanumeric() => plain.push(char::from(byte)),
-                // Writing to a string does not fail.
-                byte => {
-                    let _ = write!(plain, "%{byte:02x}");
-                }
-            }
-        }
+        let mut plain = plain(source, b"-_.");
         // The head in the file distinguishes two long names that begin alike.
         plain.truncate(LONGEST_SOURCE);
         let name = format!("wits_mapping_{}_{plain}.confirmed", self.short_hash());
@@ -150,20 +141,6 @@ fn append(file: &Path, line: &str) -> std::io::Result<()> {
     let mut journal = OpenOptions::new().create(true).append(true).open(file)?;
     journal.write_all(line.as_bytes())?;
     journal.sync_all()
-}
-
-/// Writes a file next to its place and moves it there, so that it is complete or absent, also when the power fails.
-fn write(file: &Path, text: &str) -> std::io::Result<()> {
-    // Two bridges write different files.
-    let fresh = file.with_extension(format!("confirmed.{}", std::process::id()));
-    let mut written = File::create(&fresh)?;
-    written.write_all(text.as_bytes())?;
-    written.sync_all()?;
-    std::fs::rename(&fresh, file)?;
-    match file.parent() {
-        Some(folder) => File::open(folder)?.sync_all(),
-        None => Ok(()),
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! The services `~/reset`, `~/pause` and `~/save_checkpoint`.
 
-use std::fs::File;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, PoisonError};
 use std::time::Instant;
 
@@ -10,6 +8,7 @@ use super::{CHECKPOINT_INTERVAL, Control, ControlError};
 use crate::drilling::live::with_points;
 use crate::node::NodeError;
 use crate::node::states::SavedRun;
+use crate::state_file::replace;
 use flexdrill_messages::std_srvs::{SetBoolRequest, SetBoolResponse, TriggerRequest, TriggerResponse};
 use flexdrill_realtime::link::RunState;
 use flexdrill_ros2::args::ArgsError;
@@ -59,7 +58,7 @@ impl Control {
                 &self.config().hash()[..12]
             ));
             let file = with_points(checkpoint, &self.drilled.get());
-            if let Err(source) = write_whole(&path, &file) {
+            if let Err(source) = replace(&path, &file) {
                 return Err(ControlError::Write { path, source });
             }
             // The client may run on another machine, where a relative path means nothing.
@@ -80,22 +79,6 @@ impl Control {
         }
         answer(result)
     }
-}
-
-/// Writes a file completely or not at all. The file is on the disk when this returns.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let temporary = path.with_extension("checkpoint.part");
-    let written = File::create(&temporary)
-        .and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        })
-        .and_then(|()| std::fs::rename(&temporary, path));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written
 }
 
 fn answer(result: Result<String, ControlError>) -> TriggerResponse {
