@@ -9,6 +9,7 @@ pub mod cases;
 pub mod figures;
 pub mod machine;
 pub mod measure;
+pub mod parallel;
 pub mod real_time;
 pub mod table;
 

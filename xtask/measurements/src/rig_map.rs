@@ -1,8 +1,6 @@
 //! `--cases rig-map`: what the rig's tool does over rotary speed and weight, with three guides.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
+use flexdrill_bench::parallel::in_order;
 use flexdrill_bench::table::Table;
 use flexdrill_config::{Config, ConfigError};
 use flexdrill_core::dynamics::StepOutcome;
@@ -72,33 +70,16 @@ pub(crate) fn tables(config: &Config, duration: f64, jobs: usize) -> anyhow::Res
         .iter()
         .map(|guide| config.with_values(guide.name, (guide.changes)()))
         .collect::<Result<_, ConfigError>>()?;
-    // A cell's number counts guides, speeds and weights in this order; the threads take numbers.
+    // A cell's number counts guides, speeds and weights in this order.
     let (of_guide, of_speed) = (SPEEDS.len() * WEIGHTS.len(), WEIGHTS.len());
-    let cells = Mutex::new(vec![None; GUIDES.len() * of_guide]);
-    let next = AtomicUsize::new(0);
-    let work = || -> anyhow::Result<()> {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(tool) = tools.get(number / of_guide) else {
-                return Ok(());
-            };
-            let (rpm, kn) = (SPEEDS[number % of_guide / of_speed], WEIGHTS[number % of_speed]);
-            let cell = run(tool, rpm, kn, duration)?;
-            eprintln!("{}, {rpm} r/min, {kn} kN: {cell:?}", GUIDES[number / of_guide].name);
-            if let Ok(mut cells) = cells.lock() {
-                cells[number] = Some(cell);
-            }
-        }
-    };
+    let numbers: Vec<usize> = (0..GUIDES.len() * of_guide).collect();
     // A run that fails ends the study: a map with a hole would be quoted without its reason.
-    std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
-        threads
-            .into_iter()
-            .try_for_each(|thread| thread.join().unwrap_or_else(|_| Err(anyhow::anyhow!("a run panicked"))))
+    let cells: Vec<Cell> = in_order(&numbers, jobs, |number| {
+        let (rpm, kn) = (SPEEDS[number % of_guide / of_speed], WEIGHTS[number % of_speed]);
+        let cell = run(&tools[number / of_guide], rpm, kn, duration)?;
+        eprintln!("{}, {rpm} r/min, {kn} kN: {cell:?}", GUIDES[number / of_guide].name);
+        anyhow::Ok(cell)
     })?;
-    // Every cell is there, since each thread ran until the numbers ended and none failed.
-    let cells: Vec<Cell> = cells.into_inner().unwrap_or_default().into_iter().flatten().collect();
     let of = |guide: usize, speed: usize, weight: usize| cells[guide * of_guide + speed * of_speed + weight];
     // The width of these lines is that of the document that they are pasted into.
     let mut text = format!(

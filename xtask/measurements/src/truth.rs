@@ -2,10 +2,9 @@
 //! scatter.
 
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use flexdrill_bench::cases::{BenchCase, hard};
+use flexdrill_bench::parallel::in_order;
 use flexdrill_bench::table::Table;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
@@ -228,9 +227,7 @@ fn tasks(plan: &Plan<'_>, cases: &[BenchCase]) -> anyhow::Result<Vec<Task>> {
 /// The figures of every task, from the folder where they are there.
 fn run_all(tasks: &[Task], columns: &[&Column], plan: &Plan<'_>) -> anyhow::Result<Vec<Vec<f64>>> {
     let parts = plan.parts.as_deref().map(Parts::open).transpose()?;
-    let next = AtomicUsize::new(0);
-    let results: Mutex<Vec<Option<anyhow::Result<Vec<f64>>>>> = Mutex::new(tasks.iter().map(|_| None).collect());
-    let work = |task: &Task| {
+    in_order(tasks, plan.jobs, |task| {
         if let Some(figures) = parts.as_ref().and_then(|parts| parts.read(&task.run)) {
             return Ok(figures);
         }
@@ -241,27 +238,7 @@ fn run_all(tasks: &[Task], columns: &[&Column], plan: &Plan<'_>) -> anyhow::Resu
             parts.write(&task.run, &figures)?;
         }
         Ok(figures)
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..plan.jobs.max(1) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(task) = tasks.get(index) else { break };
-                    let result = work(task);
-                    if result.is_err() {
-                        // The others would be in vain.
-                        next.store(tasks.len(), Ordering::Relaxed);
-                    }
-                    let mut results = results.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                    results[index] = Some(result);
-                }
-            });
-        }
-    });
-    let results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    // Runs that did not take place are those after a failure, which is the result then.
-    results.into_iter().flatten().collect()
+    })
 }
 
 #[cfg(test)]

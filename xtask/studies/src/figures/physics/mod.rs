@@ -10,11 +10,10 @@
 mod cases;
 
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
 
 use anyhow::{Context as _, bail, ensure};
 use flexdrill_bench::changed;
+use flexdrill_bench::parallel::in_order;
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::Inputs;
@@ -95,7 +94,8 @@ impl Found {
 /// # Errors
 /// When a run fails or a file cannot be written.
 pub(crate) fn draw(folder: &Path) -> anyhow::Result<()> {
-    let found = run_all()?;
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let found = in_order(&CASES, jobs, |case| run(case).with_context(|| case.name.to_owned()))?;
     print!("{}", table(&found));
     for figure in figures(&found) {
         let path = folder.join(format!("{}.svg", figure.name));
@@ -103,32 +103,6 @@ pub(crate) fn draw(folder: &Path) -> anyhow::Result<()> {
             .with_context(|| format!("{} cannot be written", path.display()))?;
     }
     Ok(())
-}
-
-/// Every case, in order.
-fn run_all() -> anyhow::Result<Vec<Found>> {
-    let next = AtomicUsize::new(0);
-    let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            let (send, next) = (send.clone(), &next);
-            scope.spawn(move || {
-                while let Some((at, case)) = {
-                    let at = next.fetch_add(1, Ordering::Relaxed);
-                    CASES.get(at).map(|case| (at, case))
-                } {
-                    let found = run(case).with_context(|| case.name.to_owned());
-                    if send.send((at, found)).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-    });
-    drop(send);
-    let mut results: Vec<_> = receive.into_iter().collect();
-    results.sort_by_key(|(at, _)| *at);
-    results.into_iter().map(|(_, found)| found).collect()
 }
 
 fn run(case: &Case) -> anyhow::Result<Found> {
