@@ -26,53 +26,35 @@ pub const DISTURBANCE: f64 = 1e-5;
 /// Time between two looks at a run (s): as often as alarms are observed in the node.
 pub(super) const LOOK: f64 = 0.1;
 
-/// A figure of a member over its horizon.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(usize)]
-pub enum Figure {
-    /// Mean of (max - min) / (2 mean) of the bit's speed.
-    Ripple,
-    /// Largest normal force of pipe and guide at a station (N).
-    PipeGuideForce,
-    /// Largest normal force of guide and wall at a station (N).
-    GuideWallForce,
-    /// Largest moment of a joint's stop (N m).
-    StopMoment,
-    /// Bending cycles per hour of the link that whirl bends most often, in the mean.
-    BendingCycles,
-    /// Damage per hour of the joint that ages fastest, by its stop or the link below it.
-    Damage,
-    /// Mean torque at the bit over that at the surface, or at the kick-off without a string; NaN where there is none.
-    TorqueTransfer,
-    /// Mean weight at the bit over that at the surface, or at the kick-off without a hoist; NaN where there is none.
-    WeightTransfer,
+flexdrill_base::listed! {
+    /// A figure of a member over its horizon.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[repr(usize)]
+    pub enum Figure: 2 {
+        /// Mean of (max - min) / (2 mean) of the bit's speed.
+        Ripple: "bit_speed_ripple", "";
+        /// Largest normal force of pipe and guide at a station (N).
+        PipeGuideForce: "pipe_guide_force", "N";
+        /// Largest normal force of guide and wall at a station (N).
+        GuideWallForce: "guide_wall_force", "N";
+        /// Largest moment of a joint's stop (N m).
+        StopMoment: "stop_moment", "N m";
+        /// Bending cycles per hour of the link that whirl bends most often, in the mean.
+        BendingCycles: "bending_cycles", "1/h";
+        /// Damage per hour of the joint that ages fastest, by its stop or the link below it.
+        Damage: "damage", "1/h";
+        /// Mean torque at the bit over that at the surface, or at the kick-off without a string; NaN where there is none.
+        TorqueTransfer: "torque_transfer", "";
+        /// Mean weight at the bit over that at the surface, or at the kick-off without a hoist; NaN where there is none.
+        WeightTransfer: "weight_transfer", "";
+    }
 }
 
 impl Figure {
-    /// All figures, in the order of a member's.
-    pub const ALL: [Self; 8] = [
-        Self::Ripple,
-        Self::PipeGuideForce,
-        Self::GuideWallForce,
-        Self::StopMoment,
-        Self::BendingCycles,
-        Self::Damage,
-        Self::TorqueTransfer,
-        Self::WeightTransfer,
-    ];
-
     /// Name and unit, as in messages.
     pub const fn name_and_unit(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Ripple => ("bit_speed_ripple", ""),
-            Self::PipeGuideForce => ("pipe_guide_force", "N"),
-            Self::GuideWallForce => ("guide_wall_force", "N"),
-            Self::StopMoment => ("stop_moment", "N m"),
-            Self::BendingCycles => ("bending_cycles", "1/h"),
-            Self::Damage => ("damage", "1/h"),
-            Self::TorqueTransfer => ("torque_transfer", ""),
-            Self::WeightTransfer => ("weight_transfer", ""),
-        }
+        let [name, unit] = self.row();
+        (name, unit)
     }
 }
 

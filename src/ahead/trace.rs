@@ -4,44 +4,32 @@ use std::collections::VecDeque;
 
 use flexdrill_core::twin::Snapshot;
 
-/// A figure of a second.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(usize)]
-pub enum Signal {
-    /// Mean rotary speed of the bit (rad/s).
-    BitSpeed,
-    /// Mean torque of the rock against the bit (N m).
-    BitTorque,
-    /// Mean weight on the bit (N).
-    WeightOnBit,
-    /// Largest normal force of pipe and guide at a station (N).
-    PipeGuideForce,
-    /// Largest normal force of guide and wall at a station (N).
-    GuideWallForce,
+flexdrill_base::listed! {
+    /// A figure of a second, in the order of its values.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[repr(usize)]
+    pub enum Signal: 2 {
+        /// Mean rotary speed of the bit (rad/s).
+        BitSpeed: "bit_speed", "rad/s";
+        /// Mean torque of the rock against the bit (N m).
+        BitTorque: "bit_torque", "N m";
+        /// Mean weight on the bit (N).
+        WeightOnBit: "weight_on_bit", "N";
+        /// Largest normal force of pipe and guide at a station (N).
+        PipeGuideForce: "pipe_guide_force", "N";
+        /// Largest normal force of guide and wall at a station (N).
+        GuideWallForce: "guide_wall_force", "N";
+    }
 }
 
 /// Number of signals.
 pub const SIGNALS: usize = Signal::ALL.len();
 
 impl Signal {
-    /// All signals, in the order of a second's values.
-    pub const ALL: [Self; 5] = [
-        Self::BitSpeed,
-        Self::BitTorque,
-        Self::WeightOnBit,
-        Self::PipeGuideForce,
-        Self::GuideWallForce,
-    ];
-
     /// Name and unit, as in messages.
     pub const fn name_and_unit(self) -> (&'static str, &'static str) {
-        match self {
-            Self::BitSpeed => ("bit_speed", "rad/s"),
-            Self::BitTorque => ("bit_torque", "N m"),
-            Self::WeightOnBit => ("weight_on_bit", "N"),
-            Self::PipeGuideForce => ("pipe_guide_force", "N"),
-            Self::GuideWallForce => ("guide_wall_force", "N"),
-        }
+        let [name, unit] = self.row();
+        (name, unit)
     }
 
     /// Whether it is the largest contact force, which is never negative.

@@ -6,17 +6,19 @@ use crate::cli::output::tell;
 use crate::field_log::Mapping;
 use flexdrill_config::{Config, ConfigError};
 
-/// A configuration of `config/`, as of the build.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum BuiltIn {
-    /// The paper's case.
-    Default,
-    /// The same tool in a coarse mesh.
-    Coarse,
-    /// The parameter set that agrees best with the paper's figures.
-    Paper,
-    /// A rig's tool, with the physics that the paper leaves out.
-    Rig,
+flexdrill_base::listed! {
+    /// A configuration of `config/`, as of the build.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(super) enum BuiltIn: 2 {
+        /// The paper's case.
+        Default: "config/default.yaml (built in)", "config/default.yaml";
+        /// The same tool in a coarse mesh.
+        Coarse: "config/coarse.yaml (built in)", "config/coarse.yaml";
+        /// The parameter set that agrees best with the paper's figures.
+        Paper: "config/paper.yaml (built in)", "config/paper.yaml";
+        /// A rig's tool, with the physics that the paper leaves out.
+        Rig: "config/rig.yaml (built in)", "config/rig.yaml";
+    }
 }
 
 /// The demonstration's log, its mapping, and their files in the repository.
@@ -76,22 +78,12 @@ impl DemoLog {
 impl BuiltIn {
     /// Its file in the repository.
     pub(super) const fn file(self) -> &'static str {
-        match self {
-            Self::Default => "config/default.yaml",
-            Self::Coarse => "config/coarse.yaml",
-            Self::Paper => "config/paper.yaml",
-            Self::Rig => "config/rig.yaml",
-        }
+        self.row()[1]
     }
 
     /// Its name in errors and in the node.
     pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Default => "config/default.yaml (built in)",
-            Self::Coarse => "config/coarse.yaml (built in)",
-            Self::Paper => "config/paper.yaml (built in)",
-            Self::Rig => "config/rig.yaml (built in)",
-        }
+        self.row()[0]
     }
 
     const fn text(self) -> &'static str {
@@ -113,9 +105,6 @@ impl BuiltIn {
             None => self.config(),
         }
     }
-
-    /// All of them.
-    pub(super) const ALL: [Self; 4] = [Self::Default, Self::Coarse, Self::Paper, Self::Rig];
 
     fn config(self) -> Result<Config, ConfigError> {
         Config::from_text(self.name(), self.text())

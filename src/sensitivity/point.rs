@@ -35,51 +35,35 @@ impl Load {
     }
 }
 
-/// What a run is measured by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
-    /// Mean torque at the bit (N m).
-    BitTorque,
-    /// Mean weight at the bit (N).
-    BitWeight,
-    /// Normal force of pipe and guide per station, root mean square over time and stations (N).
-    PipeGuideForce,
-    /// The same of guide and wall (N).
-    GuideWallForce,
-    /// Mean of (max - min) / (2 mean) of the bit's speed.
-    Ripple,
-    /// Mean whirl ratio of the station that whirl bends most often; a time without whirl of one rate counts as 0.
-    WhirlRatio,
-    /// Mean rate of penetration (m/s), where the rock answers the advance.
-    RateOfPenetration,
+flexdrill_base::listed! {
+    /// What a run is measured by.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Figure: 2 {
+        /// Mean torque at the bit (N m).
+        BitTorque: "bit_torque", "N m";
+        /// Mean weight at the bit (N).
+        BitWeight: "bit_weight", "kN";
+        /// Normal force of pipe and guide per station, root mean square over time and stations (N).
+        PipeGuideForce: "pipe_guide_force", "N";
+        /// The same of guide and wall (N).
+        GuideWallForce: "guide_wall_force", "N";
+        /// Mean of (max - min) / (2 mean) of the bit's speed.
+        Ripple: "bit_speed_ripple", "";
+        /// Mean whirl ratio of the station that whirl bends most often; a time without whirl of one rate counts as 0.
+        WhirlRatio: "whirl_ratio", "";
+        /// Mean rate of penetration (m/s), where the rock answers the advance.
+        RateOfPenetration: "rate_of_penetration", "m/h";
+    }
 }
 
 /// The figures of a run, by [`Figure`]; not a number where the tool has no such quantity.
 pub type Found = [f64; Figure::ALL.len()];
 
 impl Figure {
-    /// All figures.
-    pub const ALL: [Self; 7] = [
-        Self::BitTorque,
-        Self::BitWeight,
-        Self::PipeGuideForce,
-        Self::GuideWallForce,
-        Self::Ripple,
-        Self::WhirlRatio,
-        Self::RateOfPenetration,
-    ];
-
     /// Name and unit in the table.
     pub const fn name_and_unit(self) -> (&'static str, &'static str) {
-        match self {
-            Self::BitTorque => ("bit_torque", "N m"),
-            Self::BitWeight => ("bit_weight", "kN"),
-            Self::PipeGuideForce => ("pipe_guide_force", "N"),
-            Self::GuideWallForce => ("guide_wall_force", "N"),
-            Self::Ripple => ("bit_speed_ripple", ""),
-            Self::WhirlRatio => ("whirl_ratio", ""),
-            Self::RateOfPenetration => ("rate_of_penetration", "m/h"),
-        }
+        let [name, unit] = self.row();
+        (name, unit)
     }
 
     /// A value in the unit of the table.

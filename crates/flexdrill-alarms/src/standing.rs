@@ -4,76 +4,54 @@ use serde::{Deserialize, Serialize};
 
 use crate::Time;
 
-/// How soon an operator must act.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Priority {
-    /// As time permits.
-    Low,
-    /// Soon.
-    Medium,
-    /// At once.
-    High,
-}
-
-impl Priority {
-    /// All priorities in rising order.
-    pub const ALL: [Priority; 3] = [Priority::Low, Priority::Medium, Priority::High];
-
-    /// The name in ISA-18.2.
-    pub fn name(self) -> &'static str {
-        match self {
-            Priority::Low => "low",
-            Priority::Medium => "medium",
-            Priority::High => "high",
-        }
+flexdrill_base::listed! {
+    /// How soon an operator must act.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Priority: 1 {
+        /// As time permits.
+        Low: "low";
+        /// Soon.
+        Medium: "medium";
+        /// At once.
+        High: "high";
     }
 }
 
-/// The name of a state in ISA-18.2.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[repr(u8)]
-pub enum State {
-    /// No action required.
-    Normal = 0,
-    /// The condition stands and is not yet acknowledged.
-    ActiveUnacknowledged = 1,
-    /// The condition stands and is acknowledged.
-    ActiveAcknowledged = 2,
-    /// The condition ended before it was acknowledged.
-    ReturnedUnacknowledged = 3,
-    /// An operator has shelved the alarm for a time.
-    Shelved = 4,
-    /// The condition has no meaning in the present state of the plant.
-    SuppressedByDesign = 5,
-    /// Switched off by the configuration.
-    OutOfService = 6,
+impl Priority {
+    /// The name in ISA-18.2.
+    pub fn name(self) -> &'static str {
+        self.row()[0]
+    }
+}
+
+flexdrill_base::listed! {
+    /// The name of a state in ISA-18.2.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    #[repr(u8)]
+    pub enum State: 1 {
+        /// No action required.
+        Normal = 0: "normal";
+        /// The condition stands and is not yet acknowledged.
+        ActiveUnacknowledged = 1: "active, unacknowledged";
+        /// The condition stands and is acknowledged.
+        ActiveAcknowledged = 2: "active, acknowledged";
+        /// The condition ended before it was acknowledged.
+        ReturnedUnacknowledged = 3: "returned, unacknowledged";
+        /// An operator has shelved the alarm for a time.
+        Shelved = 4: "shelved";
+        /// The condition has no meaning in the present state of the plant.
+        SuppressedByDesign = 5: "suppressed by design";
+        /// Switched off by the configuration.
+        OutOfService = 6: "out of service";
+    }
 }
 
 impl State {
-    /// All states in the order of their codes.
-    pub const ALL: [State; 7] = [
-        State::Normal,
-        State::ActiveUnacknowledged,
-        State::ActiveAcknowledged,
-        State::ReturnedUnacknowledged,
-        State::Shelved,
-        State::SuppressedByDesign,
-        State::OutOfService,
-    ];
-
     /// The name for a person.
     pub fn name(self) -> &'static str {
-        match self {
-            State::Normal => "normal",
-            State::ActiveUnacknowledged => "active, unacknowledged",
-            State::ActiveAcknowledged => "active, acknowledged",
-            State::ReturnedUnacknowledged => "returned, unacknowledged",
-            State::Shelved => "shelved",
-            State::SuppressedByDesign => "suppressed by design",
-            State::OutOfService => "out of service",
-        }
+        self.row()[0]
     }
 }
 

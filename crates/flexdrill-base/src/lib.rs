@@ -1,8 +1,10 @@
 //! What the mechanics, the analysis of its motion and their users share: unit conversions, the two pipes and locations on
-//! them, the curvature of a tube as made, the terms of the energy ledger, and the checks of numbers. The crate depends on no other of the workspace.
+//! them, the curvature of a tube as made, the terms of the energy ledger, the checks of numbers, and [`listed`], by which the
+//! variants of an enumeration are written once. The crate depends on no other of the workspace.
 
 mod bends;
 pub mod energies;
+mod listed;
 mod location;
 pub mod units;
 pub mod validation;

@@ -6,30 +6,25 @@ use flexdrill_config::checker::Checker;
 use flexdrill_core::inputs::{Dimension, InputKind, MeasuredKind, Unit};
 use serde::{Deserialize, Serialize};
 
-/// A value of a survey.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum SurveyKind {
-    /// Measured depth.
-    Depth,
-    /// Inclination.
-    Inclination,
-    /// Azimuth, corrected to the north of the plan.
-    Azimuth,
+flexdrill_base::listed! {
+    /// A value of a survey.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum SurveyKind: 1 {
+        /// Measured depth.
+        Depth: "survey_depth";
+        /// Inclination.
+        Inclination: "survey_inclination";
+        /// Azimuth, corrected to the north of the plan.
+        Azimuth: "survey_azimuth";
+    }
 }
 
 impl SurveyKind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Depth, Self::Inclination, Self::Azimuth];
-
     /// Largest angle of either sign (rad): the twin's own bounds are narrower.
     const TURN: f64 = std::f64::consts::TAU;
 
     const fn name(self) -> &'static str {
-        match self {
-            Self::Depth => "survey_depth",
-            Self::Inclination => "survey_inclination",
-            Self::Azimuth => "survey_azimuth",
-        }
+        self.row()[0]
     }
 
     const fn dimension(self) -> Dimension {

@@ -6,72 +6,43 @@ use crate::InputSequence;
 use crate::table::Numbering;
 use flexdrill_core::inputs::InputKind;
 
-/// Kinds of problems in a log.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum IssueKind {
-    /// Not a number, not text, or the wrong number of fields.
-    Unreadable,
-    /// Empty or a missing code.
-    Missing,
-    /// A number that recorders write for no value and the mapping does not list.
-    MissingCode,
-    /// The same time as the row before.
-    TimeRepeats,
-    /// Before the time of the row before, in a few rows.
-    TimeBackwards,
-    /// Far after the times of both the row before and the row after, in one row.
-    TimeJumps,
-    /// The time steps back and continues from there.
-    TimeRestarts,
-    /// A long time since the row before.
-    Gap,
-    /// A single sample far from both its neighbours.
-    Spike,
-    /// A value that does not change for long.
-    Frozen,
-    /// Drilling, but no tare to compare the hookload with.
-    NoTare,
-    /// The hookload exceeds the tare by so much that the tare must be wrong.
-    NegativeWeight,
-    /// The hookload exceeds the tare by measurement noise.
-    TareNoise,
+flexdrill_base::listed! {
+    /// Kinds of problems in a log, in the order of the table.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum IssueKind: 1 {
+        /// Not a number, not text, or the wrong number of fields.
+        Unreadable: "unreadable";
+        /// Empty or a missing code.
+        Missing: "missing value";
+        /// A number that recorders write for no value and the mapping does not list.
+        MissingCode: "missing code";
+        /// The same time as the row before.
+        TimeRepeats: "time repeats";
+        /// Before the time of the row before, in a few rows.
+        TimeBackwards: "time steps backwards";
+        /// Far after the times of both the row before and the row after, in one row.
+        TimeJumps: "time jumps";
+        /// The time steps back and continues from there.
+        TimeRestarts: "time restarts";
+        /// A long time since the row before.
+        Gap: "gap";
+        /// A single sample far from both its neighbours.
+        Spike: "spike";
+        /// A value that does not change for long.
+        Frozen: "frozen value";
+        /// Drilling, but no tare to compare the hookload with.
+        NoTare: "no tare yet";
+        /// The hookload exceeds the tare by so much that the tare must be wrong.
+        NegativeWeight: "negative weight";
+        /// The hookload exceeds the tare by measurement noise.
+        TareNoise: "weight just below 0";
+    }
 }
 
 impl IssueKind {
-    /// All, in the order of the table.
-    pub const ALL: [Self; 13] = [
-        Self::Unreadable,
-        Self::Missing,
-        Self::MissingCode,
-        Self::TimeRepeats,
-        Self::TimeBackwards,
-        Self::TimeJumps,
-        Self::TimeRestarts,
-        Self::Gap,
-        Self::Spike,
-        Self::Frozen,
-        Self::NoTare,
-        Self::NegativeWeight,
-        Self::TareNoise,
-    ];
-
     /// For people.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Unreadable => "unreadable",
-            Self::Missing => "missing value",
-            Self::MissingCode => "missing code",
-            Self::TimeRepeats => "time repeats",
-            Self::TimeBackwards => "time steps backwards",
-            Self::TimeJumps => "time jumps",
-            Self::TimeRestarts => "time restarts",
-            Self::Gap => "gap",
-            Self::Spike => "spike",
-            Self::Frozen => "frozen value",
-            Self::NoTare => "no tare yet",
-            Self::NegativeWeight => "negative weight",
-            Self::TareNoise => "weight just below 0",
-        }
+        self.row()[0]
     }
 
     /// How the reader treats the problem.

@@ -121,26 +121,22 @@ pub struct Axis {
     pub values: Vec<f64>,
 }
 
-/// How a run comes to its values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Start {
-    /// The tool stands, then speed and weight rise to the values.
-    Rest,
-    /// The tool runs fast under the weight, then the speed falls to the value.
-    Running,
+flexdrill_base::listed! {
+    /// How a run comes to its values.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Start: 1 {
+        /// The tool stands, then speed and weight rise to the values.
+        Rest: "rest";
+        /// The tool runs fast under the weight, then the speed falls to the value.
+        Running: "running";
+    }
 }
 
 impl Start {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Rest, Self::Running];
-
     /// Name in files.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Rest => "rest",
-            Self::Running => "running",
-        }
+        self.row()[0]
     }
 }
 
@@ -158,41 +154,28 @@ pub struct Cell {
     pub starts: Vec<OfStart>,
 }
 
-/// What a cell is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// From no start must an alarm be expected.
-    Clear,
-    /// From every start an alarm must be expected.
-    Alarm,
-    /// From one start an alarm must be expected, from another not.
-    DependsOnStart,
-    /// A run of it failed, so that it is not known to be clear: it is not safe.
-    Unknown,
-    /// It was not run from some start, and the runs around it do not say with [`SURE`] what it is: it is not safe.
-    NotKnown,
+flexdrill_base::listed! {
+    /// What a cell is.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Verdict: 1 {
+        /// From no start must an alarm be expected.
+        Clear: "clear";
+        /// From every start an alarm must be expected.
+        Alarm: "alarm";
+        /// From one start an alarm must be expected, from another not.
+        DependsOnStart: "depends_on_start";
+        /// A run of it failed, so that it is not known to be clear: it is not safe.
+        Unknown: "unknown";
+        /// It was not run from some start, and the runs around it do not say with [`SURE`] what it is: it is not safe.
+        NotKnown: "not_known";
+    }
 }
 
 impl Verdict {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Clear,
-        Self::Alarm,
-        Self::DependsOnStart,
-        Self::Unknown,
-        Self::NotKnown,
-    ];
-
     /// Name in files.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Clear => "clear",
-            Self::Alarm => "alarm",
-            Self::DependsOnStart => "depends_on_start",
-            Self::Unknown => "unknown",
-            Self::NotKnown => "not_known",
-        }
+        self.row()[0]
     }
 
     /// What the starts of a cell say together. It is clear only where all starts are, with [`SURE`] together.
@@ -213,29 +196,26 @@ impl Verdict {
     }
 }
 
-/// Where a cell's figures come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Origin {
-    /// It was run.
-    Known,
-    /// It was not run; whether an alarm must be expected is inferred from the cells that were, with [`SURE`].
-    Inferred,
-    /// It was run, and no member ended: what is there is unknown.
-    Unknown,
-    /// It was not run, and nothing is inferred with [`SURE`].
-    NotKnown,
+flexdrill_base::listed! {
+    /// Where a cell's figures come from.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Origin: 1 {
+        /// It was run.
+        Known: "known";
+        /// It was not run; whether an alarm must be expected is inferred from the cells that were, with [`SURE`].
+        Inferred: "inferred";
+        /// It was run, and no member ended: what is there is unknown.
+        Unknown: "unknown";
+        /// It was not run, and nothing is inferred with [`SURE`].
+        NotKnown: "not_known";
+    }
 }
 
 impl Origin {
     /// Name in files.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Known => "known",
-            Self::Inferred => "inferred",
-            Self::Unknown => "unknown",
-            Self::NotKnown => "not_known",
-        }
+        self.row()[0]
     }
 
     /// Whether a run was made.

@@ -6,66 +6,41 @@ use super::Severity;
 use super::drive::DriveState;
 use super::episodes::ToolLocation;
 
-/// A hazard that the crew can act on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[repr(u8)]
-pub enum HazardKind {
-    /// The pipe runs round the guide against the rotation: each link is bent several times per turn.
-    BackwardWhirl = 0,
-    /// The pipe runs round with the rotation: one side of it rubs.
-    ForwardWhirl = 1,
-    /// Collisions, by their impulse and number.
-    Shock = 2,
-    /// The bit stops, or nearly, and springs forward.
-    StickSlip = 3,
-    /// The stop of a joint carries more than the joint is rated for.
-    JointLoad = 4,
-    /// The pipe bounces without direction, and its collisions take many times the power of steady drilling.
-    ChaoticWhirl = 5,
-    /// Most of the weight slacked off at the surface does not arrive at the bit.
-    WeightTransfer = 6,
-    /// Most of the torque at the surface does not arrive at the bit.
-    TorqueTransfer = 7,
-    /// The guide is bent beyond its rating.
-    GuidePreload = 8,
-    /// Pressure in the pipe compresses the chain of links beyond its rating.
-    PressureFolding = 9,
-    /// The bit does not turn, and the top drive stalls at its torque limit.
-    BitStuck = 10,
+flexdrill_base::listed! {
+    /// A hazard that the crew can act on.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    #[repr(u8)]
+    pub enum HazardKind: 1 {
+        /// The pipe runs round the guide against the rotation: each link is bent several times per turn.
+        BackwardWhirl = 0: "backward whirl";
+        /// The pipe runs round with the rotation: one side of it rubs.
+        ForwardWhirl = 1: "forward whirl";
+        /// Collisions, by their impulse and number.
+        Shock = 2: "lateral shock";
+        /// The bit stops, or nearly, and springs forward.
+        StickSlip = 3: "stick-slip";
+        /// The stop of a joint carries more than the joint is rated for.
+        JointLoad = 4: "joint load";
+        /// The pipe bounces without direction, and its collisions take many times the power of steady drilling.
+        ChaoticWhirl = 5: "chaotic whirl";
+        /// Most of the weight slacked off at the surface does not arrive at the bit.
+        WeightTransfer = 6: "weight transfer";
+        /// Most of the torque at the surface does not arrive at the bit.
+        TorqueTransfer = 7: "torque transfer";
+        /// The guide is bent beyond its rating.
+        GuidePreload = 8: "guide preload";
+        /// Pressure in the pipe compresses the chain of links beyond its rating.
+        PressureFolding = 9: "folding under pressure";
+        /// The bit does not turn, and the top drive stalls at its torque limit.
+        BitStuck = 10: "stuck bit";
+    }
 }
 
 impl HazardKind {
-    /// All hazards, in the order of their codes.
-    pub const ALL: [Self; 11] = [
-        Self::BackwardWhirl,
-        Self::ForwardWhirl,
-        Self::Shock,
-        Self::StickSlip,
-        Self::JointLoad,
-        Self::ChaoticWhirl,
-        Self::WeightTransfer,
-        Self::TorqueTransfer,
-        Self::GuidePreload,
-        Self::PressureFolding,
-        Self::BitStuck,
-    ];
-
     /// The name in sentences: `backward whirl`.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::BackwardWhirl => "backward whirl",
-            Self::ForwardWhirl => "forward whirl",
-            Self::Shock => "lateral shock",
-            Self::StickSlip => "stick-slip",
-            Self::JointLoad => "joint load",
-            Self::ChaoticWhirl => "chaotic whirl",
-            Self::WeightTransfer => "weight transfer",
-            Self::TorqueTransfer => "torque transfer",
-            Self::GuidePreload => "guide preload",
-            Self::PressureFolding => "folding under pressure",
-            Self::BitStuck => "stuck bit",
-        }
+        self.row()[0]
     }
 }
 

@@ -8,48 +8,31 @@ use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
 use crate::law::Law;
 
-/// What a sensor measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Channel {
-    /// The weight indicator (N).
-    WeightIndicator,
-    /// Rotary speed of the inputs (rad/s).
-    RotarySpeed,
-    /// Torque at the surface (N m).
-    SurfaceTorque,
-    /// Hook load (N).
-    HookLoad,
-    /// Rotary speed in the hole (rad/s).
-    DownholeSpeed,
-    /// Torque in the hole (N m).
-    DownholeTorque,
-    /// Weight on bit in the hole (N).
-    DownholeWeight,
+flexdrill_base::listed! {
+    /// What a sensor measures, in the order of the draws.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Channel: 1 {
+        /// The weight indicator (N).
+        WeightIndicator: "weight_indicator";
+        /// Rotary speed of the inputs (rad/s).
+        RotarySpeed: "rotary_speed";
+        /// Torque at the surface (N m).
+        SurfaceTorque: "surface_torque";
+        /// Hook load (N).
+        HookLoad: "hook_load";
+        /// Rotary speed in the hole (rad/s).
+        DownholeSpeed: "downhole_speed";
+        /// Torque in the hole (N m).
+        DownholeTorque: "downhole_torque";
+        /// Weight on bit in the hole (N).
+        DownholeWeight: "downhole_weight";
+    }
 }
 
 impl Channel {
-    /// All channels, in the order of the draws.
-    pub const ALL: [Self; 7] = [
-        Self::WeightIndicator,
-        Self::RotarySpeed,
-        Self::SurfaceTorque,
-        Self::HookLoad,
-        Self::DownholeSpeed,
-        Self::DownholeTorque,
-        Self::DownholeWeight,
-    ];
-
     /// Its name in a file, below `uncertainty.sensors`.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::WeightIndicator => "weight_indicator",
-            Self::RotarySpeed => "rotary_speed",
-            Self::SurfaceTorque => "surface_torque",
-            Self::HookLoad => "hook_load",
-            Self::DownholeSpeed => "downhole_speed",
-            Self::DownholeTorque => "downhole_torque",
-            Self::DownholeWeight => "downhole_weight",
-        }
+        self.row()[0]
     }
 
     /// Unit of its tare, noise and drift.

@@ -128,22 +128,9 @@ impl Cases {
     }
 
     /// As on the command line and in the markers.
-    fn name(self) -> &'static str {
-        match self {
-            Self::RealTime => "real-time",
-            Self::Scaling => "scaling",
-            Self::Physics => "physics",
-            Self::Memory => "memory",
-            Self::StepError => "step-error",
-            Self::Truth => "truth",
-            Self::RigTruth => "rig-truth",
-            Self::Quality => "quality",
-            Self::RigQuality => "rig-quality",
-            Self::RigFaults => "rig-faults",
-            Self::RigMap => "rig-map",
-            Self::Calibration => "calibration",
-            Self::All => "all",
-        }
+    fn name(self) -> String {
+        let value = self.to_possible_value();
+        value.map_or_else(String::new, |value| value.get_name().to_owned())
     }
 
     /// Model time (s).
@@ -173,14 +160,14 @@ fn main() -> anyhow::Result<()> {
     let configs = configurations(&args)?;
     if let Some(document) = &args.write {
         for case in args.cases.each() {
-            document::check(document, case.name())?;
+            document::check(document, &case.name())?;
         }
     }
     for case in args.cases.each() {
         let text = measure(*case, &configs, &args)?;
         println!("\n### {}\n\n{text}", case.name());
         if let Some(document) = &args.write {
-            document::write(document, case.name(), &text)?;
+            document::write(document, &case.name(), &text)?;
             eprintln!("written to {}", document.display());
         }
     }
@@ -305,7 +292,7 @@ mod tests {
     fn every_set_has_its_markers_in_the_document() {
         let measurements = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/measurements.md"));
         for case in Cases::All.each() {
-            document::check(&measurements, case.name()).unwrap();
+            document::check(&measurements, &case.name()).unwrap();
         }
     }
 

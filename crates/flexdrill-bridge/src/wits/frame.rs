@@ -15,31 +15,25 @@ const SAMPLE: usize = 40;
 /// Bytes of the mark with which some programs begin UTF-8.
 const BYTE_ORDER_MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
 
-/// Why bytes were discarded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum DiscardReason {
-    /// They lie outside of any frame.
-    Outside,
-    /// The frame ended without `!!`: another began.
-    CutByNext,
-    /// The frame ended without `!!`: the connection ended.
-    CutByEnd,
-    /// The frame is longer than [`LONGEST_FRAME`].
-    LongFrame,
+flexdrill_base::listed! {
+    /// Why bytes were discarded.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum DiscardReason: 1 {
+        /// They lie outside of any frame.
+        Outside: "bytes outside of frames";
+        /// The frame ended without `!!`: another began.
+        CutByNext: "frame cut by the next one";
+        /// The frame ended without `!!`: the connection ended.
+        CutByEnd: "frame cut by the end of the connection";
+        /// The frame is longer than [`LONGEST_FRAME`].
+        LongFrame: "frame too long";
+    }
 }
 
 impl DiscardReason {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Outside, Self::CutByNext, Self::CutByEnd, Self::LongFrame];
-
     /// In words, for logs and diagnostics.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Outside => "bytes outside of frames",
-            Self::CutByNext => "frame cut by the next one",
-            Self::CutByEnd => "frame cut by the end of the connection",
-            Self::LongFrame => "frame too long",
-        }
+        self.row()[0]
     }
 }
 

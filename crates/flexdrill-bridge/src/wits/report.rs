@@ -4,44 +4,29 @@ use std::fmt;
 
 use super::item::ItemCode;
 
-/// Why a complete frame gave no value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum NotUsed {
-    /// It has no item: some sources ask or show life with such frames.
-    Empty,
-    /// All its records came before.
-    Repeated,
-    /// All its records are older than what came before.
-    Late,
-    /// Its sequence numbers are too far ahead of those before.
-    Jumped,
-    /// It has no item that the mapping names.
-    NothingMapped,
-    /// All its values are missing, unreadable or outside their range.
-    NoGoodValue,
+flexdrill_base::listed! {
+    /// Why a complete frame gave no value.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum NotUsed: 1 {
+        /// It has no item: some sources ask or show life with such frames.
+        Empty: "empty";
+        /// All its records came before.
+        Repeated: "repeated";
+        /// All its records are older than what came before.
+        Late: "late";
+        /// Its sequence numbers are too far ahead of those before.
+        Jumped: "sequence jumped";
+        /// It has no item that the mapping names.
+        NothingMapped: "no mapped item";
+        /// All its values are missing, unreadable or outside their range.
+        NoGoodValue: "no good value";
+    }
 }
 
 impl NotUsed {
-    /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Empty,
-        Self::Repeated,
-        Self::Late,
-        Self::Jumped,
-        Self::NothingMapped,
-        Self::NoGoodValue,
-    ];
-
     /// In words.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Empty => "empty",
-            Self::Repeated => "repeated",
-            Self::Late => "late",
-            Self::Jumped => "sequence jumped",
-            Self::NothingMapped => "no mapped item",
-            Self::NoGoodValue => "no good value",
-        }
+        self.row()[0]
     }
 }
 
@@ -57,44 +42,29 @@ pub enum FrameUse {
     NotUsed(NotUsed),
 }
 
-/// Kinds of lines and items that could not be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ItemFaultKind {
-    /// The line does not begin with an item's four digits.
-    NoItem,
-    /// The line is too long, or the frame has more faults than are described.
-    LongLine,
-    /// The value of a mapped item is no number.
-    NoNumber,
-    /// The value is outside its range.
-    OutOfRange,
-    /// The item is in the frame twice.
-    Twice,
-    /// An item of the header cannot be read.
-    Header,
+flexdrill_base::listed! {
+    /// Kinds of lines and items that could not be used.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum ItemFaultKind: 1 {
+        /// The line does not begin with an item's four digits.
+        NoItem: "line without an item";
+        /// The line is too long, or the frame has more faults than are described.
+        LongLine: "line too long";
+        /// The value of a mapped item is no number.
+        NoNumber: "no number";
+        /// The value is outside its range.
+        OutOfRange: "out of range";
+        /// The item is in the frame twice.
+        Twice: "item twice in a frame";
+        /// An item of the header cannot be read.
+        Header: "unreadable header item";
+    }
 }
 
 impl ItemFaultKind {
-    /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::NoItem,
-        Self::LongLine,
-        Self::NoNumber,
-        Self::OutOfRange,
-        Self::Twice,
-        Self::Header,
-    ];
-
     /// In words.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::NoItem => "line without an item",
-            Self::LongLine => "line too long",
-            Self::NoNumber => "no number",
-            Self::OutOfRange => "out of range",
-            Self::Twice => "item twice in a frame",
-            Self::Header => "unreadable header item",
-        }
+        self.row()[0]
     }
 }
 

@@ -24,52 +24,33 @@ use flexdrill_text::Course;
 use sheet::Sheet;
 use time::TimeProposal;
 
-/// What a column may be, besides the time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Quantity {
-    /// Rotary speed of the drive.
-    RotarySpeed,
-    /// Weight on bit, measured or computed at the surface.
-    WeightOnBit,
-    /// Load on the hook.
-    HookLoad,
-    /// Torque of the drive.
-    Torque,
-    /// Rate of penetration.
-    RateOfPenetration,
-    /// Standpipe pressure.
-    StandpipePressure,
-    /// Measured depth of the bit.
-    BitDepth,
-    /// Measured depth of the hole.
-    HoleDepth,
+flexdrill_base::listed! {
+    /// What a column may be, besides the time.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Quantity: 1 {
+        /// Rotary speed of the drive.
+        RotarySpeed: "rotary_speed";
+        /// Weight on bit, measured or computed at the surface.
+        WeightOnBit: "weight_on_bit";
+        /// Load on the hook.
+        HookLoad: "hook_load";
+        /// Torque of the drive.
+        Torque: "torque";
+        /// Rate of penetration.
+        RateOfPenetration: "rate_of_penetration";
+        /// Standpipe pressure.
+        StandpipePressure: "standpipe_pressure";
+        /// Measured depth of the bit.
+        BitDepth: "bit_depth";
+        /// Measured depth of the hole.
+        HoleDepth: "hole_depth";
+    }
 }
 
 impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::RotarySpeed,
-        Self::WeightOnBit,
-        Self::HookLoad,
-        Self::Torque,
-        Self::RateOfPenetration,
-        Self::StandpipePressure,
-        Self::BitDepth,
-        Self::HoleDepth,
-    ];
-
     /// The name in a mapping.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::RotarySpeed => "rotary_speed",
-            Self::WeightOnBit => "weight_on_bit",
-            Self::HookLoad => "hook_load",
-            Self::Torque => "torque",
-            Self::RateOfPenetration => "rate_of_penetration",
-            Self::StandpipePressure => "standpipe_pressure",
-            Self::BitDepth => "bit_depth",
-            Self::HoleDepth => "hole_depth",
-        }
+        self.row()[0]
     }
 
     /// What it measures.

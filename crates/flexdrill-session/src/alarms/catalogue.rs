@@ -6,157 +6,75 @@ use flexdrill_config::{Alarms, NodeAlarm, ToolAlarm};
 use flexdrill_core::inputs::InputKind;
 use flexdrill_motion::HazardKind;
 
-/// A condition that requires a response of an operator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(usize)]
-pub enum AlarmId {
-    /// The bit is stuck, and the top drive stalls: the torque in the string decides what may be done first.
-    BitStuck,
-    /// Whirl of the pipe or the guide against the rotation.
-    BackwardWhirl,
-    /// Whirl in the direction of the rotation.
-    ForwardWhirl,
-    /// Lateral collisions.
-    Shock,
-    /// The bit stops, or nearly, and accelerates again.
-    StickSlip,
-    /// The stop of a joint carries more than its rated moment.
-    JointLoad,
-    /// Irregular lateral motion of the pipe.
-    ChaoticWhirl,
-    /// Most of the weight at the surface does not arrive at the bit.
-    WeightTransfer,
-    /// Most of the torque at the surface does not arrive at the bit.
-    TorqueTransfer,
-    /// The guide is bent beyond its rating.
-    GuidePreload,
-    /// Pressure compresses the pipe beyond its rating.
-    PressureFolding,
-    /// Numerical errors are too large for the computed motion to be reliable.
-    ModelQuality,
-    /// Speed and weight are outside the part of the map in which no alarm must be expected.
-    KnownWindow,
-    /// What the rig measures is beyond the band that the twin expects.
-    RigDisagrees,
-    /// The plan of the hole is outside the range in which plausible tools drill.
-    HoleLeavesPlan,
-    /// Friction rises towards where the largest pull no longer reaches the bit.
-    FrictionNearStuck,
-    /// A client has changed values that alarms depend on.
-    ChangedParameters,
-    /// Rotary speed not received, refused or stale.
-    RotarySpeedInput,
-    /// Weight on bit not received, refused or stale.
-    WeightOnBitInput,
-    /// Rate of penetration refused or stale, once it was sent.
-    RateOfPenetrationInput,
-    /// Standpipe pressure refused or stale, once it was sent.
-    StandpipePressureInput,
-    /// Several publishers send the same input at the same time.
-    TwoDrivers,
-    /// The model is slower than real time.
-    RealTime,
-    /// A step failed and the model stopped.
-    Solver,
-    /// The recording stopped or lost messages.
-    Recording,
-    /// DDS restarted, or another node has the name of this one.
-    Network,
+flexdrill_base::listed! {
+    /// A condition that requires a response of an operator. The order decides between alarms of equal priority.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[repr(usize)]
+    pub enum AlarmId: 2 {
+        /// The bit is stuck, and the top drive stalls: the torque in the string decides what may be done first.
+        BitStuck: "bit_stuck", "bit stuck";
+        /// Whirl of the pipe or the guide against the rotation.
+        BackwardWhirl: "backward_whirl", "backward whirl";
+        /// Whirl in the direction of the rotation.
+        ForwardWhirl: "forward_whirl", "forward whirl";
+        /// Lateral collisions.
+        Shock: "shock", "lateral shock";
+        /// The bit stops, or nearly, and accelerates again.
+        StickSlip: "stick_slip", "stick-slip";
+        /// The stop of a joint carries more than its rated moment.
+        JointLoad: "joint_load", "joint overload";
+        /// Irregular lateral motion of the pipe.
+        ChaoticWhirl: "chaotic_whirl", "chaotic whirl";
+        /// Most of the weight at the surface does not arrive at the bit.
+        WeightTransfer: "weight_transfer", "weight not arriving";
+        /// Most of the torque at the surface does not arrive at the bit.
+        TorqueTransfer: "torque_transfer", "torque not arriving";
+        /// The guide is bent beyond its rating.
+        GuidePreload: "guide_preload", "guide overbent";
+        /// Pressure compresses the pipe beyond its rating.
+        PressureFolding: "pressure_folding", "folding under pressure";
+        /// Numerical errors are too large for the computed motion to be reliable.
+        ModelQuality: "model_quality", "model unreliable";
+        /// Speed and weight are outside the part of the map in which no alarm must be expected.
+        KnownWindow: "known_window", "outside the known window";
+        /// What the rig measures is beyond the band that the twin expects.
+        RigDisagrees: "rig_disagrees", "twin and rig disagree";
+        /// The plan of the hole is outside the range in which plausible tools drill.
+        HoleLeavesPlan: "hole_leaves_plan", "hole leaves its plan";
+        /// Friction rises towards where the largest pull no longer reaches the bit.
+        FrictionNearStuck: "friction_near_stuck", "friction near stuck";
+        /// A client has changed values that alarms depend on.
+        ChangedParameters: "changed_parameters", "changed parameters";
+        /// Rotary speed not received, refused or stale.
+        RotarySpeedInput: "rotary_speed_input", "no valid rotary speed";
+        /// Weight on bit not received, refused or stale.
+        WeightOnBitInput: "weight_on_bit_input", "no valid weight on bit";
+        /// Rate of penetration refused or stale, once it was sent.
+        RateOfPenetrationInput: "rate_of_penetration_input", "no valid rate of penetration";
+        /// Standpipe pressure refused or stale, once it was sent.
+        StandpipePressureInput: "standpipe_pressure_input", "no valid standpipe pressure";
+        /// Several publishers send the same input at the same time.
+        TwoDrivers: "two_drivers", "conflicting rig data";
+        /// The model is slower than real time.
+        RealTime: "real_time", "not in real time";
+        /// A step failed and the model stopped.
+        Solver: "solver", "model stopped";
+        /// The recording stopped or lost messages.
+        Recording: "recording", "recording fault";
+        /// DDS restarted, or another node has the name of this one.
+        Network: "network", "network fault";
+    }
 }
 
 impl AlarmId {
-    /// All alarms. The order decides between alarms of equal priority.
-    pub const ALL: [AlarmId; 26] = [
-        AlarmId::BitStuck,
-        AlarmId::BackwardWhirl,
-        AlarmId::ForwardWhirl,
-        AlarmId::Shock,
-        AlarmId::StickSlip,
-        AlarmId::JointLoad,
-        AlarmId::ChaoticWhirl,
-        AlarmId::WeightTransfer,
-        AlarmId::TorqueTransfer,
-        AlarmId::GuidePreload,
-        AlarmId::PressureFolding,
-        AlarmId::ModelQuality,
-        AlarmId::KnownWindow,
-        AlarmId::RigDisagrees,
-        AlarmId::HoleLeavesPlan,
-        AlarmId::FrictionNearStuck,
-        AlarmId::ChangedParameters,
-        AlarmId::RotarySpeedInput,
-        AlarmId::WeightOnBitInput,
-        AlarmId::RateOfPenetrationInput,
-        AlarmId::StandpipePressureInput,
-        AlarmId::TwoDrivers,
-        AlarmId::RealTime,
-        AlarmId::Solver,
-        AlarmId::Recording,
-        AlarmId::Network,
-    ];
-
     /// The identifier for programs, as in the configuration.
     pub const fn id(self) -> &'static str {
-        match self {
-            AlarmId::BackwardWhirl => "backward_whirl",
-            AlarmId::ForwardWhirl => "forward_whirl",
-            AlarmId::Shock => "shock",
-            AlarmId::StickSlip => "stick_slip",
-            AlarmId::JointLoad => "joint_load",
-            AlarmId::ChaoticWhirl => "chaotic_whirl",
-            AlarmId::WeightTransfer => "weight_transfer",
-            AlarmId::TorqueTransfer => "torque_transfer",
-            AlarmId::GuidePreload => "guide_preload",
-            AlarmId::PressureFolding => "pressure_folding",
-            AlarmId::BitStuck => "bit_stuck",
-            AlarmId::ModelQuality => "model_quality",
-            AlarmId::KnownWindow => "known_window",
-            AlarmId::RigDisagrees => "rig_disagrees",
-            AlarmId::HoleLeavesPlan => "hole_leaves_plan",
-            AlarmId::FrictionNearStuck => "friction_near_stuck",
-            AlarmId::ChangedParameters => "changed_parameters",
-            AlarmId::RotarySpeedInput => "rotary_speed_input",
-            AlarmId::WeightOnBitInput => "weight_on_bit_input",
-            AlarmId::RateOfPenetrationInput => "rate_of_penetration_input",
-            AlarmId::StandpipePressureInput => "standpipe_pressure_input",
-            AlarmId::TwoDrivers => "two_drivers",
-            AlarmId::RealTime => "real_time",
-            AlarmId::Solver => "solver",
-            AlarmId::Recording => "recording",
-            AlarmId::Network => "network",
-        }
+        self.row()[0]
     }
 
     /// The name for people, in lower case.
     pub const fn name(self) -> &'static str {
-        match self {
-            AlarmId::BackwardWhirl => "backward whirl",
-            AlarmId::ForwardWhirl => "forward whirl",
-            AlarmId::Shock => "lateral shock",
-            AlarmId::StickSlip => "stick-slip",
-            AlarmId::JointLoad => "joint overload",
-            AlarmId::ChaoticWhirl => "chaotic whirl",
-            AlarmId::WeightTransfer => "weight not arriving",
-            AlarmId::TorqueTransfer => "torque not arriving",
-            AlarmId::GuidePreload => "guide overbent",
-            AlarmId::PressureFolding => "folding under pressure",
-            AlarmId::BitStuck => "bit stuck",
-            AlarmId::ModelQuality => "model unreliable",
-            AlarmId::KnownWindow => "outside the known window",
-            AlarmId::RigDisagrees => "twin and rig disagree",
-            AlarmId::HoleLeavesPlan => "hole leaves its plan",
-            AlarmId::FrictionNearStuck => "friction near stuck",
-            AlarmId::ChangedParameters => "changed parameters",
-            AlarmId::RotarySpeedInput => "no valid rotary speed",
-            AlarmId::WeightOnBitInput => "no valid weight on bit",
-            AlarmId::RateOfPenetrationInput => "no valid rate of penetration",
-            AlarmId::StandpipePressureInput => "no valid standpipe pressure",
-            AlarmId::TwoDrivers => "conflicting rig data",
-            AlarmId::RealTime => "not in real time",
-            AlarmId::Solver => "model stopped",
-            AlarmId::Recording => "recording fault",
-            AlarmId::Network => "network fault",
-        }
+        self.row()[1]
     }
 
     /// A constant of [`Alarm`]: `SYSTEM` for a matter of the twin's computer, its disk or its network, which must not
