@@ -76,28 +76,18 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
-#[cfg(not(feature = "sweep"))]
-use self::absent::ahead;
 #[cfg(not(feature = "bench"))]
 use self::absent::bench;
 #[cfg(not(feature = "bridge"))]
 use self::absent::bridge;
 #[cfg(not(feature = "calibrate"))]
 use self::absent::calibrate;
-#[cfg(not(feature = "sweep"))]
-use self::absent::map;
 #[cfg(not(feature = "paper"))]
 use self::absent::paper;
-#[cfg(not(feature = "sweep"))]
-use self::absent::reach;
 #[cfg(not(feature = "report"))]
 use self::absent::report;
 #[cfg(not(feature = "sweep"))]
-use self::absent::sensitivity;
-#[cfg(not(feature = "sweep"))]
-use self::absent::sweep;
-#[cfg(not(feature = "sweep"))]
-use self::absent::trip;
+use self::absent::{ahead, map, reach, sensitivity, sweep, trip};
 use crate::cli::output::{tell, tell_text};
 use crate::dds::side;
 use crate::ros::args;
