@@ -15,26 +15,33 @@ use flexdrill_sweep::map::{ROTARY_SPEED, WEIGHT_ON_BIT};
 use flexdrill_uncertainty::posterior::{Provenance, to_csv};
 use flexdrill_uncertainty::{Channel, Posterior, Priors};
 
-/// The members of one run of the short tool in calm drilling, of at most seven, and what the map says of them.
-fn members(run_all: bool) -> (u32, u32) {
-    keep_priority();
-    let config = Config::load("tests/data/small.yaml").unwrap();
-    let question = Question {
-        axes: [
-            (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
-            (WEIGHT_ON_BIT.to_owned(), vec![2.0, 4.0]),
-        ],
+/// A question over speeds (r/min) and weights (kN), of a member that runs for 10 s whatever its alarms.
+fn asked(speeds: Vec<f64>, weights: Vec<f64>) -> Question {
+    Question {
+        axes: [(ROTARY_SPEED.to_owned(), speeds), (WEIGHT_ON_BIT.to_owned(), weights)],
         horizon: 10.0,
-        members: 7,
-        run_all,
+        members: 1,
+        run_all: true,
         fast: false,
         plausible: false,
-        seed: 1,
+        seed: 5,
         running_rpm: None,
         running_time: 1.0,
         priority: Priority::Low,
         limit: 0.1,
         share: 1.0,
+    }
+}
+
+/// The members of one run of the short tool in calm drilling, of at most seven, and what the map says of them.
+fn members(run_all: bool) -> (u32, u32) {
+    keep_priority();
+    let config = Config::load("tests/data/small.yaml").unwrap();
+    let question = Question {
+        members: 7,
+        run_all,
+        seed: 1,
+        ..asked(vec![40.0, 60.0], vec![2.0, 4.0])
     };
     let plan = study::plan("small.yaml", &config, &question).unwrap();
     let point = &plan.points()[0];
@@ -71,21 +78,10 @@ fn point_of(config: &Config, members: u32, plausible: bool, fast: bool, shared: 
     // As `flexdrill map` does: idle work would not come to an end on a busy machine.
     keep_priority();
     let question = Question {
-        axes: [
-            (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
-            (WEIGHT_ON_BIT.to_owned(), vec![6.0, 8.0]),
-        ],
-        horizon: 10.0,
         members,
-        run_all: true,
         fast,
         plausible,
-        seed: 5,
-        running_rpm: None,
-        running_time: 1.0,
-        priority: Priority::Low,
-        limit: 0.1,
-        share: 1.0,
+        ..asked(vec![40.0, 60.0], vec![6.0, 8.0])
     };
     let plan = study::plan("small.yaml", config, &question).unwrap();
     point::run(&plan, config, &plan.points()[0], shared, &AtomicBool::new(false)).unwrap()
@@ -116,21 +112,7 @@ fn a_map_over_plausible_tools_runs_the_draws() {
             let acts = (6.0 - error.tare / 1e3) / error.factor;
             let plain = &drawn.config;
             let question = Question {
-                axes: [
-                    (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
-                    (WEIGHT_ON_BIT.to_owned(), vec![acts, 9.0]),
-                ],
-                horizon: 10.0,
-                members: 1,
-                run_all: true,
-                fast: false,
-                plausible: false,
-                seed: 5,
-                running_rpm: None,
-                running_time: 1.0,
-                priority: Priority::Low,
-                limit: 0.1,
-                share: 1.0,
+                ..asked(vec![40.0, 60.0], vec![acts, 9.0])
             };
             let plan = study::plan("drawn.yaml", plain, &question).unwrap();
             let outcome = point::run(
@@ -189,21 +171,12 @@ fn the_cells_of_a_fast_map_are_those_of_fresh_full_runs() {
         Config::from_text("small.yaml", &(text.clone() + &levels)).unwrap()
     };
     let question = |fast: bool| Question {
-        axes: [
-            (ROTARY_SPEED.to_owned(), vec![20.0, 40.0, 50.0]),
-            (WEIGHT_ON_BIT.to_owned(), vec![2.0, 8.0]),
-        ],
-        horizon: 10.0,
         members: 3,
         run_all: !fast,
         fast,
-        plausible: false,
-        seed: 5,
         running_rpm: Some(50.0),
-        running_time: 1.0,
-        priority: Priority::Low,
         limit: 0.4,
-        share: 1.0,
+        ..asked(vec![20.0, 40.0, 50.0], vec![2.0, 8.0])
     };
     let outcomes = |config: &Config, fast: bool| -> Vec<Outcome> {
         let plan = study::plan("small.yaml", config, &question(fast)).unwrap();
@@ -282,21 +255,11 @@ fn a_calm_member_ends_early() {
     let config = Config::load("tests/data/small.yaml").unwrap();
     let outcome = |fast: bool| {
         let question = Question {
-            axes: [
-                (ROTARY_SPEED.to_owned(), vec![40.0, 60.0]),
-                (WEIGHT_ON_BIT.to_owned(), vec![2.0, 4.0]),
-            ],
             horizon: 45.0,
-            members: 1,
             run_all: false,
             fast,
-            plausible: false,
             seed: 1,
-            running_rpm: None,
-            running_time: 1.0,
-            priority: Priority::Low,
-            limit: 0.1,
-            share: 1.0,
+            ..asked(vec![40.0, 60.0], vec![2.0, 4.0])
         };
         let plan = study::plan("small.yaml", &config, &question).unwrap();
         let stop = AtomicBool::new(false);
@@ -346,21 +309,10 @@ fn shared_states_change_no_digit_of_a_point() {
     let config = Config::from_text("small.yaml", &(text + NOT_KNOWN)).unwrap();
     for plausible in [false, true] {
         let question = Question {
-            axes: [
-                (ROTARY_SPEED.to_owned(), vec![40.0, 50.0]),
-                (WEIGHT_ON_BIT.to_owned(), vec![4.0, 6.0]),
-            ],
-            horizon: 10.0,
             members: 2,
-            run_all: true,
-            fast: false,
             plausible,
-            seed: 5,
             running_rpm: Some(50.0),
-            running_time: 1.0,
-            priority: Priority::Low,
-            limit: 0.1,
-            share: 1.0,
+            ..asked(vec![40.0, 50.0], vec![4.0, 6.0])
         };
         let plan = study::plan("small.yaml", &config, &question).unwrap();
         let shared = Arc::default();
