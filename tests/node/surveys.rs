@@ -17,23 +17,15 @@ const KICK_OFF: f64 = 2000.0;
 const BIT: f64 = 5.026548;
 
 /// The paper's tool with a soft guide of a known shape and long links, after 70 degrees of its arc.
-const TOOL: &str = "
-well:
-  sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
-  hole_diameter: 0.118
-  kick_off_depth: 2000
-  drilled_from: 3.0
-tool:
-  links: 17
-  elements_per_link: 2
-  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
-  guide: {outer_diameter: 0.102, inner_diameter: 0.080, bending_factor: 0.05, free_curvature: 0.3125}
-  joint: {limit_deg: 8.0}
-  bit: {diameter: 0.118, lateral_resistance: 20}
-contact:
-  outer: {stiffness: 2.0e+7, friction_tangential: 0.3, friction_axial: 0.3}
-environment: {gravity: 9.81, buoyancy_factor: 0.86}
-";
+fn tool() -> String {
+    include_str!("../data/hole_ahead.yaml")
+        .replace(
+            "  hole_diameter",
+            "  kick_off_depth: 2000\n  drilled_from: 3.0\n  hole_diameter",
+        )
+        .replace("links: 33", "links: 17\n  elements_per_link: 2")
+        .replace("limit_deg: 6.0", "limit_deg: 8.0")
+}
 
 fn twin(network: &Network, config: &Path, more: &[&str]) -> Program {
     let mut command = network.command(env!("CARGO_BIN_EXE_flexdrill"));
@@ -121,7 +113,7 @@ fn surveys_narrow_the_hole_ahead_are_counted_and_outlast_a_restart() {
     let Some(mut peer) = network.peer() else { return };
     let folder = tempfile::tempdir().unwrap();
     let config = folder.path().join("tool.yaml");
-    std::fs::write(&config, TOOL).unwrap();
+    std::fs::write(&config, tool()).unwrap();
     let mut first = twin(&network, &config, &[]);
     first.wait_for("model time runs");
     peer.subscribe(AHEAD.0, AHEAD.1, "reliable");

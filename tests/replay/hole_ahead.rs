@@ -7,20 +7,7 @@ use flexdrill::bag;
 use flexdrill::messages::{Alarm, AlarmEvent, HoleAhead};
 
 /// The paper's tool with a soft guide of a known shape, after 70 degrees of its arc.
-pub(crate) const TOOL: &str = "
-well:
-  sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
-  hole_diameter: 0.118
-tool:
-  links: 33
-  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
-  guide: {outer_diameter: 0.102, inner_diameter: 0.080, bending_factor: 0.05, free_curvature: 0.3125}
-  joint: {limit_deg: 6.0}
-  bit: {diameter: 0.118, lateral_resistance: 20}
-contact:
-  outer: {stiffness: 2.0e+7, friction_tangential: 0.3, friction_axial: 0.3}
-environment: {gravity: 9.81, buoyancy_factor: 0.86}
-";
+pub(crate) const TOOL: &str = include_str!("../data/hole_ahead.yaml");
 
 /// What a command that succeeds says.
 pub(crate) fn succeeds(arguments: &[&Path]) -> String {

@@ -85,33 +85,23 @@ pub(super) fn with_hole(answer: WhatIfAnswer, hole: &Hole) -> WhatIfAnswer {
 mod tests {
     use super::*;
 
-    /// The paper's tool with a guide of 0.05 of a tube's stiffness, made with a radius of 3.2 m, after 70 degrees of its arc, with
-    /// a plan that continues with 3.9 m.
-    const TOOL: &str = "
-well:
-  sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
-  plan:
+    /// The paper's tool with a guide of 0.05 of a tube's stiffness, made with a radius of 3.2 m, after 70 degrees of its arc.
+    const TOOL: &str = include_str!("../../../tests/data/hole_ahead.yaml");
+
+    /// A plan that continues its hole with 3.9 m.
+    const PLAN: &str = "  plan:
     stations:
       - {measured_depth: 0, inclination_deg: 0, azimuth_deg: 0}
       - {measured_depth: 1.117010, inclination_deg: 0, azimuth_deg: 0}
       - {measured_depth: 5.026548, inclination_deg: 70, azimuth_deg: 0}
       - {measured_depth: 11.026548, inclination_deg: 158.1474, azimuth_deg: 0}
-  hole_diameter: 0.118
-tool:
-  links: 33
-  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
-  guide: {outer_diameter: 0.102, inner_diameter: 0.080, bending_factor: 0.05, free_curvature: 0.3125}
-  joint: {limit_deg: 6.0}
-  bit: {diameter: 0.118, lateral_resistance: 20}
-contact:
-  outer: {stiffness: 2.0e+7, friction_tangential: 0.3, friction_axial: 0.3}
-environment: {gravity: 9.81, buoyancy_factor: 0.86}
-";
+  hole_diameter";
 
     fn config(change: [&str; 2]) -> Config {
         let [from, to] = change;
-        assert!(TOOL.contains(from), "{from}");
-        Config::from_text("tool.yaml", &TOOL.replace(from, to)).unwrap()
+        let tool = TOOL.replace("  hole_diameter", PLAN);
+        assert!(tool.contains(from), "{from}");
+        Config::from_text("tool.yaml", &tool.replace(from, to)).unwrap()
     }
 
     /// Nothing is changed.

@@ -5,20 +5,7 @@ use flexdrill_hole::{Bounds, bounds, steady};
 use flexdrill_messages::to_cdr;
 
 /// The paper's tool with a guide of 0.05 of a tube's stiffness, made with a radius of 3.2 m, after 70 degrees of its arc.
-pub(super) const TOOL: &str = "
-well:
-  sections: [{straight: {length: 1.117010}}, {arc: {radius: 3.2, build_angle_deg: 70}}]
-  hole_diameter: 0.118
-tool:
-  links: 33
-  pipe: {outer_diameter: 0.063, inner_diameter: 0.032}
-  guide: {outer_diameter: 0.102, inner_diameter: 0.080, bending_factor: 0.05, free_curvature: 0.3125}
-  joint: {limit_deg: 6.0}
-  bit: {diameter: 0.118, lateral_resistance: 20}
-contact:
-  outer: {stiffness: 2.0e+7, friction_tangential: 0.3, friction_axial: 0.3}
-environment: {gravity: 9.81, buoyancy_factor: 0.86}
-";
+pub(super) const TOOL: &str = include_str!("../../../../../tests/data/hole_ahead.yaml");
 
 /// Side force of that guide at rest at 10 kN (N) by a program of finite differences that was written apart from this one.
 const SIDE_FORCE: f64 = 1913.0;
