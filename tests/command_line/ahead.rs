@@ -2,18 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
-pub fn flexdrill(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-pub fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
+use crate::program::{flexdrill, number, text};
 
 /// The tool of `tests/data/ahead.yaml` with some of its text replaced, in a folder.
 pub fn configuration(folder: &Path, changes: &[(&str, &str)]) -> PathBuf {
@@ -36,12 +27,6 @@ pub fn ahead(config: &Path, out: &Path, more: &[&str]) -> (String, Vec<BTreeMap<
     let mut reader = csv::Reader::from_path(out.join("ahead.csv")).unwrap();
     let rows = reader.deserialize().map(Result::unwrap).collect();
     (text(&output.stdout), rows)
-}
-
-fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
-    row[column]
-        .parse()
-        .unwrap_or_else(|_| panic!("{column}: {}", row[column]))
 }
 
 /// Inclinations at some metres ahead of a program of finite differences with chords of 10 mm, which is not part of this

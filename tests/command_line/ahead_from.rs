@@ -10,7 +10,8 @@ use flexdrill::messages::{AppliedInputs, HoleAhead, Message, SessionInfo, Transf
 use flexdrill_config::Config;
 use flexdrill_core::twin::Simulation;
 
-use crate::ahead::{ahead, configuration, flexdrill, text};
+use crate::ahead::{ahead, configuration};
+use crate::program::{flexdrill, text};
 
 /// An instant of the rig's clock (ns).
 const START: i64 = 1_700_000_000_000_000_000;

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::program::unwrapped;
+
 /// Writes a log of ten minutes: weight and rotation come and go, and the hook carries what the bit does not.
 fn log(folder: &Path, header: &str) {
     let mut text = format!("{header}\n");
@@ -34,11 +36,6 @@ fn rig(folder: &Path, more: &[&str]) -> Output {
         .unwrap()
 }
 
-fn text(bytes: &[u8]) -> String {
-    let words: Vec<&str> = std::str::from_utf8(bytes).unwrap().split_whitespace().collect();
-    words.join(" ")
-}
-
 const NAMED: &str = "Time (s),Rotary Speed (rpm),WOB (kN),Hookload (kN)";
 
 #[test]
@@ -46,8 +43,8 @@ fn a_guess_is_shown_and_written_and_runs_with_yes_only() {
     let folder = tempfile::tempdir().unwrap();
     log(folder.path(), NAMED);
     let output = rig(folder.path(), &["--guess"]);
-    let said = text(&output.stdout);
-    assert!(output.status.success(), "{said}{}", text(&output.stderr));
+    let said = unwrapped(&output.stdout);
+    assert!(output.status.success(), "{said}{}", unwrapped(&output.stderr));
     for words in [
         "Rotary Speed (rpm) rotary_speed 0 r/min",
         "WOB (kN) weight_on_bit 0 kN",
@@ -62,7 +59,7 @@ fn a_guess_is_shown_and_written_and_runs_with_yes_only() {
     let site = folder.path().join("log.yaml");
     let written = std::fs::read_to_string(&site).unwrap();
     let output = rig(folder.path(), &["--guess", "--yes"]);
-    let (said, log) = (text(&output.stdout), text(&output.stderr));
+    let (said, log) = (unwrapped(&output.stdout), unwrapped(&output.stderr));
     assert!(output.status.success(), "{said}{log}");
     for words in [
         "log.yaml exists and is left as it is",
@@ -82,7 +79,7 @@ fn a_guess_is_shown_and_written_and_runs_with_yes_only() {
     assert_ne!(corrected, written);
     std::fs::write(&site, &corrected).unwrap();
     let output = rig(folder.path(), &["--guess", "--yes"]);
-    let log = text(&output.stderr);
+    let log = unwrapped(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{log}");
     assert!(
         log.contains("run with --mapping log.yaml, or name another file with --guess-file"),
@@ -98,8 +95,8 @@ fn the_guess_has_the_file_that_is_named() {
     let folder = tempfile::tempdir().unwrap();
     log(folder.path(), NAMED);
     let output = rig(folder.path(), &["--guess", "--yes", "--guess-file", "site.yaml"]);
-    let said = text(&output.stdout);
-    assert!(output.status.success(), "{said}{}", text(&output.stderr));
+    let said = unwrapped(&output.stdout);
+    assert!(output.status.success(), "{said}{}", unwrapped(&output.stderr));
     assert!(
         said.contains("site.yaml has this mapping") && said.contains("playing log.csv"),
         "{said}"
@@ -107,10 +104,10 @@ fn the_guess_has_the_file_that_is_named() {
     assert!(folder.path().join("site.yaml").exists() && !folder.path().join("log.yaml").exists());
     // A place that cannot be written runs nothing.
     let output = rig(folder.path(), &["--guess", "--yes", "--guess-file", "no/site.yaml"]);
-    let log = text(&output.stderr);
+    let log = unwrapped(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{log}");
     assert!(log.contains("--guess-file no/site.yaml"), "{log}");
-    assert!(!text(&output.stdout).contains("playing"));
+    assert!(!unwrapped(&output.stdout).contains("playing"));
 }
 
 #[test]
@@ -123,7 +120,7 @@ fn a_log_that_does_not_show_an_input_runs_nothing_with_yes_either() {
     );
     for more in [&["--guess"][..], &["--guess", "--yes"]] {
         let output = rig(folder.path(), more);
-        let said = text(&output.stdout) + &text(&output.stderr);
+        let said = unwrapped(&output.stdout) + &unwrapped(&output.stderr);
         assert_eq!(output.status.success(), more.len() == 1, "{said}");
         assert!(said.contains("the log does not show weight_on_bit"), "{said}");
         assert!(!said.contains("playing"), "{said}");
@@ -140,7 +137,7 @@ fn options_that_contradict_each_other_are_refused() {
         (&["--guess", "--mapping", "site.yaml"], "cannot be used with '--mapping"),
     ] {
         let output = rig(folder.path(), more);
-        let log = text(&output.stderr);
+        let log = unwrapped(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{more:?}: {log}");
         assert!(log.contains(words), "{more:?}: {log}");
     }

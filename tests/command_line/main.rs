@@ -15,6 +15,7 @@ mod map_points;
 mod paper;
 mod plan;
 mod posterior;
+mod program;
 mod reach;
 mod sensitivity;
 mod surveys;

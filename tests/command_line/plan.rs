@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::ahead::{ahead, configuration, flexdrill, text};
+use crate::ahead::{ahead, configuration};
+use crate::program::{flexdrill, text};
 
 /// The hole of `tests/data/ahead.yaml` and 5 m of its own radius: 286.48 deg over 16 m of arc.
 const STATIONS: [(f64, f64); 4] = [(0.0, 0.0), (3.900601, 0.0), (5.0265548, 20.16), (10.0265548, 109.6848)];

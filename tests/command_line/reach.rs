@@ -4,6 +4,8 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::program::text;
+
 fn reach(out: &Path, more: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_flexdrill"))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
@@ -12,10 +14,6 @@ fn reach(out: &Path, more: &[&str]) -> Output {
         .args(more)
         .output()
         .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }
 
 const SMALL: [&str; 4] = ["--lengths", "0.6,1.2", "--friction", "0.2,0.4"];

@@ -2,9 +2,11 @@
 //! `flexdrill check` shows what was computed.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use flexdrill_uncertainty::Effects;
+
+use crate::program::{flexdrill, text};
 
 const PRIORS: &str = "
 uncertainty:
@@ -21,13 +23,6 @@ uncertainty:
     weight_indicator: {factor_error: 0.05}
 ";
 
-fn flexdrill(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
 /// A short tool with priors, in a folder.
 fn configuration(folder: &Path) -> PathBuf {
     let tool = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/reach.yaml");
@@ -39,10 +34,6 @@ fn configuration(folder: &Path) -> PathBuf {
 fn sensitivity(config: &Path, more: &[&str]) -> Output {
     let fixed = ["sensitivity", config.to_str().unwrap(), "--wob=2"];
     flexdrill(&[&fixed, more].concat())
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }
 
 #[test]

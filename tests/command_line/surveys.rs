@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::ahead::{ahead, configuration, flexdrill, text};
+use crate::ahead::{ahead, configuration};
+use crate::program::{flexdrill, number, text};
 
 /// Measured depth at which the arc begins (m).
 const START: f64 = 1.0265548;
@@ -16,12 +17,6 @@ fn drilled(folder: &Path) -> PathBuf {
             "    - straight: {length: 1.0265548}\n    - arc: {radius: 3.0, build_angle_deg: 76.394373}\n",
         )],
     )
-}
-
-fn number(row: &std::collections::BTreeMap<String, String>, column: &str) -> f64 {
-    row[column]
-        .parse()
-        .unwrap_or_else(|_| panic!("{column}: {}", row[column]))
 }
 
 /// Width of 90 % of the inclination at the last station (deg).

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::ahead::{flexdrill, text};
+use crate::program::{flexdrill, number, text};
 
 /// The arguments of a trip of the rig's example with a few plausible tools.
 fn trip(config: &str, out: &Path, more: &[&str]) -> (String, Vec<std::collections::BTreeMap<String, String>>) {
@@ -12,12 +12,6 @@ fn trip(config: &str, out: &Path, more: &[&str]) -> (String, Vec<std::collection
     let mut reader = csv::Reader::from_path(out.join("trip.csv")).unwrap();
     let rows = reader.deserialize().map(Result::unwrap).collect();
     (text(&output.stdout), rows)
-}
-
-fn number(row: &std::collections::BTreeMap<String, String>, column: &str) -> f64 {
-    row[column]
-        .parse()
-        .unwrap_or_else(|_| panic!("{column}: {}", row[column]))
 }
 
 #[test]

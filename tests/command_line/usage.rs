@@ -2,17 +2,12 @@
 //! and every command that the documents show.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
+
+use crate::program::flexdrill;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn flexdrill(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_flexdrill"))
-        .args(arguments)
-        .output()
-        .unwrap()
 }
 
 /// Exit code, standard output and standard error.

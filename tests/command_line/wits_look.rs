@@ -9,6 +9,8 @@ use flexdrill_bridge::Quantity;
 use flexdrill_bridge::wits::Mapping;
 use flexdrill_core::inputs::{MeasuredKind, Unit};
 
+use crate::program::unwrapped;
+
 /// Runs the command in a folder against a rig that sends three frames, made by hand after the layout of WITS level 0: each
 /// line is record, item and value.
 fn look(folder: &Path, more: &[&str]) -> Output {
@@ -33,17 +35,12 @@ fn look(folder: &Path, more: &[&str]) -> Output {
     output
 }
 
-fn text(bytes: &[u8]) -> String {
-    let words: Vec<&str> = std::str::from_utf8(bytes).unwrap().split_whitespace().collect();
-    words.join(" ")
-}
-
 #[test]
 fn what_a_line_carries_is_shown_and_written_as_a_mapping() {
     let folder = tempfile::tempdir().unwrap();
     let output = look(folder.path(), &[]);
-    let said = text(&output.stdout);
-    assert!(output.status.success(), "{said}{}", text(&output.stderr));
+    let said = unwrapped(&output.stdout);
+    assert!(output.status.success(), "{said}{}", unwrapped(&output.stderr));
     // A kdaN is 10 kN.
     for row in [
         "3 frames",
@@ -80,7 +77,7 @@ fn what_a_line_carries_is_shown_and_written_as_a_mapping() {
         .replace("unit: kdaN", "unit: klbs");
     std::fs::write(&site, &corrected).unwrap();
     let output = look(folder.path(), &["--map", "site.yaml"]);
-    let said = text(&output.stdout);
+    let said = unwrapped(&output.stdout);
     // 0.81 klbf are 3.60306 kN (NIST SP 811: 1 lbf = 4.448222 N).
     assert!(said.contains("0116 weight_on_bit 0.81 klbf = 3.60306 kN"), "{said}");
     assert!(said.contains("exists and is left as it is"), "{said}");
@@ -94,7 +91,7 @@ fn a_place_that_no_waiting_reaches_is_refused_at_once() {
             .args(["bridge", "wits", "--connect", place])
             .output()
             .unwrap();
-        let said = text(&output.stderr);
+        let said = unwrapped(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains(words) && said.contains("HOST:PORT"), "{said}");
     }
