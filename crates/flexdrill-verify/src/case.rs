@@ -8,140 +8,25 @@ use flexdrill_core::inputs::Inputs;
 use flexdrill_core::tool::{Body, Direction};
 use flexdrill_core::twin::Simulation;
 
-/// Texts of `config/verify/`, so that the installed program needs no files.
-const FILES: &[(&str, &str)] = &[
-    ("axial_rod", include_str!("../../../config/verify/axial_rod.yaml")),
-    (
-        "beam_frequencies",
-        include_str!("../../../config/verify/beam_frequencies.yaml"),
-    ),
-    (
-        "block_on_slope",
-        include_str!("../../../config/verify/block_on_slope.yaml"),
-    ),
-    ("cantilever", include_str!("../../../config/verify/cantilever.yaml")),
-    ("capstan", include_str!("../../../config/verify/capstan.yaml")),
-    (
-        "capstan_chain",
-        include_str!("../../../config/verify/capstan_chain.yaml"),
-    ),
-    (
-        "capstan_intervals",
-        include_str!("../../../config/verify/capstan_intervals.yaml"),
-    ),
-    (
-        "capstan_slid_in",
-        include_str!("../../../config/verify/capstan_slid_in.yaml"),
-    ),
-    (
-        "capstan_weight",
-        include_str!("../../../config/verify/capstan_weight.yaml"),
-    ),
-    (
-        "chain_in_guide",
-        include_str!("../../../config/verify/chain_in_guide.yaml"),
-    ),
-    ("curved_guide", include_str!("../../../config/verify/curved_guide.yaml")),
-    ("depth_of_cut", include_str!("../../../config/verify/depth_of_cut.yaml")),
-    (
-        "free_vibration",
-        include_str!("../../../config/verify/free_vibration.yaml"),
-    ),
-    ("hanging_link", include_str!("../../../config/verify/hanging_link.yaml")),
-    (
-        "helical_buckling",
-        include_str!("../../../config/verify/helical_buckling.yaml"),
-    ),
-    (
-        "hinged_beam_in_tube",
-        include_str!("../../../config/verify/hinged_beam_in_tube.yaml"),
-    ),
-    ("hooke_chain", include_str!("../../../config/verify/hooke_chain.yaml")),
-    ("hooke_pair", include_str!("../../../config/verify/hooke_pair.yaml")),
-    ("hooke_single", include_str!("../../../config/verify/hooke_single.yaml")),
-    ("joint_play", include_str!("../../../config/verify/joint_play.yaml")),
-    (
-        "mass_onto_gap",
-        include_str!("../../../config/verify/mass_onto_gap.yaml"),
-    ),
-    ("mud_squeeze", include_str!("../../../config/verify/mud_squeeze.yaml")),
-    ("mud_pipe", include_str!("../../../config/verify/mud_pipe.yaml")),
-    ("mud_coupled", include_str!("../../../config/verify/mud_coupled.yaml")),
-    ("mud_together", include_str!("../../../config/verify/mud_together.yaml")),
-    ("pin_friction", include_str!("../../../config/verify/pin_friction.yaml")),
-    ("pin_holding", include_str!("../../../config/verify/pin_holding.yaml")),
-    (
-        "pipe_in_guide",
-        include_str!("../../../config/verify/pipe_in_guide.yaml"),
-    ),
-    ("play_rotor", include_str!("../../../config/verify/play_rotor.yaml")),
-    (
-        "preload_chord",
-        include_str!("../../../config/verify/preload_chord.yaml"),
-    ),
-    ("preload_tool", include_str!("../../../config/verify/preload_tool.yaml")),
-    (
-        "preload_turning",
-        include_str!("../../../config/verify/preload_turning.yaml"),
-    ),
-    ("preload_wall", include_str!("../../../config/verify/preload_wall.yaml")),
-    (
-        "pressure_buckling",
-        include_str!("../../../config/verify/pressure_buckling.yaml"),
-    ),
-    (
-        "pressure_closed",
-        include_str!("../../../config/verify/pressure_closed.yaml"),
-    ),
-    (
-        "pressure_seal",
-        include_str!("../../../config/verify/pressure_seal.yaml"),
-    ),
-    (
-        "pressure_folding",
-        include_str!("../../../config/verify/pressure_folding.yaml"),
-    ),
-    (
-        "rolling_rotor",
-        include_str!("../../../config/verify/rolling_rotor.yaml"),
-    ),
-    (
-        "sinusoidal_buckling",
-        include_str!("../../../config/verify/sinusoidal_buckling.yaml"),
-    ),
-    ("sliding_mass", include_str!("../../../config/verify/sliding_mass.yaml")),
-    (
-        "slots_couples",
-        include_str!("../../../config/verify/slots_couples.yaml"),
-    ),
-    ("slots_wall", include_str!("../../../config/verify/slots_wall.yaml")),
-    ("spine_column", include_str!("../../../config/verify/spine_column.yaml")),
-    ("stuck_guide", include_str!("../../../config/verify/stuck_guide.yaml")),
-    ("tied_rods", include_str!("../../../config/verify/tied_rods.yaml")),
-    ("tilted_link", include_str!("../../../config/verify/tilted_link.yaml")),
-    ("toggle", include_str!("../../../config/verify/toggle.yaml")),
-    (
-        "string_windup",
-        include_str!("../../../config/verify/string_windup.yaml"),
-    ),
-    (
-        "torque_buckling",
-        include_str!("../../../config/verify/torque_buckling.yaml"),
-    ),
-    (
-        "torque_folding",
-        include_str!("../../../config/verify/torque_folding.yaml"),
-    ),
-    (
-        "torsion_pendulum",
-        include_str!("../../../config/verify/torsion_pendulum.yaml"),
-    ),
-    ("torsion_rod", include_str!("../../../config/verify/torsion_rod.yaml")),
-    (
-        "unbalanced_rotor",
-        include_str!("../../../config/verify/unbalanced_rotor.yaml"),
-    ),
-];
+/// Names and texts of files in `config/verify/`.
+macro_rules! files {
+    ($($name:literal)+) => {
+        &[$(($name, include_str!(concat!("../../../config/verify/", $name, ".yaml")))),+]
+    };
+}
+
+/// The configurations of the cases, so that the installed program needs no files.
+const FILES: &[(&str, &str)] = files! {
+    "axial_rod" "beam_frequencies" "block_on_slope" "cantilever" "capstan" "capstan_chain" "capstan_intervals"
+    "capstan_slid_in" "capstan_weight" "chain_in_guide" "curved_guide" "depth_of_cut" "free_vibration"
+    "hanging_link" "helical_buckling" "hinged_beam_in_tube" "hooke_chain" "hooke_pair" "hooke_single"
+    "joint_play" "mass_onto_gap" "mud_squeeze" "mud_pipe" "mud_coupled" "mud_together" "pin_friction"
+    "pin_holding" "pipe_in_guide" "play_rotor" "preload_chord" "preload_tool" "preload_turning" "preload_wall"
+    "pressure_buckling" "pressure_closed" "pressure_seal" "pressure_folding" "rolling_rotor"
+    "sinusoidal_buckling" "sliding_mass" "slots_couples" "slots_wall" "spine_column" "stuck_guide" "tied_rods"
+    "tilted_link" "toggle" "string_windup" "torque_buckling" "torque_folding" "torsion_pendulum" "torsion_rod"
+    "unbalanced_rotor"
+};
 
 /// What a case compares and its formula: the comment at the head of its configuration.
 pub fn head(case: &str) -> Option<String> {
