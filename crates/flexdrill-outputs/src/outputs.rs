@@ -175,57 +175,31 @@ impl Outputs {
         let header = self.header_at(frame.ticks);
         let stamp = self.timeline.at(frame.ticks);
         let snapshot = &frame.snapshot;
+        // Messages are filled in place and encoded into one buffer: their arrays have their size after the first frame.
+        macro_rules! filled {
+            ($fill:ident($($more:expr)?) in $message:ident: $topic:ident) => {{
+                fill::$fill(snapshot, &header, $($more,)? &mut self.$message);
+                to_cdr_into(&self.$message, &mut self.bytes)?;
+                &topics::$topic
+            }};
+        }
         // The order is that of the schedule, so that node and replay give the same sequence of messages.
         for output in frame.due.iter() {
             let topic = match output {
-                Output::JointDeflections => {
-                    // Messages are filled in place and encoded into one buffer:
-                    // their arrays have their size after the first frame.
-                    fill::joint_deflections(snapshot, &header, &mut self.joint_deflections);
-                    to_cdr_into(&self.joint_deflections, &mut self.bytes)?;
-                    &topics::JOINT_DEFLECTIONS
-                }
-                Output::JointStates => {
-                    fill::joint_state(snapshot, &header, &mut self.joint_states);
-                    to_cdr_into(&self.joint_states, &mut self.bytes)?;
-                    &topics::JOINT_STATES
-                }
-                Output::ContactForces => {
-                    fill::contact_forces(snapshot, &header, &mut self.contact_forces);
-                    to_cdr_into(&self.contact_forces, &mut self.bytes)?;
-                    &topics::CONTACT_FORCES
-                }
-                Output::BitState => {
-                    fill::bit_state(snapshot, &header, &mut self.bit_state);
-                    to_cdr_into(&self.bit_state, &mut self.bytes)?;
-                    &topics::BIT_STATE
-                }
-                Output::Whirl => {
-                    fill::whirl_state(snapshot, &header, &mut self.whirl);
-                    to_cdr_into(&self.whirl, &mut self.bytes)?;
-                    &topics::WHIRL
-                }
-                Output::ToolShape => {
-                    fill::tool_shape(snapshot, &header, &self.style, &mut self.tool_shape);
-                    to_cdr_into(&self.tool_shape, &mut self.bytes)?;
-                    &topics::TOOL_SHAPE
-                }
+                Output::JointDeflections => filled!(joint_deflections() in joint_deflections: JOINT_DEFLECTIONS),
+                Output::JointStates => filled!(joint_state() in joint_states: JOINT_STATES),
+                Output::ContactForces => filled!(contact_forces() in contact_forces: CONTACT_FORCES),
+                Output::BitState => filled!(bit_state() in bit_state: BIT_STATE),
+                Output::Whirl => filled!(whirl_state() in whirl: WHIRL),
+                Output::ToolShape => filled!(tool_shape(&self.style) in tool_shape: TOOL_SHAPE),
                 Output::Ageing => {
                     fill::ageing(snapshot, &header, &mut self.ageing);
                     complete(&mut self.ageing);
                     to_cdr_into(&self.ageing, &mut self.bytes)?;
                     &topics::AGEING
                 }
-                Output::Reactions => {
-                    fill::reactions(snapshot, &header, &mut self.reactions);
-                    to_cdr_into(&self.reactions, &mut self.bytes)?;
-                    &topics::REACTIONS
-                }
-                Output::Transfer => {
-                    fill::transfer(snapshot, &header, &mut self.transfer);
-                    to_cdr_into(&self.transfer, &mut self.bytes)?;
-                    &topics::TRANSFER
-                }
+                Output::Reactions => filled!(reactions() in reactions: REACTIONS),
+                Output::Transfer => filled!(transfer() in transfer: TRANSFER),
                 // Alarms are due with a frame, but are published by their book, which decides what is new.
                 Output::Alarms => continue,
             };
