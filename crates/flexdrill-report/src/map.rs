@@ -1,11 +1,11 @@
 //! A safe window as one HTML page.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use flexdrill_map::{Axis, Map, OfStart, Start, Verdict};
 use flexdrill_text::counted;
 
-use crate::page::STYLE;
+use crate::page::document_by;
 
 /// The page of a map with its picture (SVG).
 pub fn page(map: &Map, svg: &str) -> String {
@@ -14,37 +14,25 @@ pub fn page(map: &Map, svg: &str) -> String {
     } else {
         &map.title
     };
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="generator" content=(map.program);
-                title { "Safe window: " (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header {
-                    h1 { "Safe window" }
-                    p.of { (title) }
-                    (facts(map))
-                }
-                (tiles(map))
-                figure {
-                    (PreEscaped(svg))
-                    figcaption {
-                        "Every rectangle is a cell. Dots are runs; cells without a dot are inferred where the runs around "
-                        "them say with at least 95 % what they are. Elsewhere they are not known: pale and crossed out. The "
-                        "line is the boundary of the clear cells."
-                    }
-                }
-                (reading(map))
-                (table(map))
+    let body = html! {
+        header {
+            h1 { "Safe window" }
+            p.of { (title) }
+            (facts(map))
+        }
+        (tiles(map))
+        figure {
+            (PreEscaped(svg))
+            figcaption {
+                "Every rectangle is a cell. Dots are runs; cells without a dot are inferred where the runs around "
+                "them say with at least 95 % what they are. Elsewhere they are not known: pale and crossed out. The "
+                "line is the boundary of the clear cells."
             }
         }
+        (reading(map))
+        (table(map))
     };
-    page.into_string()
+    document_by(&map.program, &format!("Safe window: {title}"), &body)
 }
 
 fn named(axis: &Axis) -> String {

@@ -67,13 +67,18 @@ pub fn html(summary: &Summary) -> Result<String, ReportError> {
 
 /// A page in one file: head, style and the body.
 pub(crate) fn document(title: &str, body: &Markup) -> String {
+    document_by(concat!("flexdrill ", env!("CARGO_PKG_VERSION")), title, body)
+}
+
+/// The same of results that a program (name and version) has made.
+pub(crate) fn document_by(program: &str, title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="generator" content={ "flexdrill " (env!("CARGO_PKG_VERSION")) };
+                meta name="generator" content=(program);
                 title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
