@@ -1,9 +1,9 @@
 //! The state of a line in `/diagnostics`.
 
 use flexdrill_bridge::wits::{Counts, DiscardReason, ItemFaultKind, NotUsed};
-use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
-use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
+
+use super::diagnostics::{array, counts as counts_of, item};
 
 /// A line without a used frame for so long is not OK (s).
 const QUIET: f64 = 10.0;
@@ -68,9 +68,7 @@ impl LineHealth {
     /// The message of `/diagnostics` at an instant (ns since 1970).
     pub fn diagnostics(&self, node: &str, place: &str, now: i64) -> DiagnosticArray {
         let counts = &self.counts;
-        // The verdict is of the state now, the counts are since the start:
-        // an operator needs both, the level follows the first.
-        let (level, message) = self.verdict(now);
+        // The verdict is of the state now, the counts are since the start: an operator needs both, the level follows the first.
         // Keys are names of interfaces that monitors match on, in the order of the way through the bridge.
         let mut values = vec![
             ("connections_open", self.open),
@@ -92,26 +90,11 @@ impl LineHealth {
         values.extend(NotUsed::ALL.map(|reason| (reason.name(), counts.not_used[reason as usize])));
         values.extend(DiscardReason::ALL.map(|reason| (reason.name(), counts.discarded[reason as usize])));
         values.extend(ItemFaultKind::ALL.map(|kind| (kind.name(), counts.faults[kind as usize])));
-        DiagnosticArray {
-            header: Header {
-                stamp: Time::from_nanoseconds(now),
-                ..Header::default()
-            },
-            status: vec![DiagnosticStatus {
-                level,
-                // The name has the node's path without its slash and the part, as `diagnostic_aggregator` matches it.
-                name: format!("{}: wits", node.trim_start_matches('/')),
-                message,
-                hardware_id: place.to_owned(),
-                values: values
-                    .into_iter()
-                    .map(|(key, value)| KeyValue {
-                        key: key.replace(' ', "_"),
-                        value: value.to_string(),
-                    })
-                    .collect(),
-            }],
-        }
+        let values = values.into_iter().map(|(key, count)| (key.replace(' ', "_"), count));
+        array(
+            now,
+            vec![item(node, "wits", self.verdict(now), place, counts_of(values))],
+        )
     }
 }
 

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use flexdrill_bridge::wits::{Look, LookRow, Mapping, RawFrame};
-use flexdrill_messages::diagnostic_msgs::{DiagnosticStatus, KeyValue};
+use flexdrill_messages::diagnostic_msgs::DiagnosticStatus;
 use flexdrill_messages::{ConfirmMappingRequest, ConfirmMappingResponse};
 use flexdrill_text::{Throttle, counted, log_ending, printable};
 
 use super::confirmations::Confirmations;
+use super::diagnostics::item;
 
 /// Most items of a source in the diagnostics, which come every second. Rigs send ten to fifty.
 const MOST_ROWS: usize = 100;
@@ -222,7 +223,7 @@ impl FirstFrames {
         let shown = self.connections.iter().filter_map(|(connection, found)| {
             let look = found.shown.as_ref()?;
             // A mapping that no person has confirmed is no fault, but a display must not show it as checked.
-            let (level, message) = match &found.confirmed {
+            let verdict = match &found.confirmed {
                 Some(when) => (DiagnosticStatus::OK, format!("confirmed {when}")),
                 None => (
                     DiagnosticStatus::WARN,
@@ -250,20 +251,9 @@ impl FirstFrames {
             });
             let further = rows.len().saturating_sub(MOST_ROWS);
             let more = (further > 0).then(|| ("items_not_shown".to_owned(), counted(further as u64, "item")));
-            Some(DiagnosticStatus {
-                level,
-                name: format!(
-                    "{}: wits mapping of connection {connection}",
-                    node.trim_start_matches('/')
-                ),
-                message,
-                hardware_id: printable(&found.source).into_owned(),
-                values: head
-                    .chain(items)
-                    .chain(more)
-                    .map(|(key, value)| KeyValue { key, value })
-                    .collect(),
-            })
+            let part = format!("wits mapping of connection {connection}");
+            let values = head.chain(items).chain(more);
+            Some(item(node, &part, verdict, &printable(&found.source), values))
         });
         shown.collect()
     }

@@ -5,6 +5,7 @@
 pub mod birth_number;
 pub mod confirmations;
 mod diagnosis;
+mod diagnostics;
 pub mod first_frames;
 #[cfg(feature = "mqtt")]
 pub mod mqtt;

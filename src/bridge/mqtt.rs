@@ -7,15 +7,14 @@ use flexdrill_bridge::mqtt::{
     Broker, Documents, LinkCounts, LinkEvent, LinkTimes, Shared, SparkplugNode, documents, json, link,
 };
 use flexdrill_bridge::{TwinFigures, lines};
-use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
-use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Message, message_from_cdr_body};
 use flexdrill_text::{counted, log_ending, printable};
 use tokio::sync::{mpsc, watch};
 use tokio::time::{MissedTickBehavior, interval};
 
+use super::diagnostics::{array, counts as counts_of, item};
 use super::{BridgeNode, mqtt_figures};
 
 /// Time between two looks at what DDS brought.
@@ -287,17 +286,11 @@ impl MqttBridge {
             ];
             status.push(self.item(1, &node.counts(), more));
         }
-        DiagnosticArray {
-            header: Header {
-                stamp: Time::from_nanoseconds(now),
-                ..Header::default()
-            },
-            status,
-        }
+        array(now, status)
     }
 
     fn item(&self, which: usize, counts: &LinkCounts, more: Vec<(&str, u64)>) -> DiagnosticStatus {
-        let (level, message) = verdict(counts.is_open, &self.losses[which], self.state);
+        let verdict = verdict(counts.is_open, &self.losses[which], self.state);
         let values = [
             ("connections_open", u64::from(counts.is_open)),
             ("connections_made", counts.made),
@@ -307,20 +300,9 @@ impl MqttBridge {
             ("messages_received", counts.received),
             ("bytes_sent", counts.bytes),
         ];
-        DiagnosticStatus {
-            level,
-            name: format!("{}: {}", self.node_name.trim_start_matches('/'), NAMES[which]),
-            message,
-            hardware_id: self.broker.to_string(),
-            values: values
-                .into_iter()
-                .chain(more)
-                .map(|(key, value)| KeyValue {
-                    key: key.to_owned(),
-                    value: value.to_string(),
-                })
-                .collect(),
-        }
+        let place = self.broker.to_string();
+        let values = counts_of(values.into_iter().chain(more));
+        item(&self.node_name, NAMES[which], verdict, &place, values)
     }
 }
 

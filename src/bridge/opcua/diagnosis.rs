@@ -1,43 +1,14 @@
 //! The state of an OPC UA bridge in `/diagnostics`.
 
 use flexdrill_bridge::opcua::values::ValueCounts;
-use flexdrill_messages::builtin_interfaces::Time;
-use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
-use flexdrill_messages::std_msgs::Header;
+use flexdrill_messages::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
+
+use crate::bridge::diagnostics::{array, counts, item};
 
 /// A rig without a value or a sign of life for so long is not OK (s).
 const QUIET: f64 = 10.0;
 /// A twin without a message for so long is not OK (s).
 const SILENT: f64 = 3.0;
-
-fn message(
-    node: &str,
-    place: &str,
-    now: i64,
-    level: u8,
-    text: String,
-    values: impl IntoIterator<Item = (&'static str, u64)>,
-) -> DiagnosticArray {
-    DiagnosticArray {
-        header: Header {
-            stamp: Time::from_nanoseconds(now),
-            ..Header::default()
-        },
-        status: vec![DiagnosticStatus {
-            level,
-            name: format!("{}: opcua", node.trim_start_matches('/')),
-            message: text,
-            hardware_id: place.to_owned(),
-            values: values
-                .into_iter()
-                .map(|(key, value)| KeyValue {
-                    key: key.to_owned(),
-                    value: value.to_string(),
-                })
-                .collect(),
-        }],
-    }
-}
 
 /// Seconds since an instant (ns).
 fn age(since: Option<i64>, now: i64) -> Option<f64> {
@@ -91,7 +62,7 @@ impl RigHealth {
             ("inputs_published", self.published[0]),
             ("measured_published", self.published[1]),
         ];
-        message(node, place, now, level, text, values)
+        array(now, vec![item(node, "opcua", (level, text), place, counts(values))])
     }
 }
 
@@ -136,7 +107,7 @@ impl ServerHealth {
             ("server_restarts", self.restarts),
             ("messages_unreadable", self.unreadable),
         ];
-        message(node, place, now, level, text, values)
+        array(now, vec![item(node, "opcua", (level, text), place, counts(values))])
     }
 }
 
