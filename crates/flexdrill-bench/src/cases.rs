@@ -15,37 +15,30 @@ pub struct BenchCase {
     pub changes: fn(&Config) -> Result<Config, ConfigError>,
 }
 
+const fn case(name: &'static str, wob: f64, changes: fn(&Config) -> Result<Config, ConfigError>) -> BenchCase {
+    BenchCase {
+        name,
+        wob,
+        rpm: None,
+        changes,
+    }
+}
+
 /// The paper's case, and what makes it harder: a compressed pipe, stiffer contact, a guide soft enough to lie on the
 /// wall.
 pub const CASES: &[BenchCase] = &[
-    BenchCase {
-        name: "as it is, 10 kN",
-        wob: 10.0,
-        rpm: None,
-        changes: |config| Ok(config.clone()),
-    },
-    BenchCase {
-        name: "`wob_path: shared`, 30 kN",
-        wob: 30.0,
-        rpm: None,
-        changes: |config| config.with_value("boundary.wob_path", "shared"),
-    },
-    BenchCase {
-        name: "contact 3e7 / 5e7 N/m, 10 kN",
-        wob: 10.0,
-        rpm: None,
-        changes: |config| {
-            config
-                .with_value("contact.inner.stiffness", 3e7)?
-                .with_value("contact.outer.stiffness", 5e7)
-        },
-    },
-    BenchCase {
-        name: "guide `bending_factor: 0.05`, 20 kN",
-        wob: 20.0,
-        rpm: None,
-        changes: |config| config.with_value("tool.guide.bending_factor", 0.05),
-    },
+    case("as it is, 10 kN", 10.0, |config| Ok(config.clone())),
+    case("`wob_path: shared`, 30 kN", 30.0, |config| {
+        config.with_value("boundary.wob_path", "shared")
+    }),
+    case("contact 3e7 / 5e7 N/m, 10 kN", 10.0, |config| {
+        config
+            .with_value("contact.inner.stiffness", 3e7)?
+            .with_value("contact.outer.stiffness", 5e7)
+    }),
+    case("guide `bending_factor: 0.05`, 20 kN", 20.0, |config| {
+        config.with_value("tool.guide.bending_factor", 0.05)
+    }),
 ];
 
 /// Backward whirl, the motion that alarms are for: the pipe runs round the guide and rolls where it touches, so that
@@ -65,38 +58,20 @@ pub const WHIRLING: BenchCase = BenchCase {
 /// A tool below a string: as it is, with a string that rubs on the wall of an inclined hole, with worn joints, with stiffer
 /// contact. The weight is that slacked off at the surface.
 pub const BELOW_A_STRING: &[BenchCase] = &[
-    BenchCase {
-        name: "as it is, 10 kN",
-        wob: 10.0,
-        rpm: None,
-        changes: |config| Ok(config.clone()),
-    },
-    BenchCase {
-        name: "string: 600 m vertical, 400 m at 60 deg; 10 kN",
-        wob: 10.0,
-        rpm: None,
-        changes: |config| config.with_value("string.sections", inclined()),
-    },
-    BenchCase {
-        name: "pin friction 0.2, play 0.5 deg; 10 kN",
-        wob: 10.0,
-        rpm: None,
-        changes: |config| {
-            config
-                .with_value("tool.joint.friction", 0.2)?
-                .with_value("tool.joint.play_deg", 0.5)
-        },
-    },
-    BenchCase {
-        name: "contact 3e7 / 5e7 N/m, 10 kN",
-        wob: 10.0,
-        rpm: None,
-        changes: |config| {
-            config
-                .with_value("contact.inner.stiffness", 3e7)?
-                .with_value("contact.outer.stiffness", 5e7)
-        },
-    },
+    case("as it is, 10 kN", 10.0, |config| Ok(config.clone())),
+    case("string: 600 m vertical, 400 m at 60 deg; 10 kN", 10.0, |config| {
+        config.with_value("string.sections", inclined())
+    }),
+    case("pin friction 0.2, play 0.5 deg; 10 kN", 10.0, |config| {
+        config
+            .with_value("tool.joint.friction", 0.2)?
+            .with_value("tool.joint.play_deg", 0.5)
+    }),
+    case("contact 3e7 / 5e7 N/m, 10 kN", 10.0, |config| {
+        config
+            .with_value("contact.inner.stiffness", 3e7)?
+            .with_value("contact.outer.stiffness", 5e7)
+    }),
 ];
 
 /// A string of 2 7/8 in drill pipe, the lower part of which lies on the wall.

@@ -222,7 +222,8 @@ impl TwinFigures {
     }
 }
 
-fn read<M: Message>(topic: &'static TopicInfo, body: &[u8]) -> Result<M, FiguresError> {
+/// A message of a topic.
+pub(crate) fn read<M: Message>(topic: &'static TopicInfo, body: &[u8]) -> Result<M, FiguresError> {
     message_from_cdr_body(body).map_err(|error| FiguresError::Unreadable {
         topic: topic.name,
         why: error.to_string(),

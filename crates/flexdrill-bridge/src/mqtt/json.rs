@@ -187,20 +187,16 @@ fn in_the_next_minute(of: &AlarmChance) -> Value {
     document
 }
 
+/// A figure over members: numbers, or a number by second.
+fn band(name: &str, unit: &str, [p5, p50, p95]: [&impl serde::Serialize; 3]) -> Value {
+    json!({"name": name, "unit": unit_name(unit), "p5": p5, "p50": p50, "p95": p95})
+}
+
 /// The document of `bands`.
 pub fn bands(bands: &Bands) -> Value {
-    let each: Vec<Value> = bands
-        .bands
-        .iter()
-        .map(|band| {
-            json!({
-                "name": band.name,
-                "unit": unit_name(&band.unit),
-                "p5": band.p5,
-                "p50": band.p50,
-                "p95": band.p95,
-            })
-        })
+    let each = bands.bands.iter();
+    let each: Vec<Value> = each
+        .map(|of| band(&of.name, &of.unit, [&of.p5, &of.p50, &of.p95]))
         .collect();
     json!({
         "stamp": time(&bands.header.stamp),
@@ -221,18 +217,9 @@ pub fn bands(bands: &Bands) -> Value {
 /// The document of `forecast`.
 pub fn forecast(forecast: &Forecast) -> Value {
     // Bands and alarms are lists, because a later version may have more; a reader finds its own by name.
-    let bands: Vec<Value> = forecast
-        .bands
-        .iter()
-        .map(|band| {
-            json!({
-                "name": band.name,
-                "unit": unit_name(&band.unit),
-                "p5": band.p5,
-                "p50": band.p50,
-                "p95": band.p95,
-            })
-        })
+    let bands = forecast.bands.iter();
+    let bands: Vec<Value> = bands
+        .map(|of| band(&of.name, &of.unit, [&of.p5, &of.p50, &of.p95]))
         .collect();
     // One document per topic, complete: a client that joins gets the retained one and needs no history.
     json!({

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use ::opcua::types::StatusCode;
 use flexdrill_messages::topics::{self, TopicInfo};
-use flexdrill_messages::{AlarmList, Bands, Message, Residuals, SafeWindow, TwinStatus, message_from_cdr_body};
+use flexdrill_messages::{AlarmList, Bands, Residuals, SafeWindow, TwinStatus};
 
 use crate::TwinFigures;
-use crate::figures::FiguresError;
+use crate::figures::{FiguresError, read};
 
 /// Without a new message for so long (ns) a value is the last usable one: three messages of the slowest topic.
 const LATE: i64 = 3_000_000_000;
@@ -144,13 +144,6 @@ fn inputs_are_doubtful(status: &TwinStatus) -> bool {
         )
     });
     by_state || status.input_suspect.contains(&true)
-}
-
-fn read<M: Message>(topic: &'static TopicInfo, body: &[u8]) -> Result<M, FiguresError> {
-    message_from_cdr_body(body).map_err(|error| FiguresError::Unreadable {
-        topic: topic.name,
-        why: error.to_string(),
-    })
 }
 
 #[cfg(test)]

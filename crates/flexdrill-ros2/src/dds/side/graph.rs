@@ -8,7 +8,7 @@ use ros2_client::Gid;
 use rustdds::no_key::{DataWriterCdr, SimpleDataReaderCdr};
 use rustdds::policy::{Durability, History, Reliability};
 use rustdds::{
-    DomainParticipant, GUID, Publisher, QosPolicies, QosPolicyBuilder, RTPSEntity as _, Subscriber, Timestamp,
+    DomainParticipant, GUID, Publisher, QosPolicies, QosPolicyBuilder, RTPSEntity as _, Subscriber, Timestamp, Topic,
     TopicKind,
 };
 use serde::de::DeserializeOwned;
@@ -96,6 +96,14 @@ impl NodeGraph {
         })
     }
 
+    fn topic(&self, name: &str, dds_type: &str, qualities: &QosPolicies) -> Result<Topic, String> {
+        let qualities = announced(qualities, dds_type);
+        let topic = self
+            .participant
+            .create_topic(name.to_owned(), dds_type.to_owned(), &qualities, TopicKind::NoKey);
+        topic.map_err(text)
+    }
+
     /// Creates the writer of a topic, by the DDS names of topic and type.
     ///
     /// # Errors
@@ -106,15 +114,7 @@ impl NodeGraph {
         dds_type: &str,
         qualities: &QosPolicies,
     ) -> Result<Writer<M>, String> {
-        let topic = self
-            .participant
-            .create_topic(
-                topic.to_owned(),
-                dds_type.to_owned(),
-                &announced(qualities, dds_type),
-                TopicKind::NoKey,
-            )
-            .map_err(text)?;
+        let topic = self.topic(topic, dds_type, qualities)?;
         let writer: Writer<M> = self.publisher.create_datawriter_no_key(&topic, None).map_err(text)?;
         self.node.writers.push(writer.guid().into());
         Ok(writer)
@@ -130,15 +130,7 @@ impl NodeGraph {
         dds_type: &str,
         qualities: &QosPolicies,
     ) -> Result<Reader<M>, String> {
-        let topic = self
-            .participant
-            .create_topic(
-                topic.to_owned(),
-                dds_type.to_owned(),
-                &announced(qualities, dds_type),
-                TopicKind::NoKey,
-            )
-            .map_err(text)?;
+        let topic = self.topic(topic, dds_type, qualities)?;
         let reader: Reader<M> = self
             .subscriber
             .create_simple_datareader_no_key(&topic, None)
