@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Severity;
 use super::hazards::Hold;
-use super::hysteresis::{Alarm, AlarmThresholds};
+use super::hysteresis::AlarmThresholds;
+use super::load_watch::{LoadSettings, LoadWatch};
 
 /// How the stops are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -36,7 +37,7 @@ impl Default for JointLoadSettings {
 }
 
 /// Level of the joints' stops.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct JointLoadLevel {
     /// Level.
     pub severity: Severity,
@@ -53,75 +54,52 @@ pub struct JointLoadLevel {
     pub hold: Hold,
 }
 
-/// Watches the stops of all joints.
+/// Watches the stops of all joints: a load of a part, which is judged as every other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct JointLoadWatch {
-    settings: JointLoadSettings,
-    /// Integral of each stop's moment in the interval (N m s).
-    angular_impulse: Vec<f64>,
-    elapsed: f64,
-    alarm: Alarm,
-    level: JointLoadLevel,
-}
+pub struct JointLoadWatch(LoadWatch);
 
 impl JointLoadWatch {
     /// A watch of `joints` joints.
     pub fn new(settings: &JointLoadSettings, joints: usize) -> Self {
-        Self {
-            settings: *settings,
-            angular_impulse: vec![0.0; joints],
-            elapsed: 0.0,
-            alarm: Alarm::default(),
-            level: JointLoadLevel::default(),
-        }
+        let settings = LoadSettings {
+            rating: settings.rated_moment,
+            interval: settings.interval,
+            thresholds: settings.thresholds,
+        };
+        Self(LoadWatch::new(&settings, joints))
     }
 
     /// Takes the moment (N m) of a joint's stop over a step of `dt` (s).
     pub fn push(&mut self, joint: usize, dt: f64, moment: f64) {
-        self.angular_impulse[joint] += moment * dt;
+        self.0.add(joint, dt, moment);
     }
 
     /// Ends a step of `dt` (s) at model time `time` (s). While the drive does not turn steadily, no level rises.
     pub fn advance(&mut self, time: f64, dt: f64, judged: bool) {
-        self.elapsed += dt;
-        if self.elapsed + 0.5 * dt < self.settings.interval {
-            return;
-        }
-        let mut worst = (0.0, 0);
-        for (joint, impulse) in self.angular_impulse.iter_mut().enumerate() {
-            if *impulse > worst.0 {
-                worst = (*impulse, joint);
-            }
-            *impulse = 0.0;
-        }
-        let ratio = worst.0 / self.elapsed / self.settings.rated_moment;
-        let value = if judged { ratio } else { 0.0 };
-        self.alarm.update(time, self.elapsed, value, &self.settings.thresholds);
-        self.elapsed = 0.0;
-        let now = self.alarm.severity();
-        if now == Severity::Ok || self.alarm.worst_at() == time {
-            (self.level.ratio, self.level.joint, self.level.seen) = (ratio, worst.1, time);
-        }
-        (self.level.severity, self.level.since) = (now, self.alarm.since());
-        self.level.hold = self.alarm.hold(time);
+        self.0.advance(time, dt, judged);
     }
 
     /// The level of the joints' stops.
     pub fn level(&self) -> JointLoadLevel {
-        self.level
+        let level = self.0.level();
+        JointLoadLevel {
+            severity: level.severity,
+            joint: level.part,
+            ratio: level.ratio,
+            since: level.since,
+            seen: level.seen,
+            hold: level.hold,
+        }
     }
 
     /// The thresholds in use.
-    pub fn settings(&self) -> &JointLoadSettings {
-        &self.settings
+    pub fn settings(&self) -> &LoadSettings {
+        self.0.settings()
     }
 
     /// Forgets everything but the settings.
     pub fn reset(&mut self) {
-        self.angular_impulse.fill(0.0);
-        self.elapsed = 0.0;
-        self.alarm = Alarm::default();
-        self.level = JointLoadLevel::default();
+        self.0.reset();
     }
 }
 

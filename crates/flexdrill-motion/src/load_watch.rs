@@ -65,6 +65,17 @@ impl LoadWatch {
         for (integral, load) in self.integrals.iter_mut().zip(loads) {
             *integral += load * dt;
         }
+        self.advance(time, dt, judged);
+    }
+
+    /// Takes the load (N or N m) of one part over `dt` (s).
+    pub fn add(&mut self, part: usize, dt: f64, load: f64) {
+        self.integrals[part] += load * dt;
+    }
+
+    /// Ends `dt` (s) at model time `time` (s), with the loads of [`LoadWatch::add`]. While the drive does not turn steadily
+    /// (`judged` is false), no level rises.
+    pub fn advance(&mut self, time: f64, dt: f64, judged: bool) {
         self.elapsed += dt;
         if self.elapsed + 0.5 * dt < self.settings.interval {
             return;
