@@ -219,13 +219,8 @@ fn twenty() -> usize {
 
 /// A value of a column with this unit, in the unit in which people know it (kN, kN m, MPa, m/h, r/min).
 pub(crate) fn known(unit: Unit, value: f64) -> f64 {
-    let known = unit.dimension().known_in();
-    // A value that is in this unit keeps its bits.
-    if unit == known {
-        value
-    } else {
-        known.from_si(unit.to_si(value))
-    }
+    // By one factor, so that a value in that unit keeps its bits.
+    value * unit.dimension().known_in().from_si(unit.to_si(1.0))
 }
 
 fn check_unit(c: &mut Checker, unit: Unit, dimension: Dimension) {
