@@ -1,5 +1,5 @@
 //! Bags of a rig that are wrong in one way each, through the program: it refuses them with what to do, or names what it
-//! leaves out. `crates/flexdrill-bag/tests/shapes.rs` has the shapes of the files themselves.
+//! leaves out. `crates/flexdrill-bag/tests/shapes/main.rs` has the shapes of the files themselves.
 
 use std::collections::BTreeMap;
 use std::path::Path;
