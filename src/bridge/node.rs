@@ -72,13 +72,7 @@ impl BridgeNode {
         for outgoing in sends {
             let topic = outgoing.topic();
             let name = remapping.topic(identity, default_name, topic.name)?;
-            let offer = Offer {
-                reliable: true,
-                latched: false,
-                depth: 10,
-                rate: RATE,
-                lifespan: None,
-            };
+            let offer = Offer::usual(RATE);
             publishers.push((*outgoing, port.publisher(&name, topic.kind.dds_type, offer)));
             names.push(name);
         }

@@ -37,13 +37,7 @@ impl RigNode {
             .chain([&topics::RIG_MEASURED, &topics::RIG_SURVEY])
         {
             let name = remapping.topic(identity, RIG_NODE_NAME, topic.name)?;
-            let offer = Offer {
-                reliable: true,
-                latched: false,
-                depth: 10,
-                rate: RATE,
-                lifespan: None,
-            };
+            let offer = Offer::usual(RATE);
             publishers.push(port.publisher(&name, topic.kind.dds_type, offer));
             names.push(name);
         }

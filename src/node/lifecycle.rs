@@ -177,13 +177,7 @@ pub fn serve(
     name: impl Fn(&str) -> Result<String, ArgsError>,
 ) -> Result<(Arc<Lifecycle>, Vec<Task>), NodeError> {
     // Transition events are not latched: a tool that joins later asks for the state, as `ros2 lifecycle` does.
-    let offer = Offer {
-        reliable: true,
-        latched: false,
-        depth: 10,
-        rate: 1.0,
-        lifespan: None,
-    };
+    let offer = Offer::usual(1.0);
     let events = port.publisher(&name("~/transition_event")?, TransitionEvent::DDS_TYPE, offer);
     // Time is stopped before the services exist, so that no step is taken in a state that a supervisor has not chosen.
     control

@@ -38,11 +38,9 @@ impl ActionEnds {
     /// Endpoints at `port`. `name` is absolute, `ros_type` is such as `package/action/Type`.
     pub fn new(port: &mut PortBuilder, name: &str, ros_type: &str, mapping: ServiceMapping) -> Self {
         let offer = |latched: bool, depth: i32| Offer {
-            reliable: true,
             latched,
             depth,
-            rate: 10.0,
-            lifespan: None,
+            ..Offer::usual(10.0)
         };
         let mut service = |part: &str, kind: &str| {
             let name = format!("{name}/_action/{part}");

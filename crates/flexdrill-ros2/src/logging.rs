@@ -91,11 +91,10 @@ pub fn add_directives(directives: &[String]) -> bool {
 /// Publishes log lines of this crate on `/rosout` until [`disconnect`]; `node` is the node's full name.
 pub fn connect(port: &mut PortBuilder, node: &str) {
     let offer = Offer {
-        reliable: true,
         latched: true,
         depth: 100,
-        rate: 10.0,
         lifespan: Some(10.0),
+        ..Offer::usual(10.0)
     };
     let publisher = port.publisher("/rosout", &dds_type_name("rcl_interfaces/msg/Log"), offer);
     let name = node.trim_start_matches('/').replace('/', ".");

@@ -84,6 +84,17 @@ pub struct Offer {
 }
 
 impl Offer {
+    /// Reliable, the last ten samples for readers that are there, at this rate at most (Hz): what ROS 2 offers by default.
+    pub const fn usual(rate: f64) -> Self {
+        Self {
+            reliable: true,
+            latched: false,
+            depth: 10,
+            rate,
+            lifespan: None,
+        }
+    }
+
     /// Most samples kept for readers that have not acknowledged.
     pub fn max_samples(&self) -> i32 {
         if self.latched {

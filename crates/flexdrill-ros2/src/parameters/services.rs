@@ -51,11 +51,8 @@ impl Parameters {
         name_client: NameClient,
     ) -> Arc<Self> {
         let offer = Offer {
-            reliable: true,
-            latched: false,
             depth: 1000,
-            rate: 10.0,
-            lifespan: None,
+            ..Offer::usual(10.0)
         };
         let events = port.publisher(
             "/parameter_events",

@@ -222,13 +222,7 @@ impl PortBuilder {
     /// the inbox receives the replies to all clients.
     pub fn client(&mut self, name: &str, ros_type: &str) -> (TopicPublisher, Arc<Inbox<Sample>>) {
         let [requests, replies] = service_topics(name, ros_type);
-        let offer = Offer {
-            reliable: true,
-            latched: false,
-            depth: 10,
-            rate: 1.0,
-            lifespan: None,
-        };
+        let offer = Offer::usual(1.0);
         let publisher = self.publisher(&requests.0, &requests.1, offer);
         let inbox = self.read(ReaderPlan {
             topic: replies.0,

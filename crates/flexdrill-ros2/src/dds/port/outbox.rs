@@ -207,13 +207,7 @@ fn size(frame: &ToSide) -> usize {
 mod tests {
     use super::*;
 
-    const STREAM: Offer = Offer {
-        reliable: true,
-        latched: false,
-        depth: 10,
-        rate: 50.0,
-        lifespan: None,
-    };
+    const STREAM: Offer = Offer::usual(50.0);
     const LATCHED: Offer = Offer {
         latched: true,
         depth: 1,
