@@ -229,6 +229,8 @@ struct OfEffect {
     own: &'static [&'static str],
     words: &'static [&'static str],
     others: &'static [&'static str],
+    /// How many other files of the core may name it, tests and the witness left out.
+    most: usize,
 }
 
 const fn effect(own: &'static [&'static str], words: &'static [&'static str]) -> OfEffect {
@@ -236,10 +238,33 @@ const fn effect(own: &'static [&'static str], words: &'static [&'static str]) ->
         own,
         words,
         others: &[],
+        most: MOST_OTHER_FILES,
     }
 }
 
-const EFFECTS: [OfEffect; 7] = [
+const EFFECTS: [OfEffect; 8] = [
+    // Its description has a file, next to that of the whole tool. The words are those of law, description and state: torque,
+    // weight and speed at the tool's lower end are published as those of the bit by whoever reads them.
+    OfEffect {
+        own: &["bit"],
+        words: &[
+            "BitDescription",
+            "RockLaw",
+            "DepthOfCut",
+            "Weakening",
+            "BitLoad",
+            "BitMark",
+            "bit::Bit",
+            "description.bit",
+            ".rock",
+            "rock:",
+            "bit_torque",
+            "bit_slip_rate",
+            "bit_friction",
+        ],
+        others: &[],
+        most: 4,
+    },
     effect(
         &["bodies"],
         &[
@@ -275,18 +300,25 @@ const EFFECTS: [OfEffect; 7] = [
             "PressureEnd",
         ],
         others: &["standpipe_pressure", "standpipe pressure", "pressure_folding"],
+        most: MOST_OTHER_FILES,
     },
 ];
 
-/// How many files of the core other than its own may name an effect, tests and the witness left out: its description, the
-/// description of the paper's tool, the list of effects.
+/// How many files of the core other than its own most effects may be named in: the description, the description of the paper's
+/// tool, the list of effects.
 const MOST_OTHER_FILES: usize = 3;
 
 #[test]
 fn an_effect_is_one_file() {
     let core = root().join("crates/flexdrill-core/src");
     let files: Vec<PathBuf> = FLOORS.iter().flat_map(|room| sources(&core.join(room))).collect();
-    for OfEffect { own, words, others } in EFFECTS {
+    for OfEffect {
+        own,
+        words,
+        others,
+        most,
+    } in EFFECTS
+    {
         let own: Vec<PathBuf> = own.iter().map(|own| core.join("effects").join(own)).collect();
         let is_own = |file: &&PathBuf| own.iter().any(|own| file.starts_with(own));
         for own in &own {
@@ -304,8 +336,8 @@ fn an_effect_is_one_file() {
         println!("{}: {} other files", own[0].display(), naming.len());
         assert!(!naming.is_empty(), "{}: nothing switches it on", own[0].display());
         assert!(
-            naming.len() <= MOST_OTHER_FILES,
-            "{} is named in {} other files, at most {MOST_OTHER_FILES}: {naming:#?}",
+            naming.len() <= most,
+            "{} is named in {} other files, at most {most}: {naming:#?}",
             own[0].display(),
             naming.len()
         );

@@ -12,6 +12,7 @@ use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
+use crate::elements::factors::TangentFactors;
 use crate::model::Model;
 
 /// What a residual is evaluated under.
@@ -36,10 +37,35 @@ pub(crate) struct Along {
     pub beyond_ends: f64,
 }
 
+/// What acts on the tool's lower end, as the last residual found it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct EndLoad {
+    /// Radius at which it acts (m).
+    pub radius: f64,
+    /// Torque against the rotation (N m).
+    pub torque: f64,
+    /// Force up the hole (N).
+    pub weight: f64,
+    /// Depth that the end cuts (m per turn); `None` where nothing there holds it.
+    pub depth_of_cut: Option<f64>,
+}
+
 /// Something that acts inside spans or at nodes, beyond beams, contacts and joints. It keeps what it found at the last residual: its tangent
 /// and its energy read that. It evaluates the spans that a correction has moved ([`Chain::is_active`]); the others keep their
 /// forces. An effect that is linear along spans is data of theirs ([`Acting`](super::Acting)) and needs no force here.
+///
+/// An effect with a history keeps it from step to step: it [begins](Effect::release) it with the motion, takes on what a step
+/// [accepted](Effect::accept), and [retreats](Effect::retreat) with the motion from a step that failed.
 pub(crate) trait Effect {
+    /// Forgets its history, before the tool comes to rest: until [`Effect::release`] it acts as at rest.
+    fn hold(&mut self) {}
+
+    /// Begins its history with the motion, from `state`.
+    fn release(&mut self, _state: &State) {}
+
+    /// Begins the corrections of a step of size `step` (s), or with 0 of a state at rest.
+    fn begin(&mut self, _step: f64) {}
+
     /// Evaluates the effect at `state`, and adds its forces to [`Chain::inside`]. An effect with a
     /// [tension](Effect::has_tension) sets the axial forces of the state, unless they count as they are.
     fn force(&mut self, _chain: &mut Chain, _state: &mut State, _under: &Under<'_>) {}
@@ -50,15 +76,34 @@ pub(crate) trait Effect {
     /// Adds its forces at nodes to the `residual`, on nodes whose first unknown is `wanted`.
     fn at_nodes(&self, _residual: &mut [f64], _state: &State, _under: &Under<'_>, _wanted: &impl Fn(usize) -> bool) {}
 
-    /// Adds what it does to nodes whatever their motion, as the last residual found it, to the `residual`, on unknowns that are
-    /// `wanted`.
+    /// Adds what it does to nodes as the last [`Effect::force`] found it to the `residual`, on unknowns that are `wanted`.
     fn applied(&self, _residual: &mut [f64], _wanted: &impl Fn(usize) -> bool) {}
+
+    /// Hands the derivative of its forces at the ends of the tool to `add`: unknown of the force, unknown of the motion, value. Each
+    /// acts within a node. The tangents inside spans are added to these.
+    fn at_ends(&self, _factors: TangentFactors, _add: &mut impl FnMut(usize, usize, f64)) {}
 
     /// Adds to `point` what it stores, takes and moves in the whole tool. Gives the energy that it stores (J), the kinetic one
     /// left out, which it adds to `point`.
     fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         0.0
     }
+
+    /// Takes the step that ends at `state`, where the last residual was evaluated.
+    fn accept(&mut self, _state: &State) {}
+
+    /// Adds to `point`, which has all else, what it stores and moves at an end of the tool, of a step once it is
+    /// [accepted](Effect::accept).
+    fn close(&self, _point: &mut LedgerPoint) {}
+
+    /// Keeps its history for [`Effect::retreat`].
+    fn keep(&mut self) {}
+
+    /// Goes back to the history kept last.
+    fn retreat(&mut self) {}
+
+    /// Takes so many whole `turns` off the angles that it keeps of the pipe.
+    fn unwind(&mut self, _turns: f64) {}
 
     /// Writes what its figures and its works read of it at the end of a step to `carried`.
     fn carry(&self, _carried: &mut Carried) {}
@@ -101,6 +146,11 @@ pub(crate) trait Effect {
     /// Its weight, along the world axes (N).
     fn weight(&self) -> Vector3<f64> {
         Vector3::zeros()
+    }
+
+    /// What it does to the tool's lower end; `None` where it acts elsewhere.
+    fn end_load(&self) -> Option<EndLoad> {
+        None
     }
 
     /// What the pins of a joint carry of it beyond the force between both links' ends (N, tension positive).

@@ -83,12 +83,18 @@ impl<E: Effect> ChainEquations<'_, E> {
         effects.force(chain, to, &under);
         chain.gather(to);
         stopwatch.lap(Phase::Contact);
-        chain.attached_forces(&**effects, &mut interactions.bit, to, &under);
+        chain.attached_forces(&**effects, to, &under);
         // Joints come last: what they take over from dependent rotations is the whole moment there.
         chain.joint_forces(&mut interactions.joints, to, model.moment_scale);
     }
 
-    /// Adds up what the last residual left of contacts, bit and effects at `state` for the tangent, in one precision.
+    /// Begins the corrections of a step of size `step` (s) from the state `from`, or with 0 of a state at rest.
+    pub(crate) fn begin_corrections(&mut self, from: &State, step: f64) {
+        self.interactions.begin(from, step);
+        self.effects.begin(step);
+    }
+
+    /// Adds up what the last residual left of contacts and effects at `state` for the tangent, in one precision.
     fn linearise<S: Precision>(&mut self, operator: usize, state: &State, at: &Iteration<'_>) {
         let Self {
             model,
@@ -101,6 +107,9 @@ impl<E: Effect> ChainEquations<'_, E> {
         let mut to = std::mem::take(S::additions(chain));
         let crossing = S::crossing(&chain.operators[operator]);
         to.linearise(&chain.model, &chain.active, interactions, model, at, crossing);
+        effects.at_ends(at.factors, &mut |row, column, value| {
+            to.add_within_node(row, column, value)
+        });
         effects.tangent(&mut to, chain, state, at);
         *S::additions(chain) = to;
         // Dependent rotations follow from the joint's rows as the last residual has linearised them.
@@ -183,7 +192,7 @@ impl<E: Effect> ChainEquations<'_, E> {
 
 impl<E: Effect> Equations for ChainEquations<'_, E> {
     fn begin(&mut self, stride: &Stride, from: &State) {
-        self.interactions.begin(from, stride.h);
+        self.begin_corrections(from, stride.h);
         self.chain.accuracy = stride.accuracy;
         self.chain.foresee(from, stride.foresight, stride.foreseen_part);
         self.chain.limits.for_step(stride.h);

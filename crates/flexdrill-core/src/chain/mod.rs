@@ -64,7 +64,7 @@ use slaving::LinkMatrices;
 use solve::Sweep;
 
 pub(crate) use contacts::SpanMotion;
-pub(crate) use effect::{Along, Effect, Under};
+pub(crate) use effect::{Along, Effect, EndLoad, Under};
 pub(crate) use energy::add_to_ends;
 pub(crate) use equations::ChainEquations;
 pub(crate) use linear::{Acting, CoupledParts, Parts, Segment};
@@ -183,7 +183,7 @@ pub(crate) struct Chain {
     multipliers: Vec<[f64; 2]>,
     /// Residual with its reactions.
     residual: Vec<f64>,
-    /// What contacts, the bit and effects add to the tangent, in both precisions.
+    /// What contacts and effects add to the tangent, in both precisions.
     additions: Additions<f64>,
     single_additions: Additions<f32>,
     sweep: Sweep,
@@ -365,6 +365,11 @@ impl Chain {
     #[inline(always)]
     pub(crate) fn is_active(&self, l: usize) -> bool {
         self.active.spans[l]
+    }
+
+    /// Whether the residual of `unknown` is evaluated after the present correction.
+    pub(crate) fn is_affected(&self, unknown: usize) -> bool {
+        self.active.affected[unknown / NODE]
     }
 
     /// The span that a station is in, and which of its stations it is; that of its top end is 0.

@@ -10,7 +10,6 @@ use super::operator::Operator;
 use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
-use crate::elements::rock::BitLoad;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::vector::Vector;
@@ -41,20 +40,14 @@ impl Chain {
         self.model.instructions.run(Gather { chain: self, state });
     }
 
-    /// Adds what acts at nodes: effects, tie, string, rock, loads.
-    pub(super) fn attached_forces(
-        &mut self,
-        effects: &impl Effect,
-        bit: &mut BitLoad,
-        state: &State,
-        under: &Under<'_>,
-    ) {
+    /// Adds what acts at nodes: effects, tie, string, loads.
+    pub(super) fn attached_forces(&mut self, effects: &impl Effect, state: &State, under: &Under<'_>) {
         let numbered = self.model.numbered(under.model);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
         effects.at_nodes(&mut self.residual, state, under, &affected);
         numbered.add_ties(&mut self.residual, state, under.conditions, affected);
         effects.applied(&mut self.residual, &affected);
-        numbered.add_rock_and_loads(&mut self.residual, bit, state, under.conditions, affected);
+        numbered.add_loads(&mut self.residual, under.conditions, affected);
     }
 }
 

@@ -37,7 +37,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         };
         self.chain.prepare(self.model, conditions, factors);
         let at = Iteration::first(conditions, factors);
-        self.interactions.begin(state, 0.0);
+        self.begin_corrections(state, 0.0);
         self.evaluate(state, conditions, false);
         let mut best = worst(&self.chain.residual, self.chain.limits.weights(Accuracy::Rest));
         for _ in 0..MOST_STATIC_CORRECTIONS {
@@ -76,7 +76,7 @@ impl<E: Effect> ChainEquations<'_, E> {
             mass: 1.0,
         };
         self.chain.prepare(self.model, conditions, factors);
-        self.interactions.begin(state, 0.0);
+        self.begin_corrections(state, 0.0);
         self.evaluate(state, conditions, false);
         // The rows hold already; what is asked for is how their second derivatives can be zero.
         let has_rows = self.chain.model.joint_rows > 0;

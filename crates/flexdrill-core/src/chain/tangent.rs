@@ -1,4 +1,4 @@
-//! What contacts, the bit and what acts at nodes add to the tangent in an iteration. A contact inside a span adds to the blocks of
+//! What contacts and what acts at nodes add to the tangent in an iteration. A contact inside a span adds to the blocks of
 //! both its ends and to their coupling.
 //!
 //! A contact's own tangent is the sum of four products on by^T of local forces and motions ([`GapTangent`]). On the nodes it
@@ -148,14 +148,18 @@ impl<S: Precision> Additions<S> {
         });
         chain
             .numbered(model)
-            .end_tangents(&interactions.bit, conditions, factors, |row, column, value| {
-                // Each of these acts within a node.
-                self.block(column / NODE, Touching::Both)[column % NODE][row % NODE] += S::of(value);
+            .end_tangents(conditions, factors, |row, column, value| {
+                self.add_within_node(row, column, value)
             });
     }
 }
 
 impl<S: Precision> Additions<S> {
+    /// Adds the derivative of the force on the unknown `row` by the motion of `column`, both of one node.
+    pub(super) fn add_within_node(&mut self, row: usize, column: usize, value: f64) {
+        self.block(column / NODE, Touching::Both)[column % NODE][row % NODE] += S::of(value);
+    }
+
     /// Adds the derivative of forces at a node by the motion there, by columns.
     pub(crate) fn add_at_node(&mut self, places: &[usize; 6], tangent: &[[f64; 6]; 6]) {
         let block = self.block(places[0] / NODE, Touching::Both);

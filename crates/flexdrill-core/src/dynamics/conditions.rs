@@ -18,16 +18,16 @@ pub struct Conditions {
     pub rate_of_penetration: f64,
     /// Standpipe pressure (Pa): inside minus outside at the tool's top.
     pub standpipe_pressure: f64,
-    /// eta D WOB / 3 of Eq. 1 (N m), >= 0.
-    pub bit_torque: f64,
     /// Distance (m) that the frame of the tool's displacements has advanced down the hole.
     pub depth: f64,
     /// Lower end of the string above, in torsion and along the hole; `None` where the first node is held or driven.
     pub top: [Option<TopEnd>; 2],
     /// Torque of the top drive (N m), if the string has one.
     pub drive_torque: Option<f64>,
-    /// Regularisation of the bit torque (rad/s).
-    pub bit_slip_rate: f64,
+    /// Parameters in force. The friction of both layers is in their laws below.
+    pub live: LiveParameters,
+    /// Whether the tool is coming to rest. What vanishes at rest is left out on the way there.
+    pub comes_to_rest: bool,
     /// Contact law of pipe and guide.
     pub inner: GapLaw,
     /// Contact law of guide and wall.
@@ -68,8 +68,8 @@ impl TopEnd {
 }
 
 impl Conditions {
-    /// The description's laws with the live parameters in force under `inputs`, bit torque by Eq. 1, the drive at angle
-    /// 0. The rotary speed of `inputs` does not enter: it acts by the angle of the drive.
+    /// The description's laws with the live parameters in force under `inputs`, the drive at angle 0. The rotary speed of
+    /// `inputs` does not enter: it acts by the angle of the drive.
     pub fn under(description: &ToolDescription, live: &LiveParameters, time: f64, inputs: &Inputs) -> Self {
         Self {
             rate_of_penetration: inputs.rate_of_penetration,
@@ -93,25 +93,14 @@ impl Conditions {
             weight_on_bit,
             rate_of_penetration: 0.0,
             standpipe_pressure: 0.0,
-            bit_torque: live.bit_friction_factor * description.bit.diameter * weight_on_bit.max(0.0) / 3.0,
             depth: 0.0,
             top: [None; 2],
             drive_torque: None,
-            bit_slip_rate: description.bit.slip_rate,
+            live: *live,
+            comes_to_rest: false,
             inner,
             outer,
             rayleigh: description.rayleigh,
-        }
-    }
-}
-
-impl LiveParameters {
-    /// The description's own values.
-    pub fn of(description: &ToolDescription) -> Self {
-        Self {
-            inner_friction: [description.inner.friction_tangential, description.inner.friction_axial],
-            outer_friction: [description.outer.friction_tangential, description.outer.friction_axial],
-            bit_friction_factor: description.bit.friction_factor,
         }
     }
 }

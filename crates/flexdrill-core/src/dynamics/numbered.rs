@@ -1,10 +1,9 @@
 //! What is attached to the tool, in either numbering of its unknowns: the axial tie, the string above and
-//! the connector by which the pipe hangs on the guide below it, the rock's torque and weight, point loads.
+//! the connector by which the pipe hangs on the guide below it, point loads.
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
 use crate::elements::factors::TangentFactors;
-use crate::elements::rock::{BitAt, BitLoad};
 use crate::model::{Model, Places};
 
 /// The tool in one numbering of its unknowns: that of the model, or that of the chain.
@@ -53,32 +52,9 @@ impl Numbered<'_> {
         }
     }
 
-    /// Adds the rock's torque and weight and the loads to the residual, on unknowns that are `wanted`.
-    pub(crate) fn add_rock_and_loads(
-        &self,
-        residual: &mut [f64],
-        bit: &mut BitLoad,
-        state: &State,
-        conditions: &Conditions,
-        wanted: impl Fn(usize) -> bool,
-    ) {
+    /// Adds the loads to the residual, on unknowns that are `wanted`.
+    pub(crate) fn add_loads(&self, residual: &mut [f64], conditions: &Conditions, wanted: impl Fn(usize) -> bool) {
         let Self { model, places, .. } = *self;
-        // The rock is evaluated only with the node of the bit, which a window may leave out.
-        let spin = places.bit_spin;
-        if wanted(spin) {
-            // Both are in the last node.
-            let at = BitAt {
-                radius: 0.5 * model.description.bit.diameter,
-                slip_rate: conditions.bit_slip_rate,
-                given: [conditions.bit_torque, conditions.weight_on_bit],
-                angle: state.q[spin],
-                speed: state.v[spin],
-                depth: conditions.depth + state.q[places.guide_end],
-            };
-            bit.evaluate(&model.description.rock, &at);
-            residual[places.guide_end] += bit.weight;
-            residual[spin] += bit.torque;
-        }
         // Loads come last and have no tangent: they depend on time alone.
         for (load, &unknown) in model.loads.iter().zip(&places.loads) {
             if wanted(unknown) {
@@ -116,23 +92,13 @@ impl Numbered<'_> {
         ends.filter_map(|(unknown, end)| end.map(|end| (unknown, [end.impedance, end.arriving, end.stiffness])))
     }
 
-    /// Hands the parts of string and rock in the tangent to `add`: unknown of the force, unknown of the motion, value.
+    /// Hands the parts of string and hanger in the tangent to `add`: unknown of the force, unknown of the motion, value.
     pub(crate) fn end_tangents(
         &self,
-        bit: &BitLoad,
         conditions: &Conditions,
         factors: TangentFactors,
         mut add: impl FnMut(usize, usize, f64),
     ) {
-        let (spin, depth) = (self.places.bit_spin, self.places.guide_end);
-        add(spin, spin, factors.damping * bit.slope);
-        if bit.holds() {
-            let stiffness = factors.stiffness;
-            add(spin, spin, stiffness * bit.torque_by[1]);
-            add(spin, depth, stiffness * bit.torque_by[0]);
-            add(depth, depth, stiffness * bit.weight_by[0]);
-            add(depth, spin, stiffness * bit.weight_by[1]);
-        }
         if let Some(hanger) = self.model.hanger {
             for (force, by) in self.hanger_shares() {
                 for (motion, to) in self.hanger_shares() {

@@ -1,9 +1,11 @@
-//! What acts on the tool beyond beams, contacts and joints: a file each, with law, switch, force, tangent and energy.
+//! What acts on the tool beyond beams, contacts and joints: a file each, with law, switch, force, tangent, energy and history.
 //!
 //! The list below is the only place that names them all. They act in its order, so that sums have one order too; an
 //! effect may read what an earlier one has written ([`Along`](crate::chain::Along)). A new effect
-//! is a file that implements [`Effect`], with a constructor `of` that gives `None` for a tool without it, and a line here.
+//! is a file that implements [`Effect`], with a constructor `of` that gives `None` for a tool without it, and a line here. One
+//! with a history has a line in the second list, too.
 
+pub(crate) mod bit;
 pub(crate) mod bodies;
 pub(crate) mod mud;
 pub(crate) mod mud_wall;
@@ -14,14 +16,20 @@ pub(crate) mod slots;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "checkpoints")]
+use std::borrow::Cow;
+
 use flexdrill_base::energies::Energies;
 use nalgebra::Vector3;
+#[cfg(feature = "checkpoints")]
+use serde::{Deserialize, Serialize};
 
-use crate::chain::{Acting, Additions, Chain, Effect, Precision, Under};
+use crate::chain::{Acting, Additions, Chain, Effect, EndLoad, Precision, Under};
 use crate::dynamics::carried::Carried;
-use crate::dynamics::energy::{LedgerPoint, StepWork};
+use crate::dynamics::energy::{LEDGER_PLACES, LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
+use crate::elements::factors::TangentFactors;
 use crate::model::Model;
 
 /// Makes [`Effects`] of a list of names and types.
@@ -43,6 +51,24 @@ macro_rules! effects {
         }
 
         impl Effect for Effects {
+            fn hold(&mut self) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.hold();
+                })+
+            }
+
+            fn release(&mut self, state: &State) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.release(state);
+                })+
+            }
+
+            fn begin(&mut self, step: f64) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.begin(step);
+                })+
+            }
+
             fn force(&mut self, chain: &mut Chain, state: &mut State, under: &Under<'_>) {
                 $($(#[$attribute])* if let Some(effect) = &mut self.$name {
                     effect.force(chain, state, under);
@@ -67,12 +93,48 @@ macro_rules! effects {
                 })+
             }
 
+            fn at_ends(&self, factors: TangentFactors, add: &mut impl FnMut(usize, usize, f64)) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.at_ends(factors, add);
+                })+
+            }
+
             fn energy(&self, chain: &Chain, point: &mut LedgerPoint, state: &State, under: &Under<'_>) -> f64 {
                 let mut stored = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
                     stored += effect.energy(chain, point, state, under);
                 })+
                 stored
+            }
+
+            fn accept(&mut self, state: &State) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.accept(state);
+                })+
+            }
+
+            fn close(&self, point: &mut LedgerPoint) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.close(point);
+                })+
+            }
+
+            fn keep(&mut self) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.keep();
+                })+
+            }
+
+            fn retreat(&mut self) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.retreat();
+                })+
+            }
+
+            fn unwind(&mut self, turns: f64) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.unwind(turns);
+                })+
             }
 
             fn carry(&self, carried: &mut Carried) {
@@ -144,6 +206,14 @@ macro_rules! effects {
                 sum
             }
 
+            fn end_load(&self) -> Option<EndLoad> {
+                let mut found = None;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    found = found.or(effect.end_load());
+                })+
+                found
+            }
+
             fn on_pins(&self, joint: usize, carried: &Carried) -> f64 {
                 let mut sum = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
@@ -181,7 +251,61 @@ effects! {
     slots: slots::SlottedGuide,
     #[cfg(test)]
     springs: tests::spring::Springs,
+    bit: bit::Bit,
 }
+
+/// Makes [`Histories`] of the effects that have one, in a list of names and types.
+macro_rules! histories {
+    ($($name:ident: $history:ty,)+) => {
+        /// What effects keep of the motion so far, by name: all that a run needs of them to continue.
+        #[cfg(feature = "checkpoints")]
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        pub(crate) struct Histories<'a> {
+            $($name: Option<Cow<'a, $history>>,)+
+        }
+
+        #[cfg(feature = "checkpoints")]
+        impl Effects {
+            /// Their histories, to be saved.
+            pub(crate) fn histories(&self) -> Histories<'_> {
+                Histories {
+                    $($name: self.$name.as_ref().map(|effect| Cow::Borrowed(effect.history())),)+
+                }
+            }
+
+            /// Whether saved histories are those of the same effects.
+            pub(crate) fn fit(&self, saved: &Histories<'_>) -> bool {
+                true $(&& match (&self.$name, &saved.$name) {
+                    (Some(effect), Some(saved)) => effect.fits(saved),
+                    (None, None) => true,
+                    _ => false,
+                })+
+            }
+
+            /// Continues with saved histories that fit.
+            pub(crate) fn restore(&mut self, saved: &Histories<'_>) {
+                $(if let (Some(effect), Some(saved)) = (&mut self.$name, &saved.$name) {
+                    effect.restore(saved);
+                })+
+            }
+        }
+    };
+}
+
+histories! {
+    bit: bit::BitState,
+}
+
+/// First of the places that an effect has in [`Sums::of_effects`](crate::dynamics::energy::Sums::of_effects).
+mod places {
+    /// One.
+    pub(super) const PRESSURE: usize = 0;
+    /// Two.
+    pub(super) const BIT: usize = 1;
+    /// How many are taken.
+    pub(super) const ALL: usize = 3;
+}
+const _: () = assert!(places::ALL == LEDGER_PLACES, "a place for each number of an effect");
 
 /// What effects add to the chain of `model` that is built.
 pub(crate) fn acting(model: &Model) -> Acting {

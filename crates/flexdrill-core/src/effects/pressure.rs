@@ -42,7 +42,7 @@ use crate::tool::{PressureDescription, PressureEnd, PressureSource, ToolDescript
 
 /// Its place in [`Carried::of_effects`], the pressure at the top (Pa), and in
 /// [`Sums::of_effects`](crate::dynamics::energy::Sums::of_effects), what shortening lifts of the forces per pressure (N m/Pa).
-pub(crate) const PLACE: usize = 0;
+pub(crate) const PLACE: usize = super::places::PRESSURE;
 
 /// Constant factors of the pressure at the tool's top.
 #[derive(Debug, Clone)]

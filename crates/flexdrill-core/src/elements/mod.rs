@@ -1,11 +1,11 @@
-//! The laws of the tool's parts, one per file: beam, joint, gap, rock, string above. What acts inside spans beyond beams and contacts is in `effects/`.
+//! The laws of the tool's parts, one per file: beam, joint, gap, string above. What acts inside spans and at nodes beyond beams and
+//! contacts is in `effects/`.
 
 pub mod beam;
 pub mod bend;
 pub mod factors;
 pub mod gap;
 pub mod joint;
-pub mod rock;
 pub mod slip;
 pub mod spine;
 pub mod string;

@@ -23,8 +23,8 @@ pub struct Places {
     pub guide_top: usize,
     /// u of the pipe's first node.
     pub pipe_top: usize,
-    /// Spin of the bit.
-    pub bit_spin: usize,
+    /// Spin of the pipe's last node, at the bit.
+    pub end_spin: usize,
     /// u of the pipe's last node.
     pub pipe_end: usize,
     /// u of the guide's last node, which takes the weight on bit.
@@ -49,7 +49,7 @@ impl Places {
             top_spin: model.stations[0].pipe_above + Direction::Psi as usize,
             guide_top: model.stations[0].guide,
             pipe_top: model.stations[0].pipe_above,
-            bit_spin: bottom.pipe_above + Direction::Psi as usize,
+            end_spin: bottom.pipe_above + Direction::Psi as usize,
             pipe_end: bottom.pipe_above,
             guide_end: bottom.guide,
             tie: model.tie,
@@ -74,7 +74,7 @@ impl Places {
             top_spin: place(self.top_spin),
             guide_top: place(self.guide_top),
             pipe_top: place(self.pipe_top),
-            bit_spin: place(self.bit_spin),
+            end_spin: place(self.end_spin),
             pipe_end: place(self.pipe_end),
             guide_end: place(self.guide_end),
             tie: self.tie.map(&place),

@@ -1,13 +1,14 @@
 //! Residual and tangent of the whole tool, Eq. 35 and 40 to 42: what is assembled and where it is kept.
 //!
 //! The residual is internal + inertia + constraint forces - external forces, so Newton solves K_T dq = -R. Evaluating
-//! it ([`residual`](Assembler::residual)) linearises joints, contacts and bit into the [`Interactions`], from which the
+//! it ([`residual`](Assembler::residual)) linearises joints and contacts into the [`Interactions`], from which the
 //! tangent is assembled.
 //!
 //! [`Interactions`]: crate::dynamics::interactions::Interactions
 
 use super::constants::Constants;
 use super::linear::{BlockSystem, TangentIncrement};
+use crate::effects::bit::Bit;
 use crate::effects::mud_wall::Motion;
 use crate::elements::factors::TangentFactors;
 use crate::elements::joint::Joint;
@@ -29,6 +30,8 @@ pub struct Assembler {
     pub(super) constants: Constants,
     /// How each station moves in both annuli of mud; empty where mud near walls does not count.
     pub(super) mud: Vec<[Motion; 2]>,
+    /// The bit on its rock.
+    pub bit: Bit,
     /// What contacts, joints and the bit add to the tangent.
     pub increment: TangentIncrement,
 }
@@ -44,6 +47,7 @@ impl Assembler {
             instructions,
             constants: Constants::of(model),
             mud: vec![[Motion::default(); 2]; crate::effects::mud_wall::at_stations(model).len()],
+            bit: Bit::at(model, &model.places),
             increment: TangentIncrement::new(
                 &model.layout,
                 model.joints.len(),

@@ -117,6 +117,7 @@ impl StationEquations<'_> {
 impl Equations for StationEquations<'_> {
     fn begin(&mut self, stride: &Stride, from: &State) {
         self.interactions.begin(from, stride.h);
+        self.room.assembler.bit.begin(stride.h);
         from.foresee_axial(self.model, stride.foresight, &mut self.room.foreseen);
         self.room.foreseen_part = stride.foreseen_part;
         self.room.limits.for_step(stride.h);

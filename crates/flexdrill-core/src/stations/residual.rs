@@ -3,6 +3,7 @@
 use super::assembler::Assembler;
 use super::axial::{add, element_values};
 use super::constants::Constants;
+use crate::chain::Effect;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
@@ -24,7 +25,6 @@ impl Assembler {
         }
         self.contact_forces(interactions, model, state, conditions);
         self.joint_forces(&mut interactions.joints, model, state);
-        let bit = &mut interactions.bit;
         let numbered = self.constants.numbered(model);
         numbered.add_ties(&mut self.residual, state, conditions, |_| true);
         if let Some((pressure, forces)) = &self.constants.pressure {
@@ -32,7 +32,9 @@ impl Assembler {
             let entries = self.residual.iter_mut().zip(forces);
             entries.for_each(|(residual, force)| *residual -= at_top * force);
         }
-        numbered.add_rock_and_loads(&mut self.residual, bit, state, conditions, |_| true);
+        self.bit.evaluate(state, conditions);
+        self.bit.applied(&mut self.residual, &|_| true);
+        numbered.add_loads(&mut self.residual, conditions, |_| true);
     }
 
     /// Sets the residual of unknowns without an equation to zero. Reactions are read before this.

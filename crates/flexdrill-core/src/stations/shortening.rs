@@ -105,7 +105,7 @@ impl LedgerPoint {
     /// pressure's force. Gives their elastic energy beyond that (J).
     pub(crate) fn add_shortening(&mut self, model: &Model, state: &State, conditions: &Conditions) -> f64 {
         let mut energy = 0.0;
-        self.sums.of_effects = [0.0];
+        self.sums.of_effects[pressure::PLACE] = 0.0;
         let pressure = PipePressure::around(model);
         for e in 0..model.pipe.len() {
             let at = Stretched::of(model, e, state, conditions);

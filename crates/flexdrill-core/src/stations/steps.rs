@@ -11,7 +11,7 @@ use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
-use crate::elements::rock::BitMark;
+use crate::effects::bit::BitMark;
 use crate::inputs::Inputs;
 use crate::model::Model;
 use crate::step::{Forcing, SolverKind, Stepper, StepperSettings};
@@ -63,7 +63,7 @@ fn witnessed(
     let mut to = from.clone();
     room.set_pin_moments(model, from, &mut to.pin_moments);
     let mut interactions = Interactions::new(model, instructions);
-    interactions.bit.rewind(bit);
+    room.assembler.bit.rewind(bit);
     let stride = Stride {
         scheme: scheme(),
         h: STEP,
@@ -110,7 +110,7 @@ fn check(tool: &ToolDescription, steps: usize, asked: impl Fn(usize) -> bool) ->
         let mut before = stepper.state();
         // Newmark's scheme lags nothing; a state that is looked at does not show it.
         before.lagged.copy_from_slice(&before.a);
-        let bit = stepper.interactions().bit.mark();
+        let bit = stepper.effects().bit.as_ref().unwrap().mark();
         let mut conditions = stepper.conditions(before.time + STEP, &forcing.end());
         conditions.drive_angle = before.drive_angle + 0.5 * STEP * (speed + next);
         speed = next;

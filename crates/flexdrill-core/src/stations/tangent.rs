@@ -5,7 +5,7 @@ use super::assembler::Assembler;
 use super::linear::{BlockSystem, ContactBlock, add_columns};
 use super::shortening::add_shortening_tangent;
 use super::slots::add_slots_tangent;
-use crate::chain::Touching;
+use crate::chain::{Effect, Touching};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::along_the_hole;
@@ -64,14 +64,15 @@ impl Assembler {
         self.contact_tangent(interactions, model, factors);
         self.joint_tangent(&interactions.joints, model, state, factors);
         let constants = self.constants.clone();
-        constants
-            .numbered(model)
-            .end_tangents(&interactions.bit, conditions, factors, |row, column, value| {
-                // The nodes at both ends have no joint: pipe and guide are in the contact block.
-                let station = model.layout.station_of(column);
-                let first = model.layout.offset(station);
-                self.contact_block(station)[column - first][row - first] += value;
-            });
+        let bit = self.bit.clone();
+        // The nodes at both ends have no joint: pipe and guide are in the contact block.
+        let mut add = |row: usize, column: usize, value: f64| {
+            let station = model.layout.station_of(column);
+            let first = model.layout.offset(station);
+            self.contact_block(station)[column - first][row - first] += value;
+        };
+        bit.at_ends(factors, &mut add);
+        constants.numbered(model).end_tangents(conditions, factors, add);
         for body in Bodies::at(model, Some).iter().flat_map(Bodies::coupled) {
             let factors = [factors.stiffness, factors.damping, factors.mass];
             let tangent = body.coupled_tangent(state, conditions.rayleigh.alpha, factors);

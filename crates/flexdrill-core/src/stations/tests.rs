@@ -74,7 +74,6 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
             ..Inputs::ZERO
         },
     );
-    conditions.bit_torque = 90.0;
     conditions.rate_of_penetration = 0.2;
     let state = lively_state(model);
     // A step that began up to 40 um away: some bristles slip, others stick.
@@ -92,10 +91,11 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
     interactions.begin(&start, settings.time_step);
     // The bit is 0.3 mm below the bottom: it cuts, and its wear flats bear fully.
     let bit_before = [
-        state.q[model.places.bit_spin] - turned,
+        state.q[model.places.end_spin] - turned,
         state.q[model.places.guide_end] - 3e-4,
     ];
-    interactions.set_bit(bit_before);
+    assembler.bit.begin(settings.time_step);
+    assembler.bit.start(bit_before);
     assembler.residual(&mut interactions, model, &state, &conditions);
     assert!(interactions.inner.count() > 2, "no inner contact to test");
     assert!(interactions.outer.count() > 2, "no outer contact to test");
@@ -151,7 +151,8 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
                 let mut assembler = Assembler::new(model, Instructions::best());
                 let mut interactions = Interactions::new(model, Instructions::best());
                 interactions.begin(&start, settings.time_step);
-                interactions.set_bit(bit_before);
+                assembler.bit.begin(settings.time_step);
+                assembler.bit.start(bit_before);
                 assembler.residual(&mut interactions, model, &moved, &conditions);
                 assembler.residual
             };

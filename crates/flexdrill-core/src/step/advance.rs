@@ -114,7 +114,7 @@ impl Stepper {
     /// Keeps the present state for [`Stepper::retreat`].
     fn keep(&mut self) {
         self.track.keep();
-        self.bit_mark = Some(self.interactions.bit.mark());
+        self.effects.keep();
         if let Some(string) = &mut self.string {
             string.keep();
         }
@@ -123,9 +123,7 @@ impl Stepper {
     /// Goes back to the state kept last.
     fn retreat(&mut self) {
         self.track.retreat();
-        if let Some(mark) = &self.bit_mark {
-            self.interactions.bit.rewind(mark);
-        }
+        self.effects.retreat();
         if let Some(string) = &mut self.string {
             string.retreat();
         }
@@ -194,8 +192,9 @@ impl Stepper {
         track.measure_displacements();
         let spans = chain.span_works(&track.moved, &track.ledger.spans, &track.trial_ledger.spans);
         let numbered = chain.model.numbered(model);
-        // From here on the part is accepted: bit and string take over their trial states.
-        interactions.bit.accept();
+        // From here on the part is accepted: effects and string take over their trial states.
+        effects.accept(&track.trial);
+        effects.close(&mut track.trial_ledger);
         if let Some(string) = string {
             let (trial, places) = (&track.trial, numbered.places);
             let top = places.guide_top;
@@ -234,7 +233,7 @@ impl Stepper {
         let turns = UNWIND_TURNS.copysign(state.drive_angle);
         self.turns += turns;
         state.drive_angle -= turns * TAU;
-        self.interactions.bit.unwind(turns);
+        self.effects.unwind(turns);
         let unwind = |spin: usize| state.q[spin] -= turns * TAU;
         self.chain.spins().for_each(unwind);
     }

@@ -3,7 +3,7 @@
 use super::Stepper;
 use super::advance::apply_string;
 use super::settings::Counters;
-use crate::chain::ChainEquations;
+use crate::chain::{ChainEquations, Effect};
 use crate::dynamics::conditions::{Conditions, TopEnd};
 use crate::dynamics::state::State;
 use crate::inputs::Inputs;
@@ -13,15 +13,12 @@ use flexdrill_base::energies::Energies;
 /// of some metres of pipe, so that the end moves by micrometres.
 const HELD: [f64; 2] = [1e5, 1e8];
 
-/// Depth of the hole's bottom (m) while the tool comes to rest: far below the bit, which then carries no weight.
-const OFF_BOTTOM: f64 = 10.0;
-
 impl Stepper {
     /// Takes `state`, in the numbering of the model, as the present one, with the audit starting at zero. The
     /// accelerations must balance the forces.
     pub fn start_from(&mut self, state: &State, inputs: &Inputs) {
         let mut conditions = self.held(self.conditions(state.time, inputs));
-        self.lift_off_bottom();
+        self.effects.hold();
         let (to, scratch) = (&mut self.track.state, &mut self.track.trial);
         // The view keeps what the chain has no unknowns for, and never writes: supports' and padding's values.
         self.view.copy_from(state);
@@ -47,17 +44,13 @@ impl Stepper {
             let State { a, lagged, .. } = to;
             lagged.copy_from_slice(a);
         }
+        self.effects.release(&self.track.state);
         self.begin_string(&mut conditions);
         self.evaluate(&conditions, false);
         self.audit = Energies::default();
         self.counters = Counters::default();
         self.turns = 0.0;
         self.inputs = *inputs;
-    }
-
-    /// Lifts the bit off the bottom of the hole.
-    pub(super) fn lift_off_bottom(&mut self) {
-        self.interactions.bit.start(0.0, OFF_BOTTOM);
     }
 
     /// Conditions with the string's end held, while the tool comes to rest.
@@ -69,13 +62,11 @@ impl Stepper {
         conditions
     }
 
-    /// Begins the string's motion with what its held end carried, and the bit's path where the bit is.
+    /// Begins the string's motion with what its held end carried.
     fn begin_string(&mut self, conditions: &mut Conditions) {
         let places = self.places();
         let (spin, top) = (places.top_spin, places.guide_top);
-        let (bit_spin, guide_end) = (places.bit_spin, places.guide_end);
         let state = &self.track.state;
-        (self.interactions.bit).start(state.q[bit_spin], state.q[guide_end]);
         let Some(string) = &mut self.string else { return };
         // The tool pushes back with what the end's stiffness takes.
         let (torque, force) = (-HELD[0] * state.q[spin], -HELD[1] * state.q[top]);
@@ -104,7 +95,6 @@ impl Stepper {
             ..
         } = self;
         let (state, carried, ledger) = (&mut track.state, &mut track.carried, &mut track.ledger);
-        interactions.begin(state, 0.0);
         let mut equations = ChainEquations {
             model,
             chain,
@@ -112,8 +102,10 @@ impl Stepper {
             interactions,
             stopwatch,
         };
+        equations.begin_corrections(state, 0.0);
         equations.evaluate(state, conditions, keep_axial);
         equations.energy(carried, ledger, state, conditions);
+        equations.effects.close(ledger);
         if let Some(string) = &self.string {
             ledger.add_string(string);
         }

@@ -10,7 +10,7 @@ use flexdrill_base::energies::Energies;
 use crate::dynamics::carried::Carried;
 use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::state::State;
-use crate::elements::rock::BitState;
+use crate::effects::Histories;
 use crate::elements::string::StringState;
 use crate::inputs::Inputs;
 use crate::tool::description::LiveParameters;
@@ -28,7 +28,7 @@ pub struct StepperCheckpoint<'a> {
     inputs: Inputs,
     refinement: u32,
     string: Option<Cow<'a, StringState>>,
-    bit: Cow<'a, BitState>,
+    effects: Histories<'a>,
 }
 
 impl Stepper {
@@ -45,7 +45,7 @@ impl Stepper {
             inputs: self.inputs,
             refinement: self.refinement,
             string: self.string.as_ref().map(|string| Cow::Borrowed(string.state())),
-            bit: Cow::Borrowed(self.interactions.bit.state()),
+            effects: self.effects.histories(),
         }
     }
 
@@ -57,7 +57,7 @@ impl Stepper {
             && checkpoint.state.bristles.len() == track.state.bristles.len()
             && checkpoint.carried.fits(&track.carried)
             && checkpoint.ledger.fits(&track.ledger)
-            && self.interactions.bit.fits(&checkpoint.bit)
+            && self.effects.fit(&checkpoint.effects)
             && match (&self.string, &checkpoint.string) {
                 (Some(string), Some(saved)) => string.fits(saved),
                 (None, None) => true,
@@ -69,7 +69,7 @@ impl Stepper {
         self.live = checkpoint.live;
         track.state.copy_from(&checkpoint.state);
         let mut conditions = self.conditions(checkpoint.state.time, &checkpoint.inputs);
-        self.interactions.bit.restore(&checkpoint.bit);
+        self.effects.restore(&checkpoint.effects);
         let (spin, top) = (self.places().top_spin, self.places().guide_top);
         if let (Some(string), Some(saved)) = (&mut self.string, &checkpoint.string) {
             string.restore(saved);

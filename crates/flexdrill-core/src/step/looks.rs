@@ -48,7 +48,7 @@ impl Stepper {
             above = at.lower.tr_mul(&(at.upper * above));
         }
         let at_bottom = chain.pipe_translation(&state.a, last);
-        let spin = chain.model.places.bit_spin;
+        let spin = chain.model.places.end_spin;
         BottomMotion::new([state.v[spin], state.a[spin]], at_bottom.x, above)
     }
 

@@ -17,7 +17,7 @@ mod track;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::chain::{Chain, ChainEquations, Effect};
+use crate::chain::{Chain, ChainEquations, Effect, EndLoad};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
@@ -26,7 +26,6 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Tolerances;
 use crate::effects::{self, Effects};
-use crate::elements::rock::BitMark;
 use crate::elements::string::StringLine;
 use crate::inputs::{InputKind, Inputs};
 use crate::model::{Model, Places};
@@ -58,12 +57,10 @@ pub(crate) struct Stepper {
     /// Steps are taken in 2^refinement parts.
     refinement: u32,
     live: LiveParameters,
-    /// Contacts, joints and bit at the end of the last step.
+    /// Contacts and joints at the end of the last step.
     interactions: Interactions,
     /// The string above, if there is one.
     string: Option<StringLine>,
-    /// Paths of the bit at the start of the step.
-    bit_mark: Option<BitMark>,
     stopwatch: Stopwatch,
     /// The tool over its nodes.
     chain: Chain,
@@ -116,7 +113,6 @@ impl Stepper {
             live: LiveParameters::of(description),
             interactions: Interactions::new(&model, instructions),
             string: description.string.as_ref().map(|string| StringLine::new(string, h)),
-            bit_mark: None,
             stopwatch: Stopwatch::default(),
             effects,
             chain,
@@ -140,7 +136,7 @@ impl Stepper {
         &self.model
     }
 
-    /// Contacts, joints and bit at the end of the last step.
+    /// Contacts and joints at the end of the last step.
     pub fn interactions(&self) -> &Interactions {
         &self.interactions
     }
@@ -153,6 +149,11 @@ impl Stepper {
     /// What acts inside the spans, at the end of the last step.
     pub(crate) fn effects(&self) -> &Effects {
         &self.effects
+    }
+
+    /// What acts on the tool's lower end at the end of the last step; nothing without an effect there.
+    pub(crate) fn end_load(&self) -> EndLoad {
+        self.effects.end_load().unwrap_or_default()
     }
 
     /// Energy since the start.

@@ -23,8 +23,8 @@ pub struct OutsideForces {
     /// Of the wall on the guide: normal forces and friction, and what they and the supports have along the hole because the
     /// tool has moved along the arc, see [`Beam::geometric_along`](crate::elements::beam::Beam::geometric_along).
     pub wall: Vector3<f64>,
-    /// Of the rock on the bit.
-    pub bit: Vector3<f64>,
+    /// Of the rock on the tool's lower end.
+    pub end: Vector3<f64>,
     /// Of the point loads.
     pub loads: Vector3<f64>,
     /// Minus mass times acceleration.
@@ -37,7 +37,7 @@ pub struct OutsideForces {
 impl OutsideForces {
     /// Sum of all: zero but for what the solver leaves.
     pub fn unbalance(&self) -> Vector3<f64> {
-        self.supports + self.weight + self.wall + self.bit + self.loads + self.inertia + self.damping
+        self.supports + self.weight + self.wall + self.end + self.loads + self.inertia + self.damping
     }
 }
 
@@ -202,7 +202,7 @@ impl Stepper {
                 + self.string_on_tool().unwrap_or_default(),
             weight: model.total_weight + self.effects.weight(),
             wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
-            bit: bottom.frame.column(0) * -self.interactions.bit.weight,
+            end: bottom.frame.column(0) * -self.end_load().weight,
             loads: loads.sum(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),
             damping: -sum(&energy.damping, |span| &span.damping) - drag,

@@ -73,7 +73,7 @@ impl Stepper {
     /// The state as given in the numbering of the chain of `tool`, its accelerations as far as steps of size `h` (s) can follow them.
     fn as_given(&mut self, tool: &mut (Chain, Effects), inputs: &Inputs, h: f64) -> Result<State, StartError> {
         let conditions = self.held(self.conditions(0.0, inputs));
-        self.lift_off_bottom();
+        tool.1.hold();
         let model = self.model();
         let mut given = State::at_rest(model);
         let d = &model.description;
@@ -224,7 +224,7 @@ fn settling(mut conditions: Conditions, slid_in: bool) -> Conditions {
         layer.surface.friction_tangential = 0.0;
         layer.surface.friction_axial = 0.0;
     }
-    conditions.bit_torque = 0.0;
+    conditions.comes_to_rest = true;
     conditions.rayleigh.alpha += SETTLING_ALPHA;
     conditions
 }

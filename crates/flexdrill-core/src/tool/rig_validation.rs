@@ -1,13 +1,11 @@
-//! What the string above the tool, its drive and hoist, and the rock must satisfy.
+//! What the string above the tool, its drive and hoist must satisfy.
 
 use super::description::{Direction, Location, ToolDescription, WeightPlace};
-use super::{DepthOfCut, Hoist, Piece, RockLaw, SpeedController, StringDescription, TopDrive, WallFriction, Weakening};
+use super::{Hoist, Piece, SpeedController, StringDescription, TopDrive, WallFriction};
 use crate::validation::{Bound, ValidationError, count, require};
 
 /// Most pieces: one for each 50 m of the longest wells, over thirty times.
 const MOST_PIECES: usize = 10_000;
-/// Most blades, each with 2048 points of the hole's bottom.
-const MOST_BLADES: usize = 1000;
 /// Most rows that the waves of all pieces need while they travel, of 72 bytes each: 150 MB. 15 km of pipe need 75,000 in
 /// steps of 0.5 ms.
 const MOST_ROWS: f64 = 2e6;
@@ -18,26 +16,7 @@ type Checked = Result<(), ValidationError>;
 
 impl ToolDescription {
     pub(super) fn validate_rig(&self) -> Checked {
-        // Each law has its own numbers; combinations with hoist and string follow.
-        match &self.rock {
-            RockLaw::Paper => {}
-            RockLaw::Weakening(weakening) => weakening.validate("rock")?,
-            RockLaw::DepthOfCut(cut) => cut.validate()?,
-        }
-        // A hoist and a rock that holds the bit need each other: only together do they fix the weight.
         let hoist = self.string.as_ref().and_then(|string| string.hoist);
-        let cuts = matches!(self.rock, RockLaw::DepthOfCut(_));
-        require(
-            cuts || hoist.is_none(),
-            "string.hoist",
-            "a hoist needs a rock that holds the bit; leave the hoist out or set rock to DepthOfCut",
-        )?;
-        require(
-            !cuts || hoist.is_some(),
-            "rock",
-            "DepthOfCut gives the weight on bit as a result, so that the top of the tool must be able to move along the hole; \
-             give string.hoist or another law",
-        )?;
         // Without a string nothing above is left to check.
         let Some(string) = &self.string else {
             return Ok(());
@@ -148,24 +127,5 @@ impl Hoist {
         Bound::Positive.check("string.hoist.fastest", self.fastest, "m/s")?;
         Bound::Above(0.0, self.fastest).check("string.hoist.touch_down", self.touch_down, "m/s")?;
         Bound::NotNegative.check("string.hoist.clearance", self.clearance, "m")
-    }
-}
-
-impl Weakening {
-    fn validate(&self, under: &str) -> Checked {
-        Bound::Within(1.0, f64::MAX).check(&format!("{under}.ratio"), self.ratio, "")?;
-        Bound::Positive.check(&format!("{under}.rate"), self.rate, "rad/s")
-    }
-}
-
-impl DepthOfCut {
-    fn validate(&self) -> Checked {
-        count("rock.blades", self.blades as usize, 1, MOST_BLADES)?;
-        Bound::Positive.check("rock.specific_energy", self.specific_energy, "Pa")?;
-        Bound::Positive.check("rock.cutter_inclination", self.cutter_inclination, "")?;
-        Bound::NotNegative.check("rock.wear_flat_force", self.wear_flat_force, "N")?;
-        Bound::NotNegative.check("rock.wear_flat_friction", self.wear_flat_friction, "")?;
-        Bound::Positive.check("rock.wear_flat_travel", self.wear_flat_travel, "m")?;
-        self.weakening.validate("rock.weakening")
     }
 }

@@ -1,9 +1,8 @@
 //! What a description must satisfy before a model can be built from it.
 
 use super::description::{
-    BitDescription, Body, Direction, FrictionLaw, GapDescription, JointDescription, JointKind, LiveParameters,
-    LoadHistory, Location, Material, ToolDescription, Tube, WallFrictionFactors, WeightPlace, WellDescription,
-    WellSection, WobPath,
+    Body, Direction, FrictionLaw, GapDescription, JointDescription, JointKind, LoadHistory, Location, Material,
+    ToolDescription, Tube, WallFrictionFactors, WeightPlace, WellDescription, WellSection, WobPath,
 };
 use crate::validation::{Bound, ValidationError, count, length, require};
 
@@ -30,11 +29,11 @@ impl ToolDescription {
         self.outer.validate("outer")?;
         self.wall_friction_factors.validate()?;
         Bound::Positive.check("slip_speed", self.slip_speed, "m/s")?;
-        self.bit.validate()?;
         Bound::NotNegative.check("gravity", self.gravity, "m/s2")?;
         self.check_along_the_pipes()?;
         self.validate_supports()?;
         self.validate_weight_place()?;
+        self.check_lower_end()?;
         self.validate_rig()?;
         self.validate_loads()?;
         self.validate_start()
@@ -322,32 +321,6 @@ impl GapDescription {
         self.slip_speed.map_or(Ok(()), |speed| {
             Bound::Positive.check(&format!("{under}.slip_speed"), speed, "m/s")
         })
-    }
-}
-
-impl BitDescription {
-    fn validate(&self) -> Checked {
-        Bound::Positive.check("bit.diameter", self.diameter, "m")?;
-        Bound::NotNegative.check("bit.friction_factor", self.friction_factor, "")?;
-        Bound::Positive.check("bit.slip_rate", self.slip_rate, "rad/s")?;
-        Bound::NotNegative.check("bit.inertia", self.inertia, "kg m2")
-    }
-}
-
-impl LiveParameters {
-    /// Checks every coefficient: finite and not negative.
-    ///
-    /// # Errors
-    /// As [`ToolDescription::validate`].
-    pub fn validate(&self) -> Checked {
-        let coefficients = [
-            ("inner_friction[0]", self.inner_friction[0]),
-            ("inner_friction[1]", self.inner_friction[1]),
-            ("outer_friction[0]", self.outer_friction[0]),
-            ("outer_friction[1]", self.outer_friction[1]),
-            ("bit_friction_factor", self.bit_friction_factor),
-        ];
-        Bound::NotNegative.check_all("live", &coefficients, "")
     }
 }
 

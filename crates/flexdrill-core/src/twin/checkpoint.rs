@@ -23,7 +23,7 @@ use crate::tool::ToolDescription;
 const MAGIC: [u8; 8] = *b"flexdrCP";
 
 /// Changes with every change of what a state consists of.
-pub(super) const FORMAT: u32 = 24;
+pub(super) const FORMAT: u32 = 25;
 
 const HASH: usize = 32;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + HASH;

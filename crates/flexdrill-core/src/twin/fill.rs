@@ -58,7 +58,7 @@ pub(super) fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
     out.supports = forces.supports.into();
     out.weight = forces.weight.into();
     out.wall = forces.wall.into();
-    out.bit = forces.bit.into();
+    out.bit = forces.end.into();
     out.loads = forces.loads.into();
     out.inertia = forces.inertia.into();
     out.damping = forces.damping.into();

@@ -25,7 +25,6 @@ fn check_state(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tu
     let scheme = Scheme::generalised_alpha(0.45);
     let factors = scheme.factors(h);
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.3, 1e4);
-    conditions.bit_torque = 90.0;
     conditions.rate_of_penetration = 0.2;
     conditions.standpipe_pressure = 5e6;
     for instructions in Instructions::available() {
@@ -41,9 +40,8 @@ fn check_state(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tu
 
         let mut room = Room::new(&model, &chain, instructions);
         let start = before(&chain, &state, seed);
-        room.interactions.begin(&start, h);
         let bit_before = bit_before(&chain, &state, turned);
-        room.interactions.set_bit(bit_before);
+        room.begin(&start, h, bit_before);
         equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
         let mut full = State::at_rest(&model);
         let forces = JointForces {
@@ -56,7 +54,8 @@ fn check_state(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tu
         let mut full_start = State::at_rest(&model);
         chain.show(&model, &start, &forces, &mut full_start);
         at_stations.begin(&full_start, h);
-        at_stations.set_bit(bit_before);
+        whole.bit.begin(h);
+        whole.bit.start(bit_before);
         whole.residual(&mut at_stations, &model, &full, &conditions);
         let inside = |layer: &LayerContacts| {
             layer

@@ -26,7 +26,6 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
 fn check_chain(tool: &ToolDescription, model: &Model, mut chain: Chain, axial: f64, turned: f64) {
     let factors = Scheme::newmark(0.6).factors(5e-4);
     let mut conditions = Conditions::new(tool, &LiveParameters::of(tool), 0.0, 1e4);
-    conditions.bit_torque = 90.0;
     conditions.rate_of_penetration = 0.2;
     let instructions = Instructions::best();
     let mut state = lively(&chain, model, 21);
@@ -37,9 +36,8 @@ fn check_chain(tool: &ToolDescription, model: &Model, mut chain: Chain, axial: f
     }
     let mut room = Room::new(model, &chain, instructions);
     let start = before(&chain, &state, 22);
-    room.interactions.begin(&start, 5e-4);
     let bit_before = bit_before(&chain, &state, turned);
-    room.interactions.set_bit(bit_before);
+    room.begin(&start, 5e-4, bit_before);
     equations(model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
     assert!(room.interactions.inner.count() > 2, "no inner contact to test");
     assert!(
@@ -78,8 +76,7 @@ fn check_chain(tool: &ToolDescription, model: &Model, mut chain: Chain, axial: f
             .for_each(|(to, x)| *to = by * x);
         // New room each time, as the laws learn of friction from one correction to the next.
         let mut room = Room::new(model, &chain, instructions);
-        room.interactions.begin(&start, 5e-4);
-        room.interactions.set_bit(bit_before);
+        room.begin(&start, 5e-4, bit_before);
         let mut newton = equations(model, &mut chain, &mut room);
         correct(&newton, &mut moved, factors);
         newton.evaluate(&mut moved, &conditions, true);

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix3};
 
 use crate::Instructions;
 use crate::chain::dependents::{FIRST_ROW, SECOND_ROW};
-use crate::chain::{Chain, ChainEquations, NODE, TIE};
+use crate::chain::{Chain, ChainEquations, Effect, NODE, TIE};
 use crate::dynamics::carried::{Carried, JointForces};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
@@ -179,14 +179,14 @@ fn before(chain: &Chain, state: &State, seed: u64) -> State {
     before
 }
 
-/// A law under which a bit sticks. The law with depth of cut needs a hoist; `elements/rock/tests.rs` has its derivatives.
+/// A law under which a bit sticks. The law with depth of cut needs a hoist; `effects/bit/tests.rs` has its derivatives.
 const ROCKS: [RockLaw; 1] = [RockLaw::Weakening(Weakening { ratio: 1.8, rate: 4.0 })];
 
 /// Angle of the bit (rad) that a step has `turned` (rad), and a bottom 0.3 mm above the bit (m): it cuts, and its wear flats
 /// bear fully.
 fn bit_before(chain: &Chain, state: &State, turned: f64) -> [f64; 2] {
     let places = &chain.model.places;
-    [state.q[places.bit_spin] - turned, state.q[places.guide_end] - 3e-4]
+    [state.q[places.end_spin] - turned, state.q[places.guide_end] - 3e-4]
 }
 
 fn mass(location: Location, body: Body) -> PointMass {
@@ -284,6 +284,13 @@ impl Room {
             interactions: Interactions::new(model, instructions),
             stopwatch: Stopwatch::default(),
         }
+    }
+
+    /// Begins a step of size `h` (s) from `start`, in which the bit was at an angle (rad) over a flat bottom at a depth (m).
+    fn begin(&mut self, start: &State, h: f64, bit_before: [f64; 2]) {
+        self.interactions.begin(start, h);
+        self.effects.begin(h);
+        self.effects.bit.as_mut().unwrap().start(bit_before);
     }
 }
 

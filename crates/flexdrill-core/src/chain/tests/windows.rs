@@ -14,8 +14,7 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
     let tool = small(40, 2);
     let model = Model::new(&tool).unwrap();
     let factors = Scheme::generalised_alpha(0.45).factors(5e-4);
-    let mut conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
-    conditions.bit_torque = 90.0;
+    let conditions = Conditions::new(&tool, &LiveParameters::of(&tool), 0.3, 1e4);
     for instructions in Instructions::available() {
         let mut chain = Chain::of(&model, &Tolerances::default(), 5e-4, &acting(&model), instructions);
         let mut room = Room::new(&model, &chain, instructions);

@@ -11,12 +11,15 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use step::{SpanWorks, StepEnd, StepWork};
 
-use crate::dynamics::carried::{Carried, EFFECT_PLACES};
+use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
 use crate::elements::string::StringLine;
 use crate::model::Model;
+
+/// Places for numbers that the works of effects need of both ends of a step. The format of a checkpoint has so many.
+pub(crate) const LEDGER_PLACES: usize = 3;
 
 /// Forces of a span on its ends, pipe and guide: six numbers of the top end, two zeros, six of the bottom end, two zeros.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -44,29 +47,25 @@ pub struct Sums {
     pub(crate) foresight: f64,
     /// Power of contact, stop and play damping (W).
     pub(crate) contact_dissipation: f64,
-    /// Torque of the rock (N m).
-    bit_torque: f64,
-    /// Weight on the bit (N).
-    weight_on_bit: f64,
+    /// Force on the tool's lower end up the hole (N).
+    pub(crate) pushed_up: f64,
     /// Energy that the string has lost so far (J), to friction on the wall and inside.
     string_lost: f64,
     /// Work of the hoist so far (J).
     hoist_work: f64,
     /// Rate at which the frame advances with the tool below a hoist (m/s).
-    advance: f64,
+    pub(crate) advance: f64,
     /// Power of that advance in the weight on bit less that in the string's force (W): the string and the rock move in the
     /// frame of the hole, the tool in its own.
     advance_power: f64,
     /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
     bristles: f64,
-    /// Energy in the twist of a bit that sticks (J), which the rock has not taken yet.
-    bit_elastic: f64,
     /// Power of the advance against the friction of the wall (W).
     feed: f64,
     /// Work of the weight of what effects have at nodes, since the tool was undeflected (J).
     pub(crate) fallen: f64,
     /// What the works of effects need of this end of the step, each at its place.
-    pub(crate) of_effects: [f64; EFFECT_PLACES],
+    pub(crate) of_effects: [f64; LEDGER_PLACES],
 }
 
 /// Forces and energies at one end of a step that the ledger's trapezoid rule needs at the other. Nothing in the motion
@@ -156,7 +155,7 @@ impl LedgerPoint {
         self.sums.hoist_work = string.hoist_work();
         if let Some(hoist) = string.hoist() {
             self.sums.advance = hoist.advance;
-            self.sums.advance_power = (self.sums.weight_on_bit - string.force_on_tool()) * hoist.advance;
+            self.sums.advance_power = (self.sums.pushed_up - string.force_on_tool()) * hoist.advance;
         }
     }
 
@@ -176,7 +175,7 @@ impl LedgerPoint {
         [&mut self.damping, &mut self.inertia]
     }
 
-    /// Adds joints, loads, drive and bit to what elements, effects and contacts have `stored` (J), and writes what supports,
+    /// Adds joints, loads and drive to what elements, effects and contacts have `stored` (J), and writes what supports,
     /// pins and drive carry.
     pub(crate) fn finish(
         &mut self,
@@ -219,11 +218,10 @@ impl LedgerPoint {
         for (reaction, held) in carried.reactions.iter_mut().zip(&places.held) {
             *reaction = held.map_or(0.0, |held| residual[held]);
         }
-        // Bristles of the contacts and of the bit are springs: what they hold is stored, not lost.
+        // Bristles of the contacts are springs: what they hold is stored, not lost.
         self.sums.bristles =
             interactions.inner.bristle_energy(&conditions.inner) + interactions.outer.bristle_energy(&conditions.outer);
-        self.sums.bit_elastic = interactions.bit.elastic;
-        self.sums.stored = stored + self.sums.bristles + self.sums.bit_elastic;
+        self.sums.stored = stored + self.sums.bristles;
         // The wall moves past the guide by the advance. Without one the
         // sum must be exactly zero, and not a rounding of it.
         self.sums.feed = if conditions.rate_of_penetration == 0.0 {
@@ -235,7 +233,5 @@ impl LedgerPoint {
         // At the driven spin the residual is the drive's torque. A string computes its own.
         let at_the_tool = places.driven.map_or(0.0, |driven| residual[driven]);
         carried.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);
-        self.sums.bit_torque = interactions.bit.torque;
-        self.sums.weight_on_bit = interactions.bit.weight;
     }
 }

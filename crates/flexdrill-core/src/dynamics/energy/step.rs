@@ -135,16 +135,8 @@ impl StepWork<'_> {
                 mean(before.carried.drive_torque, after.carried.drive_torque) * (s1.drive_angle - s0.drive_angle);
             ledger.hoist += at1.hoist_work - at0.hoist_work;
             ledger.string += at1.string_lost - at0.string_lost;
-            // The bit goes down with the frame.
-            let advanced = h * mean(at0.advance, at1.advance);
-            ledger.weight_on_bit -= mean(at0.weight_on_bit, at1.weight_on_bit) * advanced;
             ledger.feed += h * mean(at0.advance_power, at1.advance_power);
         }
-        // The weight on bit is an input at the guide's end, or the rock's answer; either works on that displacement.
-        ledger.weight_on_bit -= mean(at0.weight_on_bit, at1.weight_on_bit) * moved[places.guide_end];
-        // What the twist of a bit that sticks takes it gives back.
-        let twisted = at1.bit_elastic - at0.bit_elastic;
-        ledger.bit += mean(at0.bit_torque, at1.bit_torque) * moved[places.bit_spin] - twisted;
         for (k, &load) in places.loads.iter().enumerate() {
             ledger.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
         }

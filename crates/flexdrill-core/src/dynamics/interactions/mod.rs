@@ -1,4 +1,4 @@
-//! What acts between bodies: pipe and guide, guide and wall, the ends that joints connect, bit and rock.
+//! What acts between bodies: pipe and guide, guide and wall, the ends that joints connect.
 //!
 //! Whoever evaluates a residual, the chain or the plain station equations, evaluates these laws into one owner. It holds
 //! them as the last residual left them: the tangent, the energy audit and the observers read them from here.
@@ -7,7 +7,6 @@ mod joints;
 
 use crate::dynamics::state::{State, bristles};
 use crate::elements::gap::LayerContacts;
-use crate::elements::rock::BitLoad;
 use crate::model::Model;
 use crate::simd::Instructions;
 
@@ -15,7 +14,7 @@ use crate::simd::Instructions;
 pub(crate) use joints::JointLinearisation;
 pub(crate) use joints::{JointTangent, Joints, pin_lanes, rotations};
 
-/// Contacts, joints and what the rock does to the bit at the last residual.
+/// Contacts and joints at the last residual.
 #[derive(Clone)]
 pub struct Interactions {
     /// Closed gaps between pipe and guide.
@@ -24,8 +23,6 @@ pub struct Interactions {
     pub outer: LayerContacts,
     /// Rotational rows, stops, play and pin friction of the joints.
     pub joints: Joints,
-    /// Torque and weight of the rock on the bit.
-    pub bit: BitLoad,
     /// Whether a layer's friction has bristles.
     has_bristles: bool,
     /// Displacements at the start of the step, in the numbering that it is taken in; for bristles only.
@@ -48,7 +45,6 @@ impl Interactions {
                     .collect(),
             ),
             joints: Joints::new(model, instructions),
-            bit: BitLoad::new(&model.description.rock),
             has_bristles,
             // A station has at most 24 unknowns in the numbering of the model, and at most a node of 16 in the chain's.
             start: Vec::with_capacity(if has_bristles { 24 * model.stations.len() } else { 0 }),
@@ -60,7 +56,6 @@ impl Interactions {
     /// in which bristles keep their forces. The laws forget what they learned of friction in the corrections of the step
     /// before.
     pub(crate) fn begin(&mut self, from: &State, step: f64) {
-        self.bit.begin(step);
         self.joints.begin();
         self.step = step;
         self.inner.begin(from.bristles.iter().map(|station| station[0]), step);
@@ -69,12 +64,6 @@ impl Interactions {
             self.start.clear();
             self.start.extend_from_slice(&from.q);
         }
-    }
-
-    /// Lets the bit begin the step at `angle` (rad) without torque, over a flat bottom at `depth` (m).
-    #[cfg(test)]
-    pub(crate) fn set_bit(&mut self, [angle, depth]: [f64; 2]) {
-        self.bit.start(angle, depth);
     }
 
     /// Keeps the friction of the bristles at the end of a step in `to`.

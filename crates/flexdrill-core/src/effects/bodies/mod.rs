@@ -1,4 +1,4 @@
-//! Rigid bodies on nodes: point masses, and the bit's inertia. Their [law] is [`PointBody`]; their diagonal masses are data of
+//! Rigid bodies on nodes: point masses, and what the tool ends in. Their [law] is [`PointBody`]; their diagonal masses are data of
 //! the nodes, and what couples the directions of a node (unbalance, gyroscopic moments, the turning weight) acts here.
 
 mod law;
@@ -10,7 +10,7 @@ use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
 use crate::model::Model;
-use crate::tool::{Body, Location, PointMass};
+use crate::tool::{Body, PointMass};
 
 use law::{NodeMotion, PointBody};
 
@@ -43,11 +43,11 @@ struct Described {
     frame: Matrix3<f64>,
 }
 
-/// The bodies of the description, then the bit's inertia.
+/// The bodies of the description.
 fn described(model: &Model) -> Vec<Described> {
     let d = &model.description;
     let mut found = Vec::new();
-    for mass in &d.masses {
+    for mass in d.bodies() {
         // The checks of the description have found every location on the tool.
         for unknown in model
             .nodes("masses", mass.location, mass.body, false)
@@ -61,31 +61,12 @@ fn described(model: &Model) -> Vec<Described> {
                 Body::Pipe => station.frame * station.pipe_to_station,
             };
             found.push(Described {
-                mass: *mass,
+                mass,
                 unknown,
                 gravity: frame.transpose() * (Vector3::z() * d.gravity),
                 frame: model.node_of(unknown).2,
             });
         }
-    }
-    // The inertia of the bit acts against its spin; it has no weight here.
-    if d.bit.inertia > 0.0 {
-        let unknown = model.stations[model.last()].pipe_above;
-        found.push(Described {
-            mass: PointMass {
-                location: Location::Bottom,
-                body: Body::Pipe,
-                mass: 0.0,
-                axial_inertia: d.bit.inertia,
-                // That of a thin disc: the smallest ratio that a body can have.
-                transverse_inertia: 0.5 * d.bit.inertia,
-                eccentricity: 0.0,
-                eccentricity_phase: 0.0,
-            },
-            unknown,
-            gravity: Vector3::zeros(),
-            frame: model.node_of(unknown).2,
-        });
     }
     found
 }

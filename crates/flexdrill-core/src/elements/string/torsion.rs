@@ -19,7 +19,7 @@ impl ToolDescription {
         let wave = |(tube, length)| Piece::of(&SectionProperties::of(tube, self.material, 1.0), length).torsion;
         HangingTool {
             pieces: parts.into_iter().map(wave).collect(),
-            inertia: self.bit.inertia,
+            inertia: self.inertia_at_end(),
         }
     }
 

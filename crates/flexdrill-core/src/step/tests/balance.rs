@@ -41,7 +41,7 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     let mut witness = Assembler::new(model, Instructions::best());
     let mut interactions = Interactions::new(model, Instructions::best());
     interactions.begin(&state, 0.0);
-    interactions.set_bit([0.0, 0.0]);
+    witness.bit.start([0.0, 0.0]);
     let loaded = Inputs {
         weight_on_bit,
         ..Inputs::ZERO

@@ -3,16 +3,16 @@
 //! The model is built from a [`ToolDescription`], which is checked then. While the model runs only the
 //! [`LiveParameters`] can change.
 
+mod bit;
 mod joint;
-mod rock;
 mod string;
 mod whole;
 
 pub use flexdrill_base::{Body, Location};
 use serde::{Deserialize, Serialize};
 
+pub use bit::*;
 pub use joint::*;
-pub use rock::*;
 pub use string::*;
 pub use whole::*;
 
@@ -182,33 +182,6 @@ impl GapDescription {
     }
 }
 
-/// The bit, Eq. 1: torque = eta D WOB / 3 against its rotation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct BitDescription {
-    /// Bit diameter (m).
-    pub diameter: f64,
-    /// Friction factor between bit and rock, eta.
-    pub friction_factor: f64,
-    /// Bit speed at which the regularised torque reaches 71 % of Eq. 1 (rad/s).
-    pub slip_rate: f64,
-    /// Rotary inertia about the axis (kg m2), a thin disc's.
-    pub inertia: f64,
-}
-
-impl BitDescription {
-    /// A bit of `diameter` (m) with the friction factor eta of Eq. 1, without inertia.
-    #[must_use]
-    pub const fn new(diameter: f64, friction_factor: f64) -> Self {
-        Self {
-            diameter,
-            friction_factor,
-            slip_rate: 0.1,
-            inertia: 0.0,
-        }
-    }
-}
-
 /// One of a node's six degrees of freedom, in storage order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -300,15 +273,4 @@ pub struct PointLoad {
     pub direction: Direction,
     /// How much, when.
     pub history: LoadHistory,
-}
-
-/// Parameters that may change while the model runs; all others are fixed when it is built.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct LiveParameters {
-    /// Inner layer, mu_1 and mu_2.
-    pub inner_friction: [f64; 2],
-    /// Outer layer, mu_1 and mu_2, where [`ToolDescription::wall_friction_factors`] are 1.
-    pub outer_friction: [f64; 2],
-    /// eta of Eq. 1.
-    pub bit_friction_factor: f64,
 }

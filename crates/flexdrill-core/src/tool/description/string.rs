@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::ToolDescription;
+
 /// The string as built.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StringDescription {
@@ -13,6 +15,13 @@ pub struct StringDescription {
     pub hoist: Option<Hoist>,
     /// Weight of the string in mud along the hole (N), for the hook load.
     pub weight: f64,
+}
+
+impl ToolDescription {
+    /// Whether a hoist carries the tool, so that its top moves along the hole.
+    pub(crate) fn hangs_on_a_hoist(&self) -> bool {
+        self.string.as_ref().is_some_and(|string| string.hoist.is_some())
+    }
 }
 
 /// A uniform piece of the string.

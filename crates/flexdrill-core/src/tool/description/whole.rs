@@ -99,6 +99,44 @@ pub struct ToolDescription {
     pub slid_in: bool,
 }
 
+/// Parameters that may change while the model runs; all others are fixed when it is built.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LiveParameters {
+    /// Inner layer, mu_1 and mu_2.
+    pub inner_friction: [f64; 2],
+    /// Outer layer, mu_1 and mu_2, where [`ToolDescription::wall_friction_factors`] are 1.
+    pub outer_friction: [f64; 2],
+    /// eta of Eq. 1.
+    pub bit_friction_factor: f64,
+}
+
+impl LiveParameters {
+    /// The description's own values.
+    #[must_use]
+    pub fn of(description: &ToolDescription) -> Self {
+        Self {
+            inner_friction: [description.inner.friction_tangential, description.inner.friction_axial],
+            outer_friction: [description.outer.friction_tangential, description.outer.friction_axial],
+            bit_friction_factor: description.bit.friction_factor,
+        }
+    }
+
+    /// Checks every coefficient: finite and not negative.
+    ///
+    /// # Errors
+    /// As [`ToolDescription::validate`].
+    pub fn validate(&self) -> Checked {
+        let coefficients = [
+            ("inner_friction[0]", self.inner_friction[0]),
+            ("inner_friction[1]", self.inner_friction[1]),
+            ("outer_friction[0]", self.outer_friction[0]),
+            ("outer_friction[1]", self.outer_friction[1]),
+            ("bit_friction_factor", self.bit_friction_factor),
+        ];
+        Bound::NotNegative.check_all("live", &coefficients, "")
+    }
+}
+
 impl ToolDescription {
     /// Checks what a guide needs that is not without stress in the path, or whose slots close as it bends.
     pub(in crate::tool) fn check_guide(&self) -> Checked {
@@ -213,6 +251,26 @@ impl ToolDescription {
             let at_end = matches!(support.location, Location::Bottom | Location::All) || support.location == last;
             at_end && support.body == Body::Pipe && support.directions.contains(&Direction::U)
         })
+    }
+
+    /// Bodies on nodes: those that are described, then the inertia of the bit, which acts against its spin and has no weight here.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = PointMass> {
+        let of_bit = (self.bit.inertia > 0.0).then(|| PointMass {
+            location: Location::Bottom,
+            body: Body::Pipe,
+            mass: 0.0,
+            axial_inertia: self.bit.inertia,
+            // That of a thin disc: the smallest ratio that a body can have.
+            transverse_inertia: 0.5 * self.bit.inertia,
+            eccentricity: 0.0,
+            eccentricity_phase: 0.0,
+        });
+        self.masses.iter().copied().chain(of_bit)
+    }
+
+    /// Inertia at the pipe's lower end about its axis (kg m2).
+    pub(crate) fn inertia_at_end(&self) -> f64 {
+        self.bit.inertia
     }
 
     /// Checks the bodies on nodes.

@@ -100,11 +100,11 @@ impl Observer {
             out.shape.guide[s] = [guide.y, guide.z];
         }
         // Torque and weight are the rock's, the speed that of the last node.
-        let bottom = &model.stations[model.last()];
+        let (bottom, end) = (&model.stations[model.last()], stepper.end_load());
         let [torque, rotary_speed, weight_on_bit] = [
-            forces.bit.torque,
+            end.torque,
             state.v[bottom.pipe_above + Direction::Psi as usize],
-            forces.bit.weight,
+            end.weight,
         ];
         // Before the first interval has a mean, the present values stand for it.
         let means = self.bit.value().unwrap_or([torque, rotary_speed, weight_on_bit]);

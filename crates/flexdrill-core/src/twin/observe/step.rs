@@ -23,7 +23,7 @@ impl Observer {
         if self.quality.push(dt, stepper.audit()) {
             self.update_trust();
         }
-        let (model, forces) = (stepper.model(), stepper.interactions());
+        let forces = stepper.interactions();
         // Drag and power of a layer are summed with its contacts, as the transfer needs both.
         let mut rubbing = [Rubbing::default(); 2];
         for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
@@ -61,12 +61,11 @@ impl Observer {
 
         // The bit's motion comes from the chain, without the cost of a full state.
         let bottom = stepper.bottom_motion();
-        let bit = &stepper.interactions().bit;
-        let of_bit = [bit.torque, bottom.spin_rate, bit.weight];
+        let end = stepper.end_load();
+        let of_bit = [end.torque, bottom.spin_rate, end.weight];
         self.bit.push(dt, of_bit);
         self.steering.push(dt, of_bit, sample.rate_of_penetration, stepper);
-        let radius = 0.5 * model.description.bit.diameter;
-        self.tangential.push(dt, radius * bottom.spin_acceleration);
+        self.tangential.push(dt, end.radius * bottom.spin_acceleration);
         self.axial.push(dt, bottom.axial_acceleration);
         self.lateral.push_square(dt, bottom.lateral_square);
         self.stick_slip
@@ -141,26 +140,26 @@ struct Rubbing {
 
 /// What the step that was taken last says about transfer.
 fn transfer_sample(stepper: &Stepper, applied: &Applied, [inner, outer]: &[Rubbing; 2]) -> TransferSample {
-    let (string, bit) = (stepper.string(), &stepper.interactions().bit);
+    let (string, end) = (stepper.string(), stepper.end_load());
     let hoist = string.and_then(|string| string.hoist());
     let of_string = string.map_or([f64::NAN; 2], |string| string.drag());
     TransferSample {
         torque: [
             string.map_or(f64::NAN, |_| stepper.drive_torque()),
             stepper.torque_at_kickoff(),
-            bit.torque,
+            end.torque,
         ],
         weight: [
             hoist.map_or(f64::NAN, |hoist| hoist.weight),
             stepper.weight_at_kickoff().unwrap_or(f64::NAN),
-            bit.weight,
+            end.weight,
         ],
         speed: stepper.top_speed(),
         feed_power: outer.drag * stepper.advance_of_frame(),
         string_torque: of_string[0],
         axial_drag: [inner.drag, outer.drag, hoist.map_or(f64::NAN, |_| of_string[1])],
         hook_load: stepper.hook_load().unwrap_or(f64::NAN),
-        depth_of_cut: if bit.holds() { bit.depth_of_cut } else { f64::NAN },
+        depth_of_cut: end.depth_of_cut.unwrap_or(f64::NAN),
         rate_of_penetration: f64::NAN,
         friction_power: [inner.power, outer.power, stepper.joint_friction().iter().sum()],
         asked_speed: applied.rotary_speed,

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::*;
+use super::load::{BitAt, BitLoad, BitState};
+use super::{Bristle, Groove};
 use crate::support::{figure, scaled_figure};
-use crate::tool::description::RockLaw;
+use crate::tool::description::{DepthOfCut, RockLaw, Weakening};
 use crate::units::rpm_to_rad_per_s;
 
 const CUT: DepthOfCut = DepthOfCut {

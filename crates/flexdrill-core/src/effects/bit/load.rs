@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::bristle::Held;
 use super::groove::GrooveMark;
-use super::{Answer, Bristle, Groove};
+use super::law::Answer;
+use super::{Bristle, Groove};
 use crate::elements::slip::{Slip, SlipMemory};
 use crate::tool::description::{RockLaw, Weakening};
 

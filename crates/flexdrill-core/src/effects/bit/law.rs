@@ -1,38 +1,7 @@
-//! The rock under the bit: the torque against the rotation and, where the rock holds the bit, the weight.
-//!
-//! Three laws:
-//!
-//! - [`RockLaw::Paper`], Eq. 1: T = eta D W / 3, with the weight W given.
-//! - [`RockLaw::Weakening`]: the same times P(omega) = 1 + (mu_s / mu_k - 1) exp(-|omega| / omega_c), which falls as the bit
-//!   turns faster and so excites torsional vibration.
-//! - [`RockLaw::DepthOfCut`]: cutting and wear flats (Detournay and Defourny, Int. J. Rock Mech. 29, 1992), with the depth of
-//!   cut from the paths of the blades before (Richard, Germay and Detournay, J. Sound Vib. 305, 2007). The weight is then a
-//!   result:
-//!
-//! ```text
-//! d = n [U - max path]+        W = zeta e a d + W_f        T = e a^2 d / 2 + mu_g a W_f / 2 P(omega)
-//! ```
-//!
-//! U is the depth of the bit (m, down), n the number of blades, a the radius. That is while the bit turns ahead. Turning back,
-//! its cutters leave the rock: only the wear flats act, they carry all the weight, and nothing is removed.
-//!
-//! The torque of the paper's law has a smooth sign of the speed, by which a bit that is held creeps. With the other laws
-//! the bit sticks on an elastic twist ([`Bristle`]).
+//! What the rock resists with: the depth of cut over the paths of the blades, the wear flats, and a friction that falls with
+//! the speed. The laws are printed in [`super`].
 
-mod bit;
-mod bristle;
-mod groove;
-#[cfg(test)]
-mod tests;
-
-#[cfg(feature = "checkpoints")]
-pub use bit::BitState;
-pub use bit::{BitAt, BitLoad, BitMark};
-pub use bristle::Bristle;
-pub use groove::Groove;
-
-#[cfg(doc)]
-use crate::tool::description::RockLaw;
+use super::Groove;
 use crate::tool::description::{DepthOfCut, Weakening};
 
 impl Weakening {
