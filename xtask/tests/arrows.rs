@@ -242,7 +242,7 @@ const fn effect(own: &'static [&'static str], words: &'static [&'static str]) ->
     }
 }
 
-const EFFECTS: [OfEffect; 8] = [
+const EFFECTS: [OfEffect; 9] = [
     // Its description has a file, next to that of the whole tool. The words are those of law, description and state: torque,
     // weight and speed at the tool's lower end are published as those of the bit by whoever reads them.
     OfEffect {
@@ -261,6 +261,27 @@ const EFFECTS: [OfEffect; 8] = [
             "bit_torque",
             "bit_slip_rate",
             "bit_friction",
+        ],
+        others: &[],
+        most: 4,
+    },
+    // Its description has a file, too. What it does to the tool's top is published as that of string, drive and hoist.
+    OfEffect {
+        own: &["string"],
+        words: &[
+            "StringDescription",
+            "StringLine",
+            "StringStep",
+            "StringState",
+            "DrillString",
+            "string::Drill",
+            "description.string",
+            ".string",
+            "string:",
+            "TopDrive",
+            "TopEnd",
+            "HoistState",
+            "Option<Hoist>",
         ],
         others: &[],
         most: 4,

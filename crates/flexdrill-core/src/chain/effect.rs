@@ -50,6 +50,52 @@ pub(crate) struct EndLoad {
     pub depth_of_cut: Option<f64>,
 }
 
+/// What is asked for at the end of a part of a step, beyond the [`Conditions`] there.
+pub(crate) struct Asked {
+    /// Size of the part (s).
+    pub h: f64,
+    /// Rotary speed (rad/s).
+    pub rotary_speed: f64,
+    /// Angle of the drive at the start of the part (rad).
+    pub drive_angle: f64,
+}
+
+/// What turns the tool's top, and may carry it, at the end of the last step, where it is not held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FromAbove {
+    /// Torque on the pipe's top (N m), positive where it drives.
+    pub torque: f64,
+    /// Speed of the drive (rad/s).
+    pub drive_speed: f64,
+    /// Whether the drive's torque is at its limit.
+    pub drive_at_limit: bool,
+    /// Torque (N m) and axial force (N, against advance) of friction above the tool.
+    pub drag: [f64; 2],
+    /// Load on the hook (N), without what supports at the tool's top hold.
+    pub hook_load: f64,
+    /// Time that a torsional wave needs from the drive to the tool (s).
+    pub delay: f64,
+    /// What carries the tool along the hole; `None` where a support does.
+    pub carrier: Option<Carrier>,
+}
+
+/// What carries the tool along the hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Carrier {
+    /// Axial force on the guide's top (N), positive where it pushes down the hole.
+    pub force: f64,
+    /// Weight that is slacked off at the surface (N).
+    pub weight: f64,
+    /// Rate at which the frame of the tool's displacements advances (m/s).
+    pub advance: f64,
+    /// Distance by which it has advanced (m).
+    pub depth: f64,
+    /// Response time of its feed (s).
+    pub response_time: f64,
+    /// Whether it is fed by the weight that is asked for.
+    pub by_weight: bool,
+}
+
 /// Something that acts inside spans or at nodes, beyond beams, contacts and joints. It keeps what it found at the last residual: its tangent
 /// and its energy read that. It evaluates the spans that a correction has moved ([`Chain::is_active`]); the others keep their
 /// forces. An effect that is linear along spans is data of theirs ([`Acting`](super::Acting)) and needs no force here.
@@ -57,11 +103,21 @@ pub(crate) struct EndLoad {
 /// An effect with a history keeps it from step to step: it [begins](Effect::release) it with the motion, takes on what a step
 /// [accepted](Effect::accept), and [retreats](Effect::retreat) with the motion from a step that failed.
 pub(crate) trait Effect {
+    /// Makes what steps of size `h` (s) and their parts need, so that they do not allocate.
+    fn prepare(&mut self, _h: f64) {}
+
     /// Forgets its history, before the tool comes to rest: until [`Effect::release`] it acts as at rest.
     fn hold(&mut self) {}
 
-    /// Begins its history with the motion, from `state`.
-    fn release(&mut self, _state: &State) {}
+    /// Begins its history with the motion, from `state`, and sets in `conditions` what follows from it.
+    fn release(&mut self, _state: &State, _conditions: &mut Conditions) {}
+
+    /// Sets in `conditions` what follows from its history at `state`.
+    fn resume(&mut self, _state: &State, _conditions: &mut Conditions) {}
+
+    /// Takes a part of a step that the tool takes next, and sets in the `conditions` at its end, which are those asked for, what
+    /// it makes of them. Nothing of it counts before [`Effect::accept`].
+    fn lead(&mut self, _asked: &Asked, _conditions: &mut Conditions) {}
 
     /// Begins the corrections of a step of size `step` (s), or with 0 of a state at rest.
     fn begin(&mut self, _step: f64) {}
@@ -150,6 +206,11 @@ pub(crate) trait Effect {
 
     /// What it does to the tool's lower end; `None` where it acts elsewhere.
     fn end_load(&self) -> Option<EndLoad> {
+        None
+    }
+
+    /// What it does to the tool's top at `state`; `None` where it acts elsewhere.
+    fn from_above(&self, _state: &State) -> Option<FromAbove> {
         None
     }
 

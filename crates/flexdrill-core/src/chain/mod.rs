@@ -64,7 +64,7 @@ use slaving::LinkMatrices;
 use solve::Sweep;
 
 pub(crate) use contacts::SpanMotion;
-pub(crate) use effect::{Along, Effect, EndLoad, Under};
+pub(crate) use effect::{Along, Asked, Carrier, Effect, EndLoad, FromAbove, Under};
 pub(crate) use energy::add_to_ends;
 pub(crate) use equations::ChainEquations;
 pub(crate) use linear::{Acting, CoupledParts, Parts, Segment};

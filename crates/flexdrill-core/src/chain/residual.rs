@@ -40,12 +40,12 @@ impl Chain {
         self.model.instructions.run(Gather { chain: self, state });
     }
 
-    /// Adds what acts at nodes: effects, tie, string, loads.
+    /// Adds what acts at nodes: effects, tie, hanger, loads.
     pub(super) fn attached_forces(&mut self, effects: &impl Effect, state: &State, under: &Under<'_>) {
         let numbered = self.model.numbered(under.model);
         let affected = |unknown: usize| self.active.affected[unknown / NODE];
         effects.at_nodes(&mut self.residual, state, under, &affected);
-        numbered.add_ties(&mut self.residual, state, under.conditions, affected);
+        numbered.add_ties(&mut self.residual, state, affected);
         effects.applied(&mut self.residual, &affected);
         numbered.add_loads(&mut self.residual, under.conditions, affected);
     }

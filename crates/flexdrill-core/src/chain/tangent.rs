@@ -131,9 +131,7 @@ impl<S: Precision> Additions<S> {
         at: &Iteration<'_>,
         crossing: Option<&Crossing<S>>,
     ) {
-        let Iteration {
-            conditions, factors, ..
-        } = *at;
+        let factors = at.factors;
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
         if let Some(crossing) = crossing {
@@ -148,9 +146,7 @@ impl<S: Precision> Additions<S> {
         });
         chain
             .numbered(model)
-            .end_tangents(conditions, factors, |row, column, value| {
-                self.add_within_node(row, column, value)
-            });
+            .hanger_tangent(factors, |row, column, value| self.add_within_node(row, column, value));
     }
 }
 

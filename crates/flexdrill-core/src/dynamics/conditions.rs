@@ -20,9 +20,7 @@ pub struct Conditions {
     pub standpipe_pressure: f64,
     /// Distance (m) that the frame of the tool's displacements has advanced down the hole.
     pub depth: f64,
-    /// Lower end of the string above, in torsion and along the hole; `None` where the first node is held or driven.
-    pub top: [Option<TopEnd>; 2],
-    /// Torque of the top drive (N m), if the string has one.
+    /// Torque of the drive (N m); `None` where it is the reaction of the spin that the drive prescribes.
     pub drive_torque: Option<f64>,
     /// Parameters in force. The friction of both layers is in their laws below.
     pub live: LiveParameters,
@@ -34,37 +32,6 @@ pub struct Conditions {
     pub outer: GapLaw,
     /// Damping of both pipes.
     pub rayleigh: Rayleigh,
-}
-
-/// The string's lower end at the tool: the force z (2 f - v) - k q on an unknown q of the first node, with its speed v.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TopEnd {
-    /// Impedance z (N m s or N s/m).
-    pub impedance: f64,
-    /// Wave f that arrives from above (rad/s or m/s).
-    pub arriving: f64,
-    /// Stiffness k (N m/rad or N/m) that holds the end while the tool comes to rest; 0 in motion.
-    pub stiffness: f64,
-}
-
-impl TopEnd {
-    /// The end of a line of this impedance, at which the wave arrives.
-    pub fn of([impedance, arriving]: [f64; 2]) -> Self {
-        Self {
-            impedance,
-            arriving,
-            stiffness: 0.0,
-        }
-    }
-
-    /// An end that is held.
-    pub fn held(stiffness: f64) -> Self {
-        Self {
-            impedance: 0.0,
-            arriving: 0.0,
-            stiffness,
-        }
-    }
 }
 
 impl Conditions {
@@ -94,7 +61,6 @@ impl Conditions {
             rate_of_penetration: 0.0,
             standpipe_pressure: 0.0,
             depth: 0.0,
-            top: [None; 2],
             drive_torque: None,
             live: *live,
             comes_to_rest: false,

@@ -1,5 +1,5 @@
-//! What is attached to the tool, in either numbering of its unknowns: the axial tie, the string above and
-//! the connector by which the pipe hangs on the guide below it, point loads.
+//! What is attached to the tool, in either numbering of its unknowns: the axial tie, the connector by which the pipe hangs on
+//! the guide, point loads.
 
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
@@ -17,14 +17,8 @@ pub(crate) struct Numbered<'a> {
 }
 
 impl Numbered<'_> {
-    /// Adds axial tie, the string's torque and force, and the hanger's to the residual, on unknowns that are `wanted`.
-    pub(crate) fn add_ties(
-        &self,
-        residual: &mut [f64],
-        state: &State,
-        conditions: &Conditions,
-        wanted: impl Fn(usize) -> bool,
-    ) {
+    /// Adds the forces of axial tie and hanger to the residual, on unknowns that are `wanted`.
+    pub(crate) fn add_ties(&self, residual: &mut [f64], state: &State, wanted: impl Fn(usize) -> bool) {
         let Self { model, places, .. } = *self;
         // The tie holds both ends together along the hole: its multiplier is a force between them.
         if let Some(tie) = places.tie.filter(|&tie| wanted(tie)) {
@@ -35,13 +29,6 @@ impl Numbered<'_> {
                 apart += share * state.q[unknown];
             }
             residual[tie] = scale * apart;
-        }
-        // The string acts as an impedance with an arriving wave: its force depends on the end's velocity at once.
-        for (unknown, [impedance, arriving, stiffness]) in self.top_ends(conditions) {
-            if wanted(unknown) {
-                let force = impedance * (2.0 * arriving - state.v[unknown]) - stiffness * state.q[unknown];
-                residual[unknown] -= force;
-            }
         }
         if let Some(stiffness) = model.hanger.filter(|_| wanted(places.pipe_top)) {
             // The first node has both bodies.
@@ -84,34 +71,14 @@ impl Numbered<'_> {
             .map_or(0.0, |stiffness| 0.5 * stiffness * stretch * stretch)
     }
 
-    /// What the string's end does at the first nodes: unknown, impedance, arriving wave and stiffness, see
-    /// [`TopEnd`](crate::dynamics::conditions::TopEnd).
-    fn top_ends(&self, conditions: &Conditions) -> impl Iterator<Item = (usize, [f64; 3])> + use<> {
-        let unknowns = [self.places.top_spin, self.places.guide_top];
-        let ends = unknowns.into_iter().zip(conditions.top);
-        ends.filter_map(|(unknown, end)| end.map(|end| (unknown, [end.impedance, end.arriving, end.stiffness])))
-    }
-
-    /// Hands the parts of string and hanger in the tangent to `add`: unknown of the force, unknown of the motion, value.
-    pub(crate) fn end_tangents(
-        &self,
-        conditions: &Conditions,
-        factors: TangentFactors,
-        mut add: impl FnMut(usize, usize, f64),
-    ) {
+    /// Hands the hanger's part of the tangent to `add`: unknown of the force, unknown of the motion, value.
+    pub(crate) fn hanger_tangent(&self, factors: TangentFactors, mut add: impl FnMut(usize, usize, f64)) {
         if let Some(hanger) = self.model.hanger {
             for (force, by) in self.hanger_shares() {
                 for (motion, to) in self.hanger_shares() {
                     add(force, motion, by * to * factors.stiffness * hanger);
                 }
             }
-        }
-        for (unknown, [impedance, _, stiffness]) in self.top_ends(conditions) {
-            add(
-                unknown,
-                unknown,
-                factors.damping * impedance + factors.stiffness * stiffness,
-            );
         }
     }
 }

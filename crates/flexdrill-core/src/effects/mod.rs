@@ -13,6 +13,7 @@ pub(crate) mod preload;
 pub(crate) mod pressure;
 pub(crate) mod shortening;
 pub(crate) mod slots;
+pub(crate) mod string;
 #[cfg(test)]
 mod tests;
 
@@ -24,8 +25,9 @@ use nalgebra::Vector3;
 #[cfg(feature = "checkpoints")]
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{Acting, Additions, Chain, Effect, EndLoad, Precision, Under};
+use crate::chain::{Acting, Additions, Asked, Chain, Effect, EndLoad, FromAbove, Precision, Under};
 use crate::dynamics::carried::Carried;
+use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{LEDGER_PLACES, LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
 use crate::dynamics::state::State;
@@ -51,15 +53,33 @@ macro_rules! effects {
         }
 
         impl Effect for Effects {
+            fn prepare(&mut self, h: f64) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.prepare(h);
+                })+
+            }
+
             fn hold(&mut self) {
                 $($(#[$attribute])* if let Some(effect) = &mut self.$name {
                     effect.hold();
                 })+
             }
 
-            fn release(&mut self, state: &State) {
+            fn release(&mut self, state: &State, conditions: &mut Conditions) {
                 $($(#[$attribute])* if let Some(effect) = &mut self.$name {
-                    effect.release(state);
+                    effect.release(state, conditions);
+                })+
+            }
+
+            fn resume(&mut self, state: &State, conditions: &mut Conditions) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.resume(state, conditions);
+                })+
+            }
+
+            fn lead(&mut self, asked: &Asked, conditions: &mut Conditions) {
+                $($(#[$attribute])* if let Some(effect) = &mut self.$name {
+                    effect.lead(asked, conditions);
                 })+
             }
 
@@ -214,6 +234,14 @@ macro_rules! effects {
                 found
             }
 
+            fn from_above(&self, state: &State) -> Option<FromAbove> {
+                let mut found = None;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    found = found.or(effect.from_above(state));
+                })+
+                found
+            }
+
             fn on_pins(&self, joint: usize, carried: &Carried) -> f64 {
                 let mut sum = 0.0;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
@@ -252,6 +280,7 @@ effects! {
     #[cfg(test)]
     springs: tests::spring::Springs,
     bit: bit::Bit,
+    string: string::DrillString,
 }
 
 /// Makes [`Histories`] of the effects that have one, in a list of names and types.
@@ -269,7 +298,7 @@ macro_rules! histories {
             /// Their histories, to be saved.
             pub(crate) fn histories(&self) -> Histories<'_> {
                 Histories {
-                    $($name: self.$name.as_ref().map(|effect| Cow::Borrowed(effect.history())),)+
+                    $($name: self.$name.as_ref().and_then(|effect| effect.history()).map(Cow::Borrowed),)+
                 }
             }
 
@@ -294,6 +323,7 @@ macro_rules! histories {
 
 histories! {
     bit: bit::BitState,
+    string: string::StringState,
 }
 
 /// First of the places that an effect has in [`Sums::of_effects`](crate::dynamics::energy::Sums::of_effects).
@@ -302,8 +332,10 @@ mod places {
     pub(super) const PRESSURE: usize = 0;
     /// Two.
     pub(super) const BIT: usize = 1;
+    /// Three.
+    pub(super) const STRING: usize = 3;
     /// How many are taken.
-    pub(super) const ALL: usize = 3;
+    pub(super) const ALL: usize = 6;
 }
 const _: () = assert!(places::ALL == LEDGER_PLACES, "a place for each number of an effect");
 

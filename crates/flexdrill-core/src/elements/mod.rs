@@ -1,4 +1,4 @@
-//! The laws of the tool's parts, one per file: beam, joint, gap, string above. What acts inside spans and at nodes beyond beams and
+//! The laws of the tool's parts, one per file: beam, joint, gap. What acts inside spans and at nodes beyond beams and
 //! contacts is in `effects/`.
 
 pub mod beam;
@@ -8,4 +8,3 @@ pub mod gap;
 pub mod joint;
 pub mod slip;
 pub mod spine;
-pub mod string;

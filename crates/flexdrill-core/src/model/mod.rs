@@ -58,7 +58,7 @@ pub struct Model {
     pub guide_radii: [f64; 2],
     /// Multiplier of the tie, in the last station's block.
     pub tie: Option<usize>,
-    /// Stiffness of the connector by which the pipe's top hangs on the guide's, below a hoist (N/m): that of one element of
+    /// Stiffness of the connector by which the pipe's top hangs on the guide's, where that moves along the hole (N/m): that of one element of
     /// the pipe, which adds micrometres to what the tool itself yields.
     pub hanger: Option<f64>,
     /// The hole's axis in the pipe's frame at the first and at the last station, (u, v, w). Hanger and tie act along it: along
@@ -148,8 +148,9 @@ impl Model {
             held: Vec::new(),
             held_nodes: Vec::new(),
             total_weight: Vector3::zeros(),
-            // Below a string the first node turns as the string lets it.
-            driven: (d.drive_top && d.string.is_none()).then(|| stations[0].pipe_above + Direction::Psi as usize),
+            driven: d
+                .prescribes_spin()
+                .then(|| stations[0].pipe_above + Direction::Psi as usize),
             padding,
             loads: Vec::new(),
             outer_clearance: 0.5 * (d.hole_diameter - d.guide_section.outer_diameter),
@@ -158,7 +159,7 @@ impl Model {
                 0.5 * d.guide_section.outer_diameter,
             ],
             tie,
-            hanger: d.string.as_ref().and_then(|string| string.hoist).map(|_| stiffest),
+            hanger: d.moves_at_top().then_some(stiffest),
             ends_along: [0, last].map(|s| stations[s].pipe_to_station.row(0).into_owned().into()),
             places: Places::default(),
             layout,

@@ -2,6 +2,7 @@
 
 use super::assembler::Assembler;
 use super::linear::LinearSolver;
+use crate::chain::Effect;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};

@@ -26,7 +26,7 @@ impl Assembler {
         self.contact_forces(interactions, model, state, conditions);
         self.joint_forces(&mut interactions.joints, model, state);
         let numbered = self.constants.numbered(model);
-        numbered.add_ties(&mut self.residual, state, conditions, |_| true);
+        numbered.add_ties(&mut self.residual, state, |_| true);
         if let Some((pressure, forces)) = &self.constants.pressure {
             let at_top = pressure.at_top(conditions.standpipe_pressure);
             let entries = self.residual.iter_mut().zip(forces);

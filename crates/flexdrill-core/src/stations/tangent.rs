@@ -72,7 +72,7 @@ impl Assembler {
             self.contact_block(station)[column - first][row - first] += value;
         };
         bit.at_ends(factors, &mut add);
-        constants.numbered(model).end_tangents(conditions, factors, add);
+        constants.numbered(model).hanger_tangent(factors, add);
         for body in Bodies::at(model, Some).iter().flat_map(Bodies::coupled) {
             let factors = [factors.stiffness, factors.damping, factors.mass];
             let tangent = body.coupled_tangent(state, conditions.rayleigh.alpha, factors);

@@ -2,6 +2,7 @@
 //! contacts, friction, stops and all joint kinds at work.
 
 use crate::Instructions;
+use crate::chain::Effect;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;

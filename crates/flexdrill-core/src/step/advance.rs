@@ -5,14 +5,12 @@ use std::f64::consts::TAU;
 use super::Stepper;
 use super::settings::Forcing;
 use super::sub_steps::SubSteps;
-use crate::chain::{ChainEquations, Effect};
-use crate::dynamics::conditions::{Conditions, TopEnd};
+use crate::chain::{Asked, ChainEquations, Effect};
 use crate::dynamics::energy::{StepEnd, StepWork};
 use crate::dynamics::newton::{self, Rejected, Stride};
 use crate::dynamics::outcome::StepOutcome;
 use crate::dynamics::phases::Phase;
 use crate::dynamics::tolerances::Accuracy;
-use crate::elements::string::StringStep;
 
 /// Whole turns after which they are subtracted from the pipe's spins, so that the rounding of the angles stays below that of
 /// the forces however long the tool runs.
@@ -34,16 +32,6 @@ impl WholeStep {
     fn drive_angle_at(&self, part: f64) -> f64 {
         let [speed_0, speed_1] = self.forcing.rotary_speed;
         self.drive_angle + self.h * part * (speed_0 + 0.5 * (speed_1 - speed_0) * part)
-    }
-}
-
-/// What the string does at the end of a step, as conditions of the tool.
-pub(super) fn apply_string(conditions: &mut Conditions, step: &StringStep, drive_angle: f64) {
-    conditions.top = [Some(TopEnd::of(step.torsion)), step.axial.map(TopEnd::of)];
-    conditions.drive_torque = Some(step.drive_torque);
-    conditions.drive_angle = drive_angle + step.drive_turns;
-    if step.axial.is_some() {
-        (conditions.depth, conditions.rate_of_penetration) = (step.depth, step.advance);
     }
 }
 
@@ -115,18 +103,12 @@ impl Stepper {
     fn keep(&mut self) {
         self.track.keep();
         self.effects.keep();
-        if let Some(string) = &mut self.string {
-            string.keep();
-        }
     }
 
     /// Goes back to the state kept last.
     fn retreat(&mut self) {
         self.track.retreat();
         self.effects.retreat();
-        if let Some(string) = &mut self.string {
-            string.retreat();
-        }
     }
 
     /// The sub-step between two parts (0 to 1) of a whole step.
@@ -135,20 +117,14 @@ impl Stepper {
         let mut conditions = self.conditions(whole.time + whole.h * to, &whole.forcing.at(to));
         conditions.drive_angle = whole.drive_angle_at(to);
         let step = whole.h * (to - from);
-        // The string is advanced first. Its waves take longer than a step, so
-        // that its answer does not depend on the tool's end of it.
-        if let Some(string) = &mut self.string {
-            let [speed_0, speed_1] = whole.forcing.rotary_speed;
-            let speed = speed_0 + (speed_1 - speed_0) * to;
-            let at = string.step(
-                conditions.time,
-                step,
-                speed,
-                conditions.weight_on_bit,
-                conditions.rate_of_penetration,
-            );
-            apply_string(&mut conditions, &at, self.track.state.drive_angle);
-        }
+        let [speed_0, speed_1] = whole.forcing.rotary_speed;
+        let asked = Asked {
+            h: step,
+            rotary_speed: speed_0 + (speed_1 - speed_0) * to,
+            drive_angle: self.track.state.drive_angle,
+        };
+        // What is above the tool moves first, and sets conditions of the tool's own part.
+        self.effects.lead(&asked, &mut conditions);
         // A sub-step has its own foresight: axial forces are extrapolated over it.
         let stride = Stride {
             scheme: self.scheme,
@@ -165,7 +141,6 @@ impl Stepper {
             interactions,
             stopwatch,
             track,
-            string,
             ..
         } = self;
         let (from, to) = (&track.state, &mut track.trial);
@@ -192,15 +167,9 @@ impl Stepper {
         track.measure_displacements();
         let spans = chain.span_works(&track.moved, &track.ledger.spans, &track.trial_ledger.spans);
         let numbered = chain.model.numbered(model);
-        // From here on the part is accepted: effects and string take over their trial states.
+        // From here on the part is accepted: effects take over their trial states.
         effects.accept(&track.trial);
         effects.close(&mut track.trial_ledger);
-        if let Some(string) = string {
-            let (trial, places) = (&track.trial, numbered.places);
-            let top = places.guide_top;
-            string.accept(trial.v[places.top_spin], [trial.q[top], trial.v[top]]);
-            track.trial_ledger.add_string(string);
-        }
         // The ledger compares the ends of the part with their forces.
         let work = StepWork {
             h: step,

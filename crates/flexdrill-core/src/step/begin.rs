@@ -1,23 +1,18 @@
-//! How the motion begins: from a given state, with the string's end held until then.
+//! How the motion begins: from a given state, with effects held until then.
 
 use super::Stepper;
-use super::advance::apply_string;
 use super::settings::Counters;
 use crate::chain::{ChainEquations, Effect};
-use crate::dynamics::conditions::{Conditions, TopEnd};
+use crate::dynamics::conditions::Conditions;
 use crate::dynamics::state::State;
 use crate::inputs::Inputs;
 use flexdrill_base::energies::Energies;
-
-/// Stiffness that holds the string's end while the tool comes to rest, in torsion (N m/rad) and along the hole (N/m): that
-/// of some metres of pipe, so that the end moves by micrometres.
-const HELD: [f64; 2] = [1e5, 1e8];
 
 impl Stepper {
     /// Takes `state`, in the numbering of the model, as the present one, with the audit starting at zero. The
     /// accelerations must balance the forces.
     pub fn start_from(&mut self, state: &State, inputs: &Inputs) {
-        let mut conditions = self.held(self.conditions(state.time, inputs));
+        let mut conditions = self.conditions(state.time, inputs);
         self.effects.hold();
         let (to, scratch) = (&mut self.track.state, &mut self.track.trial);
         // The view keeps what the chain has no unknowns for, and never writes: supports' and padding's values.
@@ -44,42 +39,12 @@ impl Stepper {
             let State { a, lagged, .. } = to;
             lagged.copy_from_slice(a);
         }
-        self.effects.release(&self.track.state);
-        self.begin_string(&mut conditions);
+        self.effects.release(&self.track.state, &mut conditions);
         self.evaluate(&conditions, false);
         self.audit = Energies::default();
         self.counters = Counters::default();
         self.turns = 0.0;
         self.inputs = *inputs;
-    }
-
-    /// Conditions with the string's end held, while the tool comes to rest.
-    pub(super) fn held(&self, mut conditions: Conditions) -> Conditions {
-        if let Some(string) = &self.string {
-            let axial = string.description().hoist.map(|_| TopEnd::held(HELD[1]));
-            conditions.top = [Some(TopEnd::held(HELD[0])), axial];
-        }
-        conditions
-    }
-
-    /// Begins the string's motion with what its held end carried.
-    fn begin_string(&mut self, conditions: &mut Conditions) {
-        let places = self.places();
-        let (spin, top) = (places.top_spin, places.guide_top);
-        let state = &self.track.state;
-        let Some(string) = &mut self.string else { return };
-        // The tool pushes back with what the end's stiffness takes.
-        let (torque, force) = (-HELD[0] * state.q[spin], -HELD[1] * state.q[top]);
-        let (speed, velocity) = (state.v[spin], state.v[top]);
-        string.begin(
-            state.time,
-            speed,
-            torque,
-            if conditions.top[1].is_some() { force } else { 0.0 },
-        );
-        // A string of which no step has been taken: its end is that of the waves it began with.
-        let at = string.present(speed, velocity);
-        apply_string(conditions, &at, state.drive_angle);
     }
 
     /// Evaluates forces and energies of the present state, with the axial forces that it holds or, without
@@ -106,9 +71,6 @@ impl Stepper {
         equations.evaluate(state, conditions, keep_axial);
         equations.energy(carried, ledger, state, conditions);
         equations.effects.close(ledger);
-        if let Some(string) = &self.string {
-            ledger.add_string(string);
-        }
         self.view_is_current = false;
     }
 }

@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::{Counters, Stepper};
+use crate::chain::Effect;
 use flexdrill_base::energies::Energies;
 
 use crate::dynamics::carried::Carried;
 use crate::dynamics::energy::LedgerPoint;
 use crate::dynamics::state::State;
 use crate::effects::Histories;
-use crate::elements::string::StringState;
 use crate::inputs::Inputs;
 use crate::tool::description::LiveParameters;
 
@@ -27,7 +27,6 @@ pub struct StepperCheckpoint<'a> {
     turns: f64,
     inputs: Inputs,
     refinement: u32,
-    string: Option<Cow<'a, StringState>>,
     effects: Histories<'a>,
 }
 
@@ -44,7 +43,6 @@ impl Stepper {
             turns: self.turns,
             inputs: self.inputs,
             refinement: self.refinement,
-            string: self.string.as_ref().map(|string| Cow::Borrowed(string.state())),
             effects: self.effects.histories(),
         }
     }
@@ -57,12 +55,7 @@ impl Stepper {
             && checkpoint.state.bristles.len() == track.state.bristles.len()
             && checkpoint.carried.fits(&track.carried)
             && checkpoint.ledger.fits(&track.ledger)
-            && self.effects.fit(&checkpoint.effects)
-            && match (&self.string, &checkpoint.string) {
-                (Some(string), Some(saved)) => string.fits(saved),
-                (None, None) => true,
-                _ => false,
-            };
+            && self.effects.fit(&checkpoint.effects);
         if !same {
             return false;
         }
@@ -70,13 +63,7 @@ impl Stepper {
         track.state.copy_from(&checkpoint.state);
         let mut conditions = self.conditions(checkpoint.state.time, &checkpoint.inputs);
         self.effects.restore(&checkpoint.effects);
-        let (spin, top) = (self.places().top_spin, self.places().guide_top);
-        if let (Some(string), Some(saved)) = (&mut self.string, &checkpoint.string) {
-            string.restore(saved);
-            let state = &self.track.state;
-            let at = string.present(state.v[spin], state.v[top]);
-            super::advance::apply_string(&mut conditions, &at, state.drive_angle);
-        }
+        self.effects.resume(&self.track.state, &mut conditions);
         self.evaluate(&conditions, true);
         self.track.carried.copy_from(&checkpoint.carried);
         self.track.ledger.copy_from(&checkpoint.ledger);

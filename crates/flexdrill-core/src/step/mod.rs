@@ -17,7 +17,7 @@ mod track;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::chain::{Chain, ChainEquations, Effect, EndLoad};
+use crate::chain::{Carrier, Chain, ChainEquations, Effect, EndLoad, FromAbove};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
@@ -26,7 +26,6 @@ use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Tolerances;
 use crate::effects::{self, Effects};
-use crate::elements::string::StringLine;
 use crate::inputs::{InputKind, Inputs};
 use crate::model::{Model, Places};
 use crate::simd::Instructions;
@@ -59,8 +58,6 @@ pub(crate) struct Stepper {
     live: LiveParameters,
     /// Contacts and joints at the end of the last step.
     interactions: Interactions,
-    /// The string above, if there is one.
-    string: Option<StringLine>,
     stopwatch: Stopwatch,
     /// The tool over its nodes.
     chain: Chain,
@@ -112,7 +109,6 @@ impl Stepper {
             refinement: 0,
             live: LiveParameters::of(description),
             interactions: Interactions::new(&model, instructions),
-            string: description.string.as_ref().map(|string| StringLine::new(string, h)),
             stopwatch: Stopwatch::default(),
             effects,
             chain,
@@ -231,9 +227,14 @@ impl Stepper {
         }
     }
 
-    /// The string above, if there is one.
-    pub fn string(&self) -> Option<&StringLine> {
-        self.string.as_ref()
+    /// What turns the tool's top, and may carry it, at the end of the last step; `None` where it is held or driven.
+    pub(crate) fn from_above(&self) -> Option<FromAbove> {
+        self.effects.from_above(&self.track.state)
+    }
+
+    /// What carries the tool along the hole; `None` where a support does.
+    pub(crate) fn carrier(&self) -> Option<Carrier> {
+        self.from_above()?.carrier
     }
 
     /// Live parameters in force.
@@ -290,6 +291,7 @@ impl Stepper {
             return;
         }
         self.prepared_for = h;
+        self.effects.prepare(h);
         let (conditions, finest) = (self.conditions(0.0, &Inputs::ZERO), self.finest_level());
         for level in 0..=finest {
             let factors = self.scheme.factors(h / f64::from(1_u32 << level));

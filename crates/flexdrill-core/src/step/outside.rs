@@ -8,10 +8,8 @@ use nalgebra::Vector3;
 use super::Stepper;
 use crate::chain::Effect;
 use crate::dynamics::energy::SpanForces;
-use crate::elements::string::StringLine;
 use crate::model::HeldNode;
 use crate::tool::Body;
-use crate::tool::description::Feed;
 
 /// Forces on both pipes together, along the axes of the world (N).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -52,32 +50,14 @@ impl Stepper {
         parts
     }
 
-    /// Axial force of the string above on the guide's first node (N), positive where it pushes down the hole; `None`
-    /// without a hoist.
-    fn string_force(&self) -> Option<f64> {
-        let string = self.string.as_ref()?;
-        string.description().hoist?;
-        let places = self.places();
-        let v = &self.track.state.v;
-        let [impedance, arriving] = string.present(v[places.top_spin], v[places.guide_top]).axial?;
-        Some(impedance * (2.0 * arriving - v[places.guide_top]))
+    /// Force from above on the guide's first node (N), along the axes of the world; `None` where nothing there carries the tool.
+    pub fn carried_from_above(&self) -> Option<Vector3<f64>> {
+        Some(self.model.stations[0].frame.column(0) * self.carrier()?.force)
     }
 
-    /// Force of the string above on the guide's first node (N), along the axes of the world; `None` without a hoist.
-    pub fn string_on_tool(&self) -> Option<Vector3<f64>> {
-        Some(self.model.stations[0].frame.column(0) * self.string_force()?)
-    }
-
-    /// Torque on the top of the pipe (N m), positive where it drives: that of the string above, or of the drive.
+    /// Torque on the top of the pipe (N m), positive where it drives.
     pub fn torque_at_kickoff(&self) -> f64 {
-        let Some(string) = &self.string else {
-            return self.drive_torque();
-        };
-        let places = self.places();
-        let v = &self.track.state.v;
-        let speed = v[places.top_spin];
-        let [impedance, arriving] = string.present(speed, v[places.guide_top]).torsion;
-        impedance * (2.0 * arriving - speed)
+        self.from_above().map_or(self.drive_torque(), |above| above.torque)
     }
 
     /// Speed of the tool's top (rad/s).
@@ -87,21 +67,21 @@ impl Stepper {
 
     /// Rate at which the tool advances along the wall (m/s): the hoist's, or the one that is asked for.
     pub fn advance_of_frame(&self) -> f64 {
-        let hoist = self.string.as_ref().and_then(StringLine::hoist);
-        hoist.map_or(self.inputs.rate_of_penetration, |hoist| hoist.advance)
+        let carrier = self.carrier();
+        carrier.map_or(self.inputs.rate_of_penetration, |carrier| carrier.advance)
     }
 
     /// Depth of the bit below where it began (m), with a hoist: that of the frame and of the guide's end in it.
     pub fn bit_depth(&self) -> Option<f64> {
-        let hoist = self.string.as_ref()?.hoist()?;
-        Some(hoist.depth + self.track.state.q[self.places().guide_end])
+        let carrier = self.carrier()?;
+        Some(carrier.depth + self.track.state.q[self.places().guide_end])
     }
 
     /// Axial force of the guide's support, or of the string, at the top (N), positive where it pushes the guide down the hole: what the weight
     /// on bit, the friction of the wall and the guide's weight come to there. `None` where the guide is not held.
     pub fn weight_at_kickoff(&self) -> Option<f64> {
-        if let Some(force) = self.string_force() {
-            return Some(force);
+        if let Some(carrier) = self.carrier() {
+            return Some(carrier.force);
         }
         // What pulls the guide pushes the pipe by the same force, which both supports give back to the string.
         Some(self.held_at_guide_top()? + self.effects.pulls_guide(&self.track.carried))
@@ -116,8 +96,7 @@ impl Stepper {
 
     /// The weight (N) that the hoist is asked for where `set` is asked for; `None` where no hoist is fed by a weight.
     pub fn weight_of_hoist(&self, set: f64) -> Option<f64> {
-        let hoist = self.string.as_ref()?.description().hoist?;
-        (hoist.feed == Feed::Weight).then_some(set)
+        self.carrier()?.by_weight.then_some(set)
     }
 
     /// Share of an axial force that a rope which slides round the turns of the hole passes on, e^(-mu theta).
@@ -130,13 +109,13 @@ impl Stepper {
     /// Load on the hook (N): the weight of the string in mud and of all that hangs on its end, less what is slacked off.
     /// `None` without a string.
     pub fn hook_load(&self) -> Option<f64> {
-        let string = self.string.as_ref()?;
-        // Without a hoist a support stands for the string's axial force on the guide.
-        let held = match string.description().hoist {
+        let above = self.from_above()?;
+        // Where nothing carries the tool a support stands for the axial force on the guide.
+        let held = match above.carrier {
             Some(_) => 0.0,
             None => self.held_at_guide_top().unwrap_or(0.0),
         };
-        Some(string.hook_load() - held - self.held_at_pipe_top())
+        Some(above.hook_load - held - self.held_at_pipe_top())
     }
 
     /// Force of the support at the pipe's top (N) along the hole, positive where it pushes the pipe down: the string holds
@@ -199,7 +178,7 @@ impl Stepper {
                 .iter()
                 .map(|at| self.reaction(at)[0])
                 .sum::<Vector3<f64>>()
-                + self.string_on_tool().unwrap_or_default(),
+                + self.carried_from_above().unwrap_or_default(),
             weight: model.total_weight + self.effects.weight(),
             wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
             end: bottom.frame.column(0) * -self.end_load().weight,

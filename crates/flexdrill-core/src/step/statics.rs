@@ -64,7 +64,7 @@ impl Stepper {
     pub fn start_as_given(&mut self, inputs: &Inputs, h: f64) -> Result<State, StartError> {
         let mut tool = self.chain_over_stations();
         let mut state = self.as_given(&mut tool, inputs, h)?;
-        let conditions = self.held(self.conditions(0.0, inputs));
+        let conditions = self.conditions(0.0, inputs);
         let state = self.in_full(&mut tool, &mut state, &conditions);
         self.start_from(&state, inputs);
         Ok(state)
@@ -72,7 +72,7 @@ impl Stepper {
 
     /// The state as given in the numbering of the chain of `tool`, its accelerations as far as steps of size `h` (s) can follow them.
     fn as_given(&mut self, tool: &mut (Chain, Effects), inputs: &Inputs, h: f64) -> Result<State, StartError> {
-        let conditions = self.held(self.conditions(0.0, inputs));
+        let conditions = self.conditions(0.0, inputs);
         tool.1.hold();
         let model = self.model();
         let mut given = State::at_rest(model);
@@ -139,7 +139,7 @@ impl Stepper {
                 .for_each(|[_, wall]| *wall = [0.0, -BEYOND_ANY_LIMIT]);
         }
         // Friction that vanishes at rest would slow the approach and change nothing of the end.
-        let conditions = settling(self.held(self.conditions(0.0, inputs)), slid_in);
+        let conditions = settling(self.conditions(0.0, inputs), slid_in);
         let most_iterations = self.tolerances().max_iterations;
         let mut equations = self.equations_of(&mut tool);
         let mut trial = state.clone();
@@ -204,7 +204,7 @@ impl Stepper {
         rest.v.fill(0.0);
         rest.a.fill(0.0);
         rest.time = 0.0;
-        let conditions = self.held(self.conditions(0.0, inputs));
+        let conditions = self.conditions(0.0, inputs);
         let mut equations = self.equations_of(&mut tool);
         equations.polish_rest(&mut rest, &mut trial, &conditions);
         // The remaining unbalanced force becomes an acceleration, so that the first step begins in balance.

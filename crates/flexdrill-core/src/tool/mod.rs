@@ -3,7 +3,6 @@
 mod course;
 pub(crate) mod description;
 mod paper;
-pub(crate) mod rig_validation;
 pub(crate) mod section;
 mod validation;
 pub(crate) mod well;

@@ -34,7 +34,7 @@ impl ToolDescription {
         self.validate_supports()?;
         self.validate_weight_place()?;
         self.check_lower_end()?;
-        self.validate_rig()?;
+        self.check_upper_end()?;
         self.validate_loads()?;
         self.validate_start()
     }

@@ -30,8 +30,7 @@ pub(super) fn new_reactions(model: &Model) -> Reactions {
     let mut held: Vec<_> = supports
         .map(|held| (held.station, Holder::Support(held.body)))
         .collect();
-    let hoist = model.description.string.as_ref().and_then(|string| string.hoist);
-    held.extend(hoist.map(|_| (0, Holder::String)));
+    held.extend(model.description.moves_at_top().then_some((0, Holder::String)));
     let at = |&(station, _): &(usize, Holder)| &model.stations[station];
     Reactions {
         measured_depth: held.iter().map(|held| at(held).depth).collect(),
@@ -50,7 +49,7 @@ pub(super) fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
         let [force, moment] = stepper.reaction(held);
         (out.force[index], out.moment[index]) = (force.into(), moment.into());
     }
-    if let (Some(out), Some(force)) = (out.force.get_mut(supports.len()), stepper.string_on_tool()) {
+    if let (Some(out), Some(force)) = (out.force.get_mut(supports.len()), stepper.carried_from_above()) {
         *out = force.into();
     }
     out.top_torque = stepper.torque_at_kickoff();

@@ -5,7 +5,6 @@
 //!
 //! [`Snapshot`]: super::Snapshot
 
-use crate::elements::string::StringLine;
 use nalgebra::Vector3;
 
 use super::quality::ModelQuality;
@@ -122,19 +121,19 @@ impl Simulation {
 
     /// Rate at which the hoist lets the tool advance (m/s); `None` without a hoist.
     pub fn advance_rate(&self) -> Option<f64> {
-        self.stepper().string()?.hoist().map(|hoist| hoist.advance)
+        self.stepper().carrier().map(|carrier| carrier.advance)
     }
 
     /// Torque (N m) and axial force (N, against advance) of the wall's friction on the string above; `None` without a
     /// string.
     pub fn string_drag(&self) -> Option<[f64; 2]> {
-        self.stepper().string().map(StringLine::drag)
+        self.stepper().from_above().map(|above| above.drag)
     }
 
     /// Speed of the top drive (rad/s), and whether its torque is at its limit; `None` without a string.
     pub fn top_drive(&self) -> Option<(f64, bool)> {
-        let string = self.stepper().string()?;
-        Some((string.drive().speed, string.is_drive_at_limit()))
+        let above = self.stepper().from_above()?;
+        Some((above.drive_speed, above.drive_at_limit))
     }
 
     /// Axial force of the guide's support at the top (N), positive where it pushes down the hole: the weight at the

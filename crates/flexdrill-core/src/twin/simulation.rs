@@ -87,10 +87,8 @@ impl Simulation {
         settings
             .validate(tool.links * tool.elements_per_link)
             .map_err(BuildError::Settings)?;
-        // The string's waves set a bound on the step that only both together show.
-        if let Some(string) = &tool.string {
-            string.validate_step(settings.time_step).map_err(BuildError::Settings)?;
-        }
+        // Waves above the tool set a bound on the step that only both together show.
+        tool.check_step(settings.time_step).map_err(BuildError::Settings)?;
         let mut stepper = Stepper::new(
             tool,
             &StepperSettings {

@@ -15,11 +15,10 @@ use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::Numbered;
-use crate::elements::string::StringLine;
 use crate::model::Model;
 
 /// Places for numbers that the works of effects need of both ends of a step. The format of a checkpoint has so many.
-pub(crate) const LEDGER_PLACES: usize = 3;
+pub(crate) const LEDGER_PLACES: usize = 6;
 
 /// Forces of a span on its ends, pipe and guide: six numbers of the top end, two zeros, six of the bottom end, two zeros.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -49,15 +48,8 @@ pub struct Sums {
     pub(crate) contact_dissipation: f64,
     /// Force on the tool's lower end up the hole (N).
     pub(crate) pushed_up: f64,
-    /// Energy that the string has lost so far (J), to friction on the wall and inside.
-    string_lost: f64,
-    /// Work of the hoist so far (J).
-    hoist_work: f64,
-    /// Rate at which the frame advances with the tool below a hoist (m/s).
+    /// Rate at which the frame of the displacements advances with the tool (m/s).
     pub(crate) advance: f64,
-    /// Power of that advance in the weight on bit less that in the string's force (W): the string and the rock move in the
-    /// frame of the hole, the tool in its own.
-    advance_power: f64,
     /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
     bristles: f64,
     /// Power of the advance against the friction of the wall (W).
@@ -145,18 +137,6 @@ impl LedgerPoint {
         self.spans.clone_from(&other.spans);
         self.pin_moments.clone_from(&other.pin_moments);
         (self.has_nodes, self.sums) = (other.has_nodes, other.sums);
-    }
-
-    /// Adds what the string above stores, has lost, and has been given by the hoist.
-    pub(crate) fn add_string(&mut self, string: &StringLine) {
-        let [friction, attenuation] = string.lost();
-        self.sums.stored += string.stored();
-        self.sums.string_lost = friction + attenuation;
-        self.sums.hoist_work = string.hoist_work();
-        if let Some(hoist) = string.hoist() {
-            self.sums.advance = hoist.advance;
-            self.sums.advance_power = (self.sums.pushed_up - string.force_on_tool()) * hoist.advance;
-        }
     }
 
     /// Nothing acts at nodes yet.

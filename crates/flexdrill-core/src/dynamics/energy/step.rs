@@ -89,7 +89,7 @@ impl StepWork<'_> {
 
     /// Enters the step into the ledger, to which effects have added their rows, and balances it.
     pub(crate) fn enter(&self, ledger: &mut Energies, numbered: &Numbered<'_>, instructions: Instructions) {
-        let Numbered { model, places, weight } = *numbered;
+        let Numbered { places, weight, .. } = *numbered;
         let Self {
             h,
             moved,
@@ -97,7 +97,7 @@ impl StepWork<'_> {
             before,
             after,
         } = *self;
-        let (s0, s1, e0, e1) = (before.state, after.state, before.point, after.point);
+        let (e0, e1) = (before.point, after.point);
         // Energies and powers of the whole tool at both ends.
         let (at0, at1) = (&e0.sums, &e1.sums);
         // Works by the trapezoid rule over the displacement: exact for forces that are linear in the step.
@@ -127,15 +127,9 @@ impl StepWork<'_> {
         let (error_before, foresight_before) = (ledger.error, ledger.axial_foresight);
         // All works of scalars use the same mean, so that the balance is one rule.
         let mean = |a: f64, b: f64| 0.5 * (a + b);
-        // Below a string the drive works on the string's top, and hoist and string have their own parts.
+        // A drive that prescribes the spin of the first node works there.
         if let Some(driven) = places.driven {
             ledger.drive += mean(before.carried.drive_torque, after.carried.drive_torque) * moved[driven];
-        } else if model.description.string.is_some() {
-            ledger.drive +=
-                mean(before.carried.drive_torque, after.carried.drive_torque) * (s1.drive_angle - s0.drive_angle);
-            ledger.hoist += at1.hoist_work - at0.hoist_work;
-            ledger.string += at1.string_lost - at0.string_lost;
-            ledger.feed += h * mean(at0.advance_power, at1.advance_power);
         }
         for (k, &load) in places.loads.iter().enumerate() {
             ledger.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];

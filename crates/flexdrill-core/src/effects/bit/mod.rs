@@ -127,8 +127,8 @@ impl Bit {
 
     /// How it holds the rock, to be saved.
     #[cfg(feature = "checkpoints")]
-    pub(super) fn history(&self) -> &BitState {
-        self.load.state()
+    pub(super) fn history(&self) -> Option<&BitState> {
+        Some(self.load.state())
     }
 
     /// Whether a saved state is one of this bit.
@@ -149,7 +149,7 @@ impl Effect for Bit {
         self.start([0.0, OFF_BOTTOM]);
     }
 
-    fn release(&mut self, state: &State) {
+    fn release(&mut self, state: &State, _conditions: &mut Conditions) {
         self.start([state.q[self.spin], state.q[self.down]]);
     }
 

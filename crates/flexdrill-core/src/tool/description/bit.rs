@@ -94,7 +94,7 @@ impl ToolDescription {
             RockLaw::DepthOfCut(cut) => cut.validate()?,
         }
         // A hoist and a rock that holds the bit need each other: only together do they fix the weight.
-        let (cuts, hangs) = (matches!(self.rock, RockLaw::DepthOfCut(_)), self.hangs_on_a_hoist());
+        let (cuts, hangs) = (matches!(self.rock, RockLaw::DepthOfCut(_)), self.moves_at_top());
         require(
             cuts || !hangs,
             "string.hoist",

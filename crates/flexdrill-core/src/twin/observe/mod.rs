@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use self::steering::SteeringMeans;
 use crate::dynamics::state::{State, inner_lateral};
-use crate::elements::string::StringLine;
 use crate::model::Model;
 use crate::step::Stepper;
 use crate::tool::Body;
@@ -201,22 +200,13 @@ impl Observer {
 
 /// Response time (s) of the hoist; 0 without one.
 fn hoist_response(stepper: &Stepper) -> f64 {
-    let hoist = stepper.string().and_then(|string| string.description().hoist);
-    hoist.map_or(0.0, |hoist| hoist.response_time)
+    stepper.carrier().map_or(0.0, |carrier| carrier.response_time)
 }
 
 /// The settings with a window that holds two periods of the torsional swing of the string above, 4 L / c each: the window of
 /// the configuration does up to 4000 m.
 fn for_string(mut settings: StickSlipSettings, stepper: &Stepper) -> StickSlipSettings {
-    let delays = |string: &StringLine| {
-        string
-            .description()
-            .pieces
-            .iter()
-            .map(|piece| piece.torsion.delay)
-            .sum::<f64>()
-    };
-    let period = stepper.string().map_or(0.0, |string| 4.0 * delays(string));
+    let period = stepper.from_above().map_or(0.0, |above| 4.0 * above.delay);
     settings.window = settings.window.max(2.0 * period);
     settings
 }

@@ -140,31 +140,31 @@ struct Rubbing {
 
 /// What the step that was taken last says about transfer.
 fn transfer_sample(stepper: &Stepper, applied: &Applied, [inner, outer]: &[Rubbing; 2]) -> TransferSample {
-    let (string, end) = (stepper.string(), stepper.end_load());
-    let hoist = string.and_then(|string| string.hoist());
-    let of_string = string.map_or([f64::NAN; 2], |string| string.drag());
+    let (above, end) = (stepper.from_above(), stepper.end_load());
+    let carrier = above.and_then(|above| above.carrier);
+    let drag_above = above.map_or([f64::NAN; 2], |above| above.drag);
     TransferSample {
         torque: [
-            string.map_or(f64::NAN, |_| stepper.drive_torque()),
+            above.map_or(f64::NAN, |_| stepper.drive_torque()),
             stepper.torque_at_kickoff(),
             end.torque,
         ],
         weight: [
-            hoist.map_or(f64::NAN, |hoist| hoist.weight),
+            carrier.map_or(f64::NAN, |carrier| carrier.weight),
             stepper.weight_at_kickoff().unwrap_or(f64::NAN),
             end.weight,
         ],
         speed: stepper.top_speed(),
         feed_power: outer.drag * stepper.advance_of_frame(),
-        string_torque: of_string[0],
-        axial_drag: [inner.drag, outer.drag, hoist.map_or(f64::NAN, |_| of_string[1])],
+        string_torque: drag_above[0],
+        axial_drag: [inner.drag, outer.drag, carrier.map_or(f64::NAN, |_| drag_above[1])],
         hook_load: stepper.hook_load().unwrap_or(f64::NAN),
         depth_of_cut: end.depth_of_cut.unwrap_or(f64::NAN),
         rate_of_penetration: f64::NAN,
         friction_power: [inner.power, outer.power, stepper.joint_friction().iter().sum()],
         asked_speed: applied.rotary_speed,
         bit_speed: stepper.bottom_motion().spin_rate,
-        drive_at_limit: string.map_or(f64::NAN, |string| f64::from(u8::from(string.is_drive_at_limit()))),
+        drive_at_limit: above.map_or(f64::NAN, |above| f64::from(u8::from(above.drive_at_limit))),
         asked_weight: stepper.weight_of_hoist(applied.weight_set).unwrap_or(f64::NAN),
         arrives: stepper.arrives_round_the_arc(),
     }

@@ -8,8 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::history::{History, Mark};
 use super::hoist::HoistState;
 use super::top_drive::DriveState;
-use crate::tool::description::{Piece, StringDescription, Wave};
-use crate::tool::rig_validation::ROWS_PER_STEP;
+use crate::tool::description::{Piece, ROWS_PER_STEP, StringDescription, Wave};
 use crate::tool::section::SectionProperties;
 
 /// Time (s) within which what takes energy from a wave follows the string. The loss of a wave of angular frequency w is
@@ -191,6 +190,7 @@ impl StringLine {
     }
 
     /// The string as built.
+    #[cfg(test)]
     pub fn description(&self) -> &StringDescription {
         &self.description
     }
