@@ -45,20 +45,20 @@ impl RigHealth {
             ),
             (true, _) => (DiagnosticStatus::OK, "values arrive".to_owned()),
         };
-        let counts = &self.counts;
+        let of_values = &self.counts;
         let values = [
             ("connections_open", u64::from(self.connected)),
             ("connections_made", self.connections_made),
             ("attempts_failed", self.attempts_failed),
             ("nodes_followed", followed),
             ("nodes_refused", refused),
-            ("values", counts.received),
-            ("values_bad", counts.bad),
-            ("values_uncertain", counts.uncertain),
-            ("values_no_number", counts.no_number),
-            ("values_out_of_range", counts.out_of_range),
+            ("values", of_values.received),
+            ("values_bad", of_values.bad),
+            ("values_uncertain", of_values.uncertain),
+            ("values_no_number", of_values.no_number),
+            ("values_out_of_range", of_values.out_of_range),
             ("values_lost", self.lost),
-            ("stamps_replaced", counts.stamps_replaced),
+            ("stamps_replaced", of_values.stamps_replaced),
             ("inputs_published", self.published[0]),
             ("measured_published", self.published[1]),
         ];
