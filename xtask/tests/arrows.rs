@@ -277,7 +277,7 @@ const EFFECTS: [OfEffect; 9] = [
             "string::Drill",
             "description.string",
             ".string",
-            "string:",
+            "string: ",
             "TopDrive",
             "TopEnd",
             "HoistState",
