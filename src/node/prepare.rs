@@ -43,6 +43,7 @@ use flexdrill_ros2::dds::port::{Inbox, PortBuilder, Sample};
 use flexdrill_ros2::parameters::Parameters;
 use flexdrill_ros2::service::Task;
 use flexdrill_ros2::{loggers, logging, type_description};
+use flexdrill_text::log_ending;
 use flexdrill_uncertainty::Posterior;
 
 /// A node whose names and files are checked and whose endpoints are declared. Nothing runs yet, and nothing is on the
@@ -309,7 +310,12 @@ impl PreparedNode {
         // A table that has become unreadable since it was checked ends no node.
         match setup.life.as_ref().map(|life| life.living(&self.config)).transpose() {
             Ok(lives) => lives.into_iter().for_each(|lives| session.continue_lives(lives)),
-            Err(error) => tracing::warn!("{} has no lives of joints: {error}", topics::AGEING.name),
+            Err(error) => {
+                let topic = topics::AGEING.name;
+                if let Some(more) = log_ending(format!("{topic} has no lives")) {
+                    tracing::warn!("{topic} has no lives of joints: {error}{more}");
+                }
+            }
         }
         if let Some(window) = self.window {
             session.judge_by(window);

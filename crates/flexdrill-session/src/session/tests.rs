@@ -181,13 +181,11 @@ fn a_hole_that_an_earlier_run_has_drilled_is_published_at_the_start() {
 /// configuration.
 #[test]
 fn ageing_has_the_lives_of_the_joints_where_the_host_has_a_table() {
-    let config = Config::load(concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/default.yaml")).unwrap();
-    let joints = config.tool.links - 1;
+    let text = include_str!("../../../../config/default.yaml");
+    let joints = Config::from_text("default.yaml", text).unwrap().tool.links - 1;
     let serials: Vec<String> = (1..=joints).map(|place| format!("J-{place}")).collect();
-    let config = config
-        .with_value("tool.joint.life", serde_json::json!({"class": "F1"}))
-        .unwrap();
-    let config = Arc::new(config.with_value("tool.joint.serial_numbers", serials).unwrap());
+    let lives = format!("  joint:\n    life: {{class: F1}}\n    serial_numbers: [{}]\n", serials.join(", "));
+    let config = Arc::new(Config::from_text("default.yaml", &text.replace("  joint:\n", &lives)).unwrap());
     let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut run = Run::new(simulation, schedule(&config, &config.outputs.rates));
     let mut frame = run.new_frame();
