@@ -50,16 +50,18 @@ test("every reference message is decoded as the twin encoded it", () => {
 test("a message of an older version, without its last fields, has zeros there", () => {
   const reference = references.find(({ schema }) => schema === "flexdrill/msg/TwinStatus");
   assert.ok(reference);
-  // Its last fields are a number of eight bytes and a list of texts: its length, and each text with its length and its end.
+  // Its last fields are a number of eight bytes, a list of texts (its length, and each text with its length and its end), and
+  // three counts of eight bytes.
   const whole = DECODERS["flexdrill/msg/TwinStatus"](new CdrReader(view(reference.bytes)));
   const list = whole.changed_parameter.reduce(
     (end, text) => 4 * Math.ceil(end / 4) + 4 + Buffer.byteLength(text) + 1,
     4,
   );
-  const cut = reference.bytes.slice(0, -2 * (8 + list));
+  const cut = reference.bytes.slice(0, -2 * (8 + 8 * Math.ceil(list / 8) + 24));
   const status = DECODERS["flexdrill/msg/TwinStatus"](new CdrReader(view(cut)));
   assert.deepEqual(status.changed_parameter, []);
   assert.equal(status.steps_stood_still, 0);
+  assert.equal(status.surveys_waiting, 0);
   assert.ok(status.sequence > 0 && status.pace_factor !== 0);
 });
 
