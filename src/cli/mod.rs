@@ -68,6 +68,7 @@ mod sweep;
 mod trip;
 mod verify;
 mod watch;
+#[cfg(any(feature = "calibrate", feature = "sweep"))]
 mod whole_file;
 
 use std::ffi::OsString;

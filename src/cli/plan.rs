@@ -58,6 +58,10 @@ pub(super) struct Planned {
     /// Its stations.
     pub rows: Vec<Row>,
     /// Where it begins, from the point of the hole at the depth of the first (m).
+    #[cfg_attr(
+        not(feature = "sweep"),
+        expect(dead_code, reason = "what lays a plan is a part of the feature sweep")
+    )]
     pub offset: [f64; 3],
 }
 

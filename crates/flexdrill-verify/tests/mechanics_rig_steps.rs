@@ -20,8 +20,11 @@ const DURATION: f64 = 14.0;
 /// more in finer steps.
 const APART: f64 = 0.01;
 
+/// A key and its value.
+type Change = Option<(&'static str, Value)>;
+
 /// The shipped rig's run with a change, by a part of its step.
-fn run(change: Option<(&'static str, Value)>, part: f64) -> Record {
+fn run(change: Change, part: f64) -> Record {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/rig.yaml");
     let config = Config::load(path).unwrap().with_values("test", change).unwrap();
     let inputs = Inputs {
@@ -37,7 +40,7 @@ fn run(change: Option<(&'static str, Value)>, part: f64) -> Record {
 
 #[test]
 fn what_arrives_at_the_bit_depends_neither_on_the_step_nor_on_what_damps_the_wall() {
-    let others: [(&str, Option<(&'static str, Value)>, f64); 2] = [
+    let others: [(&str, Change, f64); 2] = [
         ("half of the step", None, 0.5),
         // Lubrication in place of the contact's damping: a law without a coefficient that could be chosen.
         ("squeeze film", Some(("environment.mud.film", "squeeze".into())), 1.0),

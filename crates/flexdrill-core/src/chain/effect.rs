@@ -210,7 +210,7 @@ pub(crate) trait Effect {
     }
 
     /// What it does to the tool's top at `state`; `None` where it acts elsewhere.
-    fn from_above(&self, _state: &State) -> Option<FromAbove> {
+    fn load_above(&self, _state: &State) -> Option<FromAbove> {
         None
     }
 

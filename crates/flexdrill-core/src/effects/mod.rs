@@ -234,10 +234,10 @@ macro_rules! effects {
                 found
             }
 
-            fn from_above(&self, state: &State) -> Option<FromAbove> {
+            fn load_above(&self, state: &State) -> Option<FromAbove> {
                 let mut found = None;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
-                    found = found.or(effect.from_above(state));
+                    found = found.or(effect.load_above(state));
                 })+
                 found
             }

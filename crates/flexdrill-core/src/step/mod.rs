@@ -228,13 +228,13 @@ impl Stepper {
     }
 
     /// What turns the tool's top, and may carry it, at the end of the last step; `None` where it is held or driven.
-    pub(crate) fn from_above(&self) -> Option<FromAbove> {
-        self.effects.from_above(&self.track.state)
+    pub(crate) fn load_above(&self) -> Option<FromAbove> {
+        self.effects.load_above(&self.track.state)
     }
 
     /// What carries the tool along the hole; `None` where a support does.
     pub(crate) fn carrier(&self) -> Option<Carrier> {
-        self.from_above()?.carrier
+        self.load_above()?.carrier
     }
 
     /// Live parameters in force.

@@ -57,7 +57,7 @@ impl Stepper {
 
     /// Torque on the top of the pipe (N m), positive where it drives.
     pub fn torque_at_kickoff(&self) -> f64 {
-        self.from_above().map_or(self.drive_torque(), |above| above.torque)
+        self.load_above().map_or(self.drive_torque(), |above| above.torque)
     }
 
     /// Speed of the tool's top (rad/s).
@@ -109,7 +109,7 @@ impl Stepper {
     /// Load on the hook (N): the weight of the string in mud and of all that hangs on its end, less what is slacked off.
     /// `None` without a string.
     pub fn hook_load(&self) -> Option<f64> {
-        let above = self.from_above()?;
+        let above = self.load_above()?;
         // Where nothing carries the tool a support stands for the axial force on the guide.
         let held = match above.carrier {
             Some(_) => 0.0,

@@ -127,12 +127,12 @@ impl Simulation {
     /// Torque (N m) and axial force (N, against advance) of the wall's friction on the string above; `None` without a
     /// string.
     pub fn string_drag(&self) -> Option<[f64; 2]> {
-        self.stepper().from_above().map(|above| above.drag)
+        self.stepper().load_above().map(|above| above.drag)
     }
 
     /// Speed of the top drive (rad/s), and whether its torque is at its limit; `None` without a string.
     pub fn top_drive(&self) -> Option<(f64, bool)> {
-        let above = self.stepper().from_above()?;
+        let above = self.stepper().load_above()?;
         Some((above.drive_speed, above.drive_at_limit))
     }
 

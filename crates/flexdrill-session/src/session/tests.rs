@@ -184,7 +184,10 @@ fn ageing_has_the_lives_of_the_joints_where_the_host_has_a_table() {
     let text = include_str!("../../../../config/default.yaml");
     let joints = Config::from_text("default.yaml", text).unwrap().tool.links - 1;
     let serials: Vec<String> = (1..=joints).map(|place| format!("J-{place}")).collect();
-    let lives = format!("  joint:\n    life: {{class: F1}}\n    serial_numbers: [{}]\n", serials.join(", "));
+    let lives = format!(
+        "  joint:\n    life: {{class: F1}}\n    serial_numbers: [{}]\n",
+        serials.join(", ")
+    );
     let config = Arc::new(Config::from_text("default.yaml", &text.replace("  joint:\n", &lives)).unwrap());
     let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
     let mut run = Run::new(simulation, schedule(&config, &config.outputs.rates));

@@ -247,7 +247,7 @@ impl Effect for DrillString {
         }
     }
 
-    fn from_above(&self, state: &State) -> Option<FromAbove> {
+    fn load_above(&self, state: &State) -> Option<FromAbove> {
         let line = self.line.as_ref()?;
         let [spin, top] = self.at.map(|unknown| state.v[unknown]);
         let at = line.present(spin, top);

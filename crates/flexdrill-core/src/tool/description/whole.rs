@@ -255,7 +255,7 @@ impl ToolDescription {
 
     /// Bodies on nodes: those that are described, then the inertia of the bit, which acts against its spin and has no weight here.
     pub(crate) fn bodies(&self) -> impl Iterator<Item = PointMass> {
-        let of_bit = (self.bit.inertia > 0.0).then(|| PointMass {
+        let of_bit = (self.bit.inertia > 0.0).then_some(PointMass {
             location: Location::Bottom,
             body: Body::Pipe,
             mass: 0.0,

@@ -206,7 +206,7 @@ fn hoist_response(stepper: &Stepper) -> f64 {
 /// The settings with a window that holds two periods of the torsional swing of the string above, 4 L / c each: the window of
 /// the configuration does up to 4000 m.
 fn for_string(mut settings: StickSlipSettings, stepper: &Stepper) -> StickSlipSettings {
-    let period = stepper.from_above().map_or(0.0, |above| 4.0 * above.delay);
+    let period = stepper.load_above().map_or(0.0, |above| 4.0 * above.delay);
     settings.window = settings.window.max(2.0 * period);
     settings
 }

@@ -140,7 +140,7 @@ struct Rubbing {
 
 /// What the step that was taken last says about transfer.
 fn transfer_sample(stepper: &Stepper, applied: &Applied, [inner, outer]: &[Rubbing; 2]) -> TransferSample {
-    let (above, end) = (stepper.from_above(), stepper.end_load());
+    let (above, end) = (stepper.load_above(), stepper.end_load());
     let carrier = above.and_then(|above| above.carrier);
     let drag_above = above.map_or([f64::NAN; 2], |above| above.drag);
     TransferSample {
