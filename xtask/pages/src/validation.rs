@@ -98,6 +98,11 @@ not measured | the weakening of the torque with the speed, to 11 % |
 Wouw, J. Sound Vib., 2019 | We have these figures without the equations behind them; lines with the stated damping (0.7) \
 and ratio of wave speeds (1.6) that we tried have no real gain at the stated frequencies | `analytic_regeneration`: one \
 mass, growth to 0.01 1/s |
+| Radius that an articulated tool in a curved guide drills, against tool and weight | Wells of ultra-short radius with such \
+tools (the paper's references; reviews of short-radius drilling) | What is publicly readable has planned radii and \
+lengths, and for water jets a measured error of 2 to 3 degrees (SPE 21602); nowhere the guide's shape as made and its \
+stiffness, the weight and the surveys of one well together (searched on 2026-11-29) | the closed form of the steady \
+curvature, an own second program, and synthetic wells by other laws ([how](hole_ahead.md#how-it-is-tested)) |
 | Natural frequencies of a drill pipe in fluid by hammer tests, within 2 % of a coefficient of added mass | Yang, Wang, \
 Han and Xue, Mech. Sci. 10 (2019) 363 | We can read the abstract only, which has neither dimensions nor frequencies | \
 `val_confined_oscillation_in_viscous_fluid`, `mud_pipe` |
