@@ -73,8 +73,8 @@ fn a_run_is_in_the_table_while_it_runs_and_counts_once() {
     assert_eq!(lives(&table).runs(), 1);
 
     // The next run has the lives in its messages: those of the table, from the top down, and what it adds. Its replay, which has
-    // no table, has the same.
-    let (copy, next, replay) = (at("copy.csv"), at("next.mcap"), at("replay"));
+    // no table, has the same. A folder holds one recording.
+    let (copy, next, replay) = (at("copy.csv"), at("next"), at("replay"));
     std::fs::copy(&table, &copy).unwrap();
     let more = ["--duration", "3", "--record", next.to_str().unwrap()];
     assert_eq!(Program::start(command(&network, &config, &copy, &more)).end(), Some(0));

@@ -344,7 +344,7 @@ class Sampled:
         tool, forces = self.tool, Forces(len(self))
         alpha = tool.keys("tool.damping.alpha", 2.0)
         last = len(tool.depth) - 1
-        self.gap_error, self.bore_error, self.weight_error = 0.0, 0.0, 0.0
+        self.gap_error, self.bore_error, self.weight_error, self.tilt = 0.0, 0.0, 0.0, 0.0
         self.bit_pushes, self.list_error = np.zeros((len(self), 3)), 0.0
         self.left, self.beyond_cone = np.zeros((len(self), 3)), -math.inf
         self.drags = np.zeros((len(self), 2))
@@ -355,6 +355,8 @@ class Sampled:
             bore = np.array([[p.x, p.y, p.z] for p in self.shape[k].markers[0].points])
             self.bore_error = max(self.bore_error, np.abs(bore - tool.bore).max())
             pipe, guide = self.lateral(k, 1), self.lateral(k, 2)
+            slopes = np.linalg.norm(np.diff(guide, axis=0), axis=1) / np.diff(tool.depth)
+            self.tilt = max(self.tilt, slopes.max())
             at = lambda lateral: tool.bore + lateral[:, :1] * tool.y + lateral[:, 1:] * tool.z  # noqa: E731
             pipe_at, guide_at = at(pipe), at(guide)
             # Contacts: the outer body pushes back along the lean, friction acts where they touch.
@@ -491,6 +493,7 @@ def moment_balances(tool, sampled, forces, moving, out):
     # deviations of their sum. At rest they may have one sign.
     rest = (LEFT_IN_MOTION if moving else LEFT_AT_REST) * (math.sqrt(3 * nodes) if moving else nodes)
     why_rest = f"Newton's residual of {nodes} nodes" + (", of either sign, three deviations of their sum" if moving else "")
+    left_out = max(SECOND_ORDER, 0.5 * sampled.tilt**2)
     centres = [(f"the centre of arc {i + 1}", c[0]) for i, c in enumerate(tool.well.centres)]
     bodies = ["whole"] if tool.tied or tool.fixed_guide else ["whole", "pipe", "guide"]
     for body in bodies:
@@ -508,8 +511,8 @@ def moment_balances(tool, sampled, forces, moving, out):
             mean, error = about.mean(axis=0), STANDARD_ERRORS * standard_error(about)
             arm = max(np.linalg.norm(tool.bore - centre, axis=1).max(), tool.well.length / 2)
             for i in range(3):
-                limit = rest * arm + error[i] + SECOND_ORDER * axial * arm
-                reason = f"{why_rest} on {arm:.2f} m, {SECOND_ORDER:g} of the axial force on it{SCATTER}"
+                limit = rest * arm + error[i] + left_out * axial * arm
+                reason = f"{why_rest} on {arm:.2f} m, {left_out:.2g} of the force at the top on it{SCATTER}"
                 out.append(
                     Balance(
                         f"moment of the {name} about {where}, {'XYZ'[i]}", "N m", mean[i], axial * arm, limit, reason
@@ -526,7 +529,8 @@ def moment_balances(tool, sampled, forces, moving, out):
 
 SCATTER = ", and six standard errors of the samples' mean"
 # Displacements enter the arms of the model's moments to first order (docs/mechanics.md, geometric stiffness): what is
-# left out is of the order of the square of the guide's tilt in the hole, some 0.01 rad.
+# left out is by how much a tilted part is shorter along the hole, half of the square of the guide's largest tilt there.
+# The least of it is for a tilt of 0.014 rad, since pipe and joints tilt too.
 SECOND_ORDER = 1e-4
 
 
