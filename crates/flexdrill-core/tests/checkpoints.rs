@@ -141,7 +141,7 @@ fn other_formats_say_so() {
         assert!(
             error
                 .to_string()
-                .contains(&format!("format {format}, this build reads format 24")),
+                .contains(&format!("format {format}, this build reads format 25")),
             "{error}"
         );
     }
