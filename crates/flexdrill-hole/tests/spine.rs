@@ -10,7 +10,7 @@
 mod elastica;
 mod support;
 
-use flexdrill_hole::{Advance, BitLaw, Gravity, Guide, Hole, Spine, at_rest, bounds, steady};
+use flexdrill_hole::{Advance, BitLaw, Gravity, Guide, Spine, at_rest, bounds, steady};
 use nalgebra::Vector2;
 use support::{ARC, CHORD, SOFT, TUBE, agree, arc, drill, guide};
 
@@ -37,41 +37,6 @@ fn drilled(guide: Guide, law: BitLaw) -> (f64, Vec<Advance>) {
     let drilled = drill(guide, law, formula.curvature, 14.0);
     let last = drilled[drilled.len() - (3.0 / CHORD) as usize..].to_vec();
     (last.iter().map(|at| at.build).sum::<f64>() / last.len() as f64, last)
-}
-
-/// A column between its ends under a thrust that is e off its neutral line, k^2 = C/EI: its middle bows by
-/// e (1/cos(k L/2) - 1) to the side of the spine, and its ends tilt by e k tan(k L/2), the secant formula. In whichever
-/// direction the spine lies. Elements of L/50: (k L/50)^4/720 of it, and the contact's share of the balance that may lack.
-#[test]
-fn a_column_bows_by_the_secant_formula() {
-    let (length, thrust) = (1.5, 20e3);
-    let hole = Hole::begin(0.0, 0.0).unwrap().straight(length, 0.03).unwrap();
-    for turn in [0.0, 0.9, std::f64::consts::PI] {
-        let tool = Guide {
-            length,
-            free_curvature: 0.0,
-            weight_per_metre: 0.0,
-            gap: 1.0,
-            wall_friction: 0.0,
-            spine: Some(Spine { turn, ..OPEN }),
-            ..guide(SOFT)
-        };
-        let rest = at_rest(&tool, thrust, &hole).unwrap();
-        let k = (thrust / tool.bending_stiffness).sqrt();
-        let bow = 0.045 * (1.0 / (0.5 * k * length).cos() - 1.0);
-        let tilt = 0.045 * k * (0.5 * k * length).tan();
-        // Into (right, low) of the thrust's bend.
-        let toward = Vector2::new(turn.sin(), -turn.cos());
-        let middle = rest.offsets[rest.offsets.len() / 2];
-        println!("{turn}: {middle} {} bow {bow} tilt {tilt}", rest.tilt);
-        assert!((middle + toward * bow).norm() < 1e-5 * bow);
-        assert!((rest.tilt - toward * tilt).norm() < 1e-5 * tilt);
-        // Nothing but the thrust acts, so that the ends push nowhere across.
-        assert!(
-            rest.side_force.norm() < 1e-3 && rest.top_force.norm() < 1e-3,
-            "{rest:?}"
-        );
-    }
 }
 
 /// Weight, thrust on the curve, walls and both ends balance as forces in the world's frame, with the couple of the thrust on the

@@ -12,30 +12,6 @@ use flexdrill_hole::{Guide, Hole, HoleError, at_rest};
 use nalgebra::Vector2;
 use support::{ARC, CHORD, SOFT, agree, arc, guide};
 
-/// A straight guide without thrust is on the wall from l = (24 EI c/q)^(1/4) behind the bit on, with F = q l/2 and
-/// t = -q l3/(12 EI): a beam with one end pinned at the height c, and moment and slope 0 at the other.
-#[test]
-fn a_straight_guide_wraps_on_a_level_wall() {
-    // Of the stiff guide 8 m are shorter than 2 l, so that the span at its upper end takes part.
-    for (factor, share) in [(SOFT, 0.001), (1.0, 0.02)] {
-        let guide = Guide {
-            length: 8.0,
-            free_curvature: 0.0,
-            wall_friction: 0.0,
-            wall_stiffness: 5e10,
-            ..guide(factor)
-        };
-        let hole = Hole::begin(std::f64::consts::FRAC_PI_2, 0.0).unwrap();
-        let hole = hole.straight(8.0, 0.04).unwrap();
-        let rest = at_rest(&guide, 1.0, &hole).unwrap();
-        let q = guide.weight_per_metre;
-        let length = (24.0 * guide.bending_stiffness * guide.gap / q).powf(0.25);
-        agree("side force", rest.side_force.y, q * length / 2.0, share);
-        let tilt = -q * length.powi(3) / (12.0 * guide.bending_stiffness);
-        agree("tilt", rest.tilt.y, tilt, share);
-    }
-}
-
 /// Weight, thrust on the curve, walls and both ends balance as forces in the world's frame: what acts at the bit and at the
 /// upper end follows from the loads, whatever the elements are.
 #[test]
@@ -102,18 +78,6 @@ fn side_force_of_a_guide_that_the_hole_bends() {
         agree("F", rest.side_force.y, force, 0.03);
         agree("t", 1e3 * rest.tilt.y, tilt, 0.03);
     }
-}
-
-/// The pipe's torque T turns with the hole: it pushes the bit to the right by T/R.
-#[test]
-fn the_torque_pushes_the_bit_to_the_right() {
-    let tool = Guide {
-        torque: 92.4,
-        ..guide(SOFT)
-    };
-    let rest = at_rest(&tool, 10e3, &arc(90.0, CHORD)).unwrap();
-    // The guide's end bends to the side too, where the wall carries a part.
-    agree("F to the right", rest.side_force.x, 92.4 * ARC, 0.05);
 }
 
 #[test]
