@@ -15,9 +15,8 @@ use serde_json::Value;
 
 /// Model time (s): two response times of the hoist as run-up, and a window of the transfer's means behind it.
 const DURATION: f64 = 14.0;
-/// How far torque and weight may lie apart. Two equal runs whose weight differs by 1 N for 20 ms differ by 0.05 %. The film
-/// also takes torque from the pipe where it lies in the guide, 0.3 %. A guide that rings on the wall passes 4 to 8 %
-/// more in finer steps.
+/// How far torque and weight may lie apart: runs whose weight differs by 1 N for 20 ms differ by 0.2 %, and the film also
+/// takes torque where the pipe lies in the guide. A guide that rings on the wall passes 4 % more in half steps.
 const APART: f64 = 0.01;
 
 /// A key and its value.

@@ -328,7 +328,7 @@ fn an_input_that_has_never_sent_calls_after_the_configured_time_only() {
     assert_eq!((released, called), (wait, wait + 2.0));
 }
 
-/// Whoever runs the computer and the driller are told apart by the alarm itself.
+/// The alarm itself says whether it is for the driller or for whoever runs the computer.
 #[test]
 fn a_matter_of_the_computer_is_for_whoever_runs_it_and_comes_after_the_drillers() {
     let config = config();

@@ -54,7 +54,7 @@ fn applied_inputs_of_older_twins_are_read() {
             }
         );
         assert!(changes_of(&read).iter().all(|change| change.asked_by.is_empty()));
-        message.parameter_asked_by = vec!["somebody".to_owned(); message.parameter_name.len()];
+        message.parameter_asked_by = vec!["a client".to_owned(); message.parameter_name.len()];
         message.rate_of_penetration = 1e-3;
         assert_eq!(recorded(&message, 0).decode::<AppliedInputs>().unwrap(), message);
     }

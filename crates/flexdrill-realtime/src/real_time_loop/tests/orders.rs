@@ -149,7 +149,7 @@ fn a_state_that_is_asked_for_comes_back_in_its_slot() {
             ),
         }
     }
-    // Nobody listens: nothing is held up.
+    // Without a listener nothing is held up.
     for _ in 0..20 {
         bench
             .requests
