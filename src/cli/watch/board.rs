@@ -5,7 +5,9 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use super::profile::HeldPeaks;
-use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{
+    AlarmList, BitState, ContactForces, JointDeflections, Transfer, TwinStatus, WhirlState, WhirlWarning,
+};
 use flexdrill_core::units::rad_per_s_to_rpm;
 use flexdrill_text::printable;
 
@@ -29,6 +31,7 @@ pub(super) struct Board {
     started: Instant,
     status: Option<(TwinStatus, Instant)>,
     bit: Option<BitState>,
+    transfer: Option<Transfer>,
     contacts: Option<ContactForces>,
     joints: Option<JointDeflections>,
     whirl: Option<WhirlState>,
@@ -56,6 +59,7 @@ impl Board {
             started: now,
             status: None,
             bit: None,
+            transfer: None,
             contacts: None,
             joints: None,
             whirl: None,
@@ -124,6 +128,10 @@ impl Board {
             self.history.pop_front();
         }
         self.bit = Some(bit);
+    }
+
+    pub(super) fn update_transfer(&mut self, transfer: Transfer) {
+        self.transfer = Some(transfer);
     }
 
     pub(super) fn update_contacts(&mut self, contacts: ContactForces) {
@@ -199,6 +207,10 @@ impl Board {
         self.bit.as_ref()
     }
 
+    pub(super) fn transfer(&self) -> Option<&Transfer> {
+        self.transfer.as_ref()
+    }
+
     pub(super) fn contacts(&self) -> Option<&ContactForces> {
         self.contacts.as_ref()
     }
@@ -243,6 +255,7 @@ impl Board {
         [
             (self.status.is_some(), topics::STATUS),
             (self.bit.is_some(), topics::BIT_STATE),
+            (self.transfer.is_some(), topics::TRANSFER),
             (self.contacts.is_some(), topics::CONTACT_FORCES),
             (self.joints.is_some(), topics::JOINT_DEFLECTIONS),
             (self.whirl.is_some(), topics::WHIRL),

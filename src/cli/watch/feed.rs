@@ -5,13 +5,16 @@ use std::time::Instant;
 use super::board::Board;
 use crate::dds::network::Network;
 use crate::messages::topics;
-use crate::messages::{AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{
+    AlarmList, BitState, ContactForces, JointDeflections, Transfer, TwinStatus, WhirlState, WhirlWarning,
+};
 use crate::ros::subscriber::{Listener, ListenerBuilder, TopicReader};
 use flexdrill_ros2::JoinError;
 
 pub(super) struct Feed {
     status: TopicReader<TwinStatus>,
     bit: TopicReader<BitState>,
+    transfer: TopicReader<Transfer>,
     contacts: TopicReader<ContactForces>,
     joints: TopicReader<JointDeflections>,
     whirl: TopicReader<WhirlState>,
@@ -27,6 +30,7 @@ impl Feed {
         Ok(Self {
             status: listener.subscribe(&topics::STATUS)?,
             bit: listener.subscribe(&topics::BIT_STATE)?,
+            transfer: listener.subscribe(&topics::TRANSFER)?,
             contacts: listener.subscribe(&topics::CONTACT_FORCES)?,
             joints: listener.subscribe(&topics::JOINT_DEFLECTIONS)?,
             whirl: listener.subscribe(&topics::WHIRL)?,
@@ -45,6 +49,7 @@ impl Feed {
     pub(super) fn drain(&mut self, board: &mut Board, now: Instant) {
         let unreadable = self.status.drain(|message| board.update_status(message, now))
             + self.bit.drain(|message| board.update_bit(message))
+            + self.transfer.drain(|message| board.update_transfer(message))
             + self.contacts.drain(|message| board.update_contacts(message))
             + self.joints.drain(|message| board.update_joints(message))
             + self.whirl.drain(|message| board.update_whirl(message))

@@ -52,9 +52,12 @@ fn write(text: &mut String, board: &Board, now: Instant) -> std::fmt::Result {
             status.failed_steps,
             texts::quality_with_cause(status)
         )?;
-        for (line, _) in texts::inputs(status) {
+        for (line, _) in texts::inputs(board) {
             writeln!(text, "input      {line}")?;
         }
+    }
+    if let Some(transfer) = board.transfer() {
+        writeln!(text, "drilling   {}", texts::drilling(transfer))?;
     }
     if let Some(bit) = board.bit() {
         writeln!(

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use super::board::{Board, Heartbeat};
-use crate::messages::{BitState, ContactForces, TwinStatus, WhirlState, WhirlWarning};
+use crate::messages::{BitState, ContactForces, Transfer, TwinStatus, WhirlState, WhirlWarning};
 use flexdrill_core::inputs::InputKind;
-use flexdrill_core::units::{n_to_kn, rad_to_deg};
+use flexdrill_core::units::{m_per_s_to_m_per_h, n_to_kn, rad_to_deg};
 use flexdrill_outputs::words;
 use flexdrill_text::percent;
 
@@ -100,12 +100,47 @@ pub(super) fn force(newton: f64) -> String {
     }
 }
 
-/// One line per input: name, applied value, received value, state, age, refused samples.
-pub(super) fn inputs(status: &TwinStatus) -> Vec<(String, u8)> {
+/// Whether the rock decides how fast the bit advances.
+fn rock_decides(transfer: &Transfer) -> bool {
+    transfer.depth_of_cut.is_finite()
+}
+
+/// What drilling comes to: the rate, and how much of the surface's weight and torque the bit has. Without a hoist or a string,
+/// weight and torque are those at the kick-off.
+pub(super) fn drilling(transfer: &Transfer) -> String {
+    let first = |surface: f64, kickoff: f64| if surface.is_finite() { surface } else { kickoff };
+    let rate = m_per_s_to_m_per_h(transfer.rate_of_penetration);
+    let rate = match rock_decides(transfer) {
+        true => format!("drills {} m/h", number(rate)),
+        // The rock of this tool holds no bit: the rate is an input.
+        false => format!("advances {} m/h as given", number(rate)),
+    };
+    format!(
+        "{rate}   weight {} kN, bit {} kN   torque {:.0} N m, bit {:.0} N m",
+        number(n_to_kn(first(transfer.surface_weight, transfer.kickoff_weight))),
+        number(n_to_kn(transfer.bit_weight)),
+        first(transfer.surface_torque, transfer.kickoff_torque),
+        transfer.bit_torque
+    )
+}
+
+/// One line per input: name, applied value, received value, state, age, refused samples. A rate of penetration that nothing sends
+/// and that the rock decides is none.
+pub(super) fn inputs(board: &Board) -> Vec<(String, u8)> {
+    let Some(status) = board.status() else {
+        return Vec::new();
+    };
+    let is_computed = board.transfer().is_some_and(rock_decides);
+    let is_input = |index: usize, name: &String| {
+        let is_rate = InputKind::of_name(name) == Some(InputKind::RateOfPenetration);
+        let is_assumed = status.input_state.get(index) == Some(&TwinStatus::INPUT_ASSUMED);
+        !(is_rate && is_assumed && is_computed)
+    };
     status
         .input_name
         .iter()
         .enumerate()
+        .filter(|(index, name)| is_input(*index, name))
         .map(|(index, name)| {
             // Arrays of an older twin may be shorter; what they lack is unknown and not zero.
             let at = |values: &[f64]| values.get(index).copied().unwrap_or(f64::NAN);

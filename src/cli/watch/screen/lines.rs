@@ -88,17 +88,23 @@ pub(super) fn levels_line(board: &Board) -> Line<'static> {
     Line::from(spans.flatten().collect::<Vec<_>>())
 }
 
+/// What drilling comes to.
+pub(super) fn drilling_line(board: &Board) -> Line<'static> {
+    board
+        .transfer()
+        .map(texts::drilling)
+        .map_or_else(Line::default, |text| Line::styled(text, Modifier::BOLD))
+}
+
 pub(super) fn inputs(board: &Board) -> Paragraph<'static> {
     let mut lines = Vec::new();
-    if let Some(status) = board.status() {
-        for (text, state) in texts::inputs(status) {
-            let color = match state {
-                TwinStatus::INPUT_OK => GOOD,
-                TwinStatus::INPUT_STALE | TwinStatus::INPUT_REJECTED => BAD,
-                _ => DOUBTFUL,
-            };
-            lines.push(Line::styled(text, color));
-        }
+    for (text, state) in texts::inputs(board) {
+        let color = match state {
+            TwinStatus::INPUT_OK => GOOD,
+            TwinStatus::INPUT_STALE | TwinStatus::INPUT_REJECTED => BAD,
+            _ => DOUBTFUL,
+        };
+        lines.push(Line::styled(text, color));
     }
     lines.push(Line::raw(texts::joints(board)));
     if board.unreadable() > 0 {

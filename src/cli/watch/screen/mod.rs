@@ -13,7 +13,7 @@ use ratatui::style::Color;
 
 use super::board::Board;
 use charts::{draw_bit, draw_forces, draw_whirl};
-use lines::{alarm_lines, inputs, levels_line, pace, title_line, warning_lines};
+use lines::{alarm_lines, drilling_line, inputs, levels_line, pace, title_line, warning_lines};
 
 const GOOD: Color = Color::Green;
 const DOUBTFUL: Color = Color::Yellow;
@@ -36,12 +36,13 @@ pub(super) fn quit_pressed(patience: Duration) -> std::io::Result<bool> {
 pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
     // A third of the lines beyond 24 goes to the alarms, at most ten lines.
     let spare = frame.area().height.saturating_sub(24) / 3;
-    let [title, warning, levels, top, middle, bottom] = Layout::vertical([
+    let [title, warning, levels, drilling, top, middle, bottom] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(4 + spare.min(10)),
         Constraint::Length(1),
+        Constraint::Length(1),
         Constraint::Length(6),
-        Constraint::Min(7),
+        Constraint::Min(6),
         Constraint::Length(5),
     ])
     .areas(frame.area());
@@ -52,6 +53,7 @@ pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
         None => frame.render_widget(warning_lines(board.warning()), warning),
     }
     frame.render_widget(levels_line(board), levels);
+    frame.render_widget(drilling_line(board), drilling);
     let [left, right] = Layout::horizontal([Constraint::Percentage(50); 2]).areas(top);
     frame.render_widget(inputs(board), left);
     frame.render_widget(pace(board), right);
@@ -65,7 +67,7 @@ pub(super) fn draw(frame: &mut Frame, board: &Board, now: Instant) {
 mod tests {
     use super::*;
     use crate::messages::{
-        Alarm, AlarmList, BitState, ContactForces, JointDeflections, TwinStatus, WhirlState, WhirlWarning,
+        Alarm, AlarmList, BitState, ContactForces, JointDeflections, Transfer, TwinStatus, WhirlState, WhirlWarning,
     };
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
@@ -77,12 +79,16 @@ mod tests {
                 state: TwinStatus::RUNNING,
                 model_time: 12.5,
                 real_time_factor: 0.91,
-                input_name: vec!["rotary_speed".into(), "weight_on_bit".into()],
-                input_state: vec![TwinStatus::INPUT_OK; 2],
-                input_age: vec![0.1; 2],
-                input_received: vec![4.2, 10e3],
-                input_applied: vec![4.2, 10e3],
-                input_rejected: vec![0; 2],
+                input_name: vec![
+                    "rotary_speed".into(),
+                    "weight_on_bit".into(),
+                    "rate_of_penetration".into(),
+                ],
+                input_state: vec![TwinStatus::INPUT_OK, TwinStatus::INPUT_OK, TwinStatus::INPUT_ASSUMED],
+                input_age: vec![0.1, 0.1, f64::NAN],
+                input_received: vec![4.2, 10e3, f64::NAN],
+                input_applied: vec![4.2, 10e3, 0.0],
+                input_rejected: vec![0; 3],
                 ..TwinStatus::default()
             },
             now,
@@ -92,6 +98,15 @@ mod tests {
             torque: 92.0,
             stick_slip_index: 0.2,
             ..BitState::default()
+        });
+        board.update_transfer(Transfer {
+            surface_weight: 9.9e3,
+            bit_weight: 7.83e3,
+            surface_torque: 190.0,
+            bit_torque: 92.0,
+            depth_of_cut: 1.6e-3,
+            rate_of_penetration: 3.83 / 3600.0,
+            ..Transfer::default()
         });
         board.update_joints(JointDeflections {
             joints_at_limit: 3,
@@ -144,6 +159,7 @@ mod tests {
             "RUNNING",
             "Warning: backward whirl at 45 deg",
             "RPM 40.1 r/min",
+            "drills 3.8 m/h   weight 9.9 kN, bit 7.8 kN   torque 190 N m, bit 92 N m",
             "x0.910 real time",
             "3 at limit",
             "bit 40.1 r/min 92 N m",
@@ -154,6 +170,25 @@ mod tests {
             "guide-wall: largest no contact",
             "from 0 deg (left) to 90 deg",
         ] {
+            assert!(text.contains(part), "'{part}' is not in\n{text}");
+        }
+        // The rock decides the rate; the 0 of an input that nothing sends would be read as a tool that does not drill.
+        assert!(!text.contains("ROP"), "{text}");
+    }
+
+    #[test]
+    fn a_rate_that_is_an_input_is_shown_as_one() {
+        let now = Instant::now();
+        let mut board = full_board(now);
+        board.update_transfer(Transfer {
+            surface_weight: f64::NAN,
+            kickoff_weight: 10e3,
+            depth_of_cut: f64::NAN,
+            rate_of_penetration: 2.0 / 3600.0,
+            ..Transfer::default()
+        });
+        let text = picture(&board, now, 80, 24);
+        for part in ["advances 2.0 m/h as given   weight 10.0 kN", "ROP 0.0 m/h rx - assumed"] {
             assert!(text.contains(part), "'{part}' is not in\n{text}");
         }
     }
