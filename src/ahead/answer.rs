@@ -63,6 +63,12 @@ pub struct Answer {
     pub stopped: bool,
 }
 
+/// Whether members of whom `any` of `of` saw the alarm that ends them decide a candidate of `members` in all: by the test, or
+/// because the others cannot bring the share below the limit.
+fn first_alarm_decides(members: u32, limit: f64, any: u32, of: u32) -> bool {
+    f64::from(any) > limit * f64::from(members) || Chance::new(any, of).decided().is_some()
+}
+
 /// How far a look-ahead is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Progress {
@@ -101,7 +107,7 @@ pub(super) fn enough(members: &BTreeMap<u32, Result<Member, Ended>>, goal: &Goal
         }
         let decided = || match goal.ends {
             Ends::Horizon => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
-            Ends::FirstAlarm { .. } => Chance::new(any, of).decided().is_some(),
+            Ends::FirstAlarm { limit, .. } => first_alarm_decides(goal.members, limit, any, of),
         };
         if number + 1 == goal.members || (!goal.run_all && decided()) {
             return Some(number + 1);
@@ -132,13 +138,14 @@ pub(super) fn answer(start: &Start, goal: &Goal, gathered: &[Gathered], stopped:
             .candidates
             .iter()
             .zip(gathered)
-            .map(|(candidate, gathered)| summed(start, candidate, gathered, goal.ends))
+            .map(|(candidate, gathered)| summed(start, goal, candidate, gathered))
             .collect(),
         stopped,
     }
 }
 
-fn summed(start: &Start, candidate: &Candidate, gathered: &Gathered, ends: Ends) -> CandidateAnswer {
+fn summed(start: &Start, goal: &Goal, candidate: &Candidate, gathered: &Gathered) -> CandidateAnswer {
+    let ends = goal.ends;
     let counted = gathered.enough.map_or(gathered.members.len(), |enough| enough as usize);
     let results: Vec<&Result<Member, Ended>> = gathered.members.values().take(counted).collect();
     let numbers = gathered.members.keys().take(counted).copied();
@@ -171,7 +178,7 @@ fn summed(start: &Start, candidate: &Candidate, gathered: &Gathered, ends: Ends)
         failure: failure.map_or(String::new(), sentence),
         decided: match ends {
             Ends::Horizon => seen.iter().all(|&seen| Chance::new(seen, of).decided().is_some()),
-            Ends::FirstAlarm { .. } => Chance::new(saw, of).decided().is_some(),
+            Ends::FirstAlarm { limit, .. } => first_alarm_decides(goal.members, limit, saw, of),
         },
         alarms: alarm_chances(&members),
         any_alarm: any_alarm(&members),

@@ -53,12 +53,15 @@ pub enum Ends {
     /// A member ends with the horizon; a candidate once every alarm is decided.
     #[default]
     Horizon,
-    /// A member ends with the first alarm of a priority, and has no figures then; a candidate once any such alarm is decided.
+    /// A member ends with the first alarm of a priority, and has no figures then; a candidate once that alarm is
+    /// decided, or more members saw one than the limit allows.
     FirstAlarm {
         /// Least priority of the alarm.
         least: Priority,
         /// Time (s) after which a member ends whose motion has stayed away from all levels; the horizon ends all.
         calm_after: f64,
+        /// Share of all members that saw one, 0 to 1, above which the others change nothing: it decides the candidate.
+        limit: f64,
     },
 }
 

@@ -74,6 +74,7 @@ pub fn run(plan: &Plan, base: &Config, point: &Point, shared: &Arc<Shared>, stop
         ends: plan.runs.fast.map_or(Ends::Horizon, |fast| Ends::FirstAlarm {
             least: fast.first_alarm,
             calm_after: fast.calm_after,
+            limit: fast.limit,
         }),
         seed: point.seed,
     };

@@ -1,14 +1,14 @@
 //! The runs of a map, in rounds that learn from those before.
 //!
-//! A fast map looks first: a run has its first member alone, and all members where a neighbour is of another class. These
-//! begin with the same first member, so that a run never contradicts its look. Looks are points of their own plan, in the folder
-//! [`LOOKS`] of the map's directory.
+//! A fast map looks first: a run has its first member alone, and all members where a neighbour is of another class and the first
+//! does not decide the run. These begin with the same first member, so that a run never contradicts its look. Looks are points of
+//! their own plan, in the folder [`LOOKS`] of the map's directory.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use flexdrill_sweep::choice::{Choice, Class, Wanted};
-use flexdrill_sweep::plan::{Grid, Plan, Point, Runs};
+use flexdrill_sweep::plan::{Fast, Grid, Plan, Point, Runs};
 use flexdrill_sweep::{Directory, Found, Outcome, SweepError};
 
 use super::study::Progress;
@@ -174,8 +174,8 @@ impl<C: Compute, K: Fn(&Outcome) -> Class> Rounds<'_, C, K> {
         making.done += numbers.len();
         for (run, outcome) in wanted.iter().zip(found) {
             making.choice.learn(*run, (self.class)(&outcome));
+            making.is_whole[run.start][run.cell] = !looks_first || making.is_decided(&outcome);
             making.outcomes[run.start][run.cell] = Some(outcome);
-            making.is_whole[run.start][run.cell] = !looks_first;
         }
         Ok(true)
     }
@@ -191,6 +191,13 @@ impl Making {
         let starts = 0..self.whole.plan().starts.len();
         let all = starts.flat_map(|start| (0..cells).map(move |cell| Wanted { start, cell }));
         all.collect()
+    }
+
+    /// Whether a first look with its alarm decides the run of all members.
+    fn is_decided(&self, look: &Outcome) -> bool {
+        let runs = &self.whole.plan().runs;
+        let decides = |fast: &Fast| fast.decides(look.any_alarm[fast.first_alarm as usize], runs.members);
+        runs.fast.as_ref().is_some_and(decides)
     }
 
     /// First looks next to another class: of runs, or with all that is inferred too. What failed has failed.
@@ -212,17 +219,19 @@ mod tests {
     use crate::ahead::Chance;
     use flexdrill_alarms::Priority;
     use flexdrill_sweep::map::{AlarmCount, Start};
-    use flexdrill_sweep::plan::{FORMAT, Fast, Running};
+    use flexdrill_sweep::plan::{FORMAT, Running};
 
     const COLUMNS: usize = 10;
     const ROWS: usize = 8;
     const TOOLS: u32 = 5;
+    const LIMIT: f64 = 0.1;
 
     fn plan(fast: bool) -> Plan {
         let first_alarm = Priority::Low;
         let fast = fast.then_some(Fast {
             first_alarm,
             calm_after: 30.0,
+            limit: LIMIT,
             turns: TOOLS,
         });
         let cells = (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| vec![column.into(), row.into()]));
@@ -275,7 +284,8 @@ mod tests {
                 Class::Expected => seen += 1,
                 Class::Clear => {}
             }
-            if Chance::new(seen, members - failed).decided().is_some() {
+            let decides = plan.runs.fast.is_some_and(|fast| fast.decides(seen, plan.runs.members));
+            if decides || Chance::new(seen, members - failed).decided().is_some() {
                 break;
             }
         }
@@ -304,7 +314,7 @@ mod tests {
 
     fn class(outcome: &Outcome) -> Class {
         match (outcome.any_alarm[0], outcome.failed, outcome.ended()) {
-            (seen, _, ended) if ended > 0 && f64::from(seen) / f64::from(ended) > 0.1 => Class::Expected,
+            (seen, _, ended) if ended > 0 && f64::from(seen) / f64::from(ended) > LIMIT => Class::Expected,
             (_, 0, ended) if ended > 0 => Class::Clear,
             _ => Class::Unknown,
         }
@@ -315,7 +325,7 @@ mod tests {
         let of: Vec<Class> = (0..TOOLS).map(|tool| world(start, row, tool)).collect();
         let count = |class| of.iter().filter(|of| **of == class).count() as f64;
         match (count(Class::Expected), count(Class::Unknown)) {
-            (expected, failed) if expected / (of.len() as f64 - failed) > 0.1 => Class::Expected,
+            (expected, failed) if expected / (of.len() as f64 - failed) > LIMIT => Class::Expected,
             (_, 0.0) => Class::Clear,
             _ => Class::Unknown,
         }

@@ -91,6 +91,7 @@ pub fn plan(name: &str, config: &Config, question: &Question) -> Result<Plan, Sw
             fast: question.fast.then(|| Fast {
                 first_alarm: question.priority,
                 calm_after: CALM_AFTER.min(question.horizon),
+                limit: question.limit,
                 // What all tools are in all cells differs in their order alone.
                 turns: if question.plausible { question.members } else { 1 },
             }),

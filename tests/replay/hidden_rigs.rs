@@ -1,6 +1,7 @@
 //! The short form of `tests/python/hidden_rigs.py`: plausible tools on a rig of another structure than the twin's.
 
 use std::path::Path;
+use std::process::Command;
 
 use serde_json::Value;
 
@@ -70,6 +71,83 @@ fn plausible_tools_hold_what_a_rig_of_another_structure_does() {
     // 30 of 90 s settle, and the bands of the last second may come after the end of the truth.
     assert!(all >= 58, "{all} seconds were judged");
     assert!(2 * inside > all, "{inside} of {all} seconds");
+}
+
+/// A map over plausible tools, and a rig of another structure at one of its cells of each kind: the run is at a cell that the
+/// map has so, with what the rig's instruments make of it. (How often an alarm comes is measured on many rigs.)
+#[test]
+fn a_hidden_rig_runs_at_cells_of_a_map() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let base = std::fs::read_to_string(root().join("tests/data/short_rig.yaml")).unwrap();
+    std::fs::write(path("short.yaml"), base + NOT_KNOWN).unwrap();
+    let map = Command::new(env!("CARGO_BIN_EXE_flexdrill"))
+        .args([
+            "map",
+            &path("short.yaml"),
+            "--rpm",
+            "30:60",
+            "--wob",
+            "8:14",
+            "--grid",
+            "2x2",
+            "--horizon",
+            "10",
+        ])
+        .args([
+            "--members",
+            "2",
+            "--plausible",
+            "--fast",
+            "--share",
+            "100",
+            "--out",
+            &path("map"),
+        ])
+        .output()
+        .unwrap();
+    assert!(map.status.success(), "{}", String::from_utf8_lossy(&map.stderr));
+    let map = path("map/map.json");
+    let arguments = [
+        &map,
+        "--out",
+        &path("cells"),
+        "--config",
+        &path("short.yaml"),
+        "--rigs",
+        "1",
+        "--binary",
+    ];
+    let arguments = [
+        &arguments.map(String::from)[..],
+        &[env!("CARGO_BIN_EXE_flexdrill").to_owned()],
+    ]
+    .concat();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    if python::run("hidden_cells.py", &arguments, "").is_none() {
+        return;
+    }
+    let read = |file: &str| -> Value { serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap() };
+    let (map, rig) = (read(&map), read(&path("cells/cell_000.json")));
+    let mut ran = 0;
+    for verdict in ["clear", "alarm"] {
+        let cells = map["cells"].as_array().unwrap();
+        let of: Vec<&Value> = cells.iter().filter(|cell| cell["verdict"] == verdict).collect();
+        let Some(run) = rig.get(verdict) else {
+            assert!(of.is_empty(), "{verdict}: {rig}");
+            continue;
+        };
+        assert!(
+            of.iter().any(|cell| cell["x"] == run["rpm"] && cell["y"] == run["kn"]),
+            "{run}"
+        );
+        // An indicator of 5 % and 2 kN at most.
+        let [shown, acts] = ["kn", "true_kn"].map(|key| run[key].as_f64().unwrap());
+        assert!((shown - 2.0) / 1.05 <= acts && acts <= (shown + 2.0) / 0.95, "{run}");
+        assert!(run["alarms"].is_array(), "{run}");
+        ran += 1;
+    }
+    assert!(ran > 0, "{rig}");
 }
 
 /// The factors on bands that the study finds, compared with populations whose quantiles are known.

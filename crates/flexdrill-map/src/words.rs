@@ -39,7 +39,7 @@ impl Map {
         starts.filter(|start| start.state == Origin::Known && !start.expected && start.failed == 0)
     }
 
-    /// Whether a start has its first member alone. Other runs of a map with first looks have two at least, which decide.
+    /// Whether a start without an alarm has its first member alone. Where all members run, clear ones are two at least.
     const fn is_first_look(&self, start: &OfStart) -> bool {
         self.first_looks > 0 && start.members == 1
     }

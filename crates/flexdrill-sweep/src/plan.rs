@@ -12,7 +12,7 @@ use crate::map::Start;
 
 /// The format of plans and points that this build writes and reads. Points of format 1 do not count the members that saw
 /// any alarm.
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;
 /// Most points of a plan: 256 folders of them hold fewer than 800 files each.
 pub const MOST_POINTS: usize = 200_000;
 /// Most keys that a plan changes.
@@ -85,8 +85,18 @@ pub struct Fast {
     pub first_alarm: Priority,
     /// Time of its horizon (s) after which a member ends whose motion has stayed away from all levels.
     pub calm_after: f64,
+    /// Share of members with such an alarm, 0 to 1, above which a point has it: the point ends once more than this share of all
+    /// its members saw one, since the others cannot change that.
+    pub limit: f64,
     /// Plausible tools whose first ones take turns over the points, so that neighbours have others; 1: tool 0 everywhere.
     pub turns: u32,
+}
+
+impl Fast {
+    /// Whether so many alarms decide a point of so many members in all, whatever the others bring.
+    pub fn decides(&self, seen: u32, members: u32) -> bool {
+        f64::from(seen) > self.limit * f64::from(members)
+    }
 }
 
 /// The state that a start from running comes from.
@@ -155,9 +165,13 @@ impl Plan {
             let Fast {
                 first_alarm,
                 calm_after,
+                limit,
                 turns,
             } = fast;
-            hash_text(&mut shared, &format!("{} {calm_after} {turns}", first_alarm.name()));
+            hash_text(
+                &mut shared,
+                &format!("{} {calm_after} {limit} {turns}", first_alarm.name()),
+            );
         }
         if runs.plausible {
             hash_text(&mut shared, "plausible");
@@ -233,6 +247,9 @@ impl Plan {
             if !(least..=runs.horizon).contains(&fast.calm_after) {
                 let bound = format!("{least} to {} s, the horizon", runs.horizon);
                 return problem("fast.calm_after", &fast.calm_after, bound);
+            }
+            if !(0.0..1.0).contains(&fast.limit) {
+                return problem("fast.limit", &fast.limit, "0 to below 1".to_owned());
             }
             if !(1..=MOST_MEMBERS).contains(&fast.turns) {
                 return problem("fast.turns", &fast.turns, format!("1 to {MOST_MEMBERS}"));

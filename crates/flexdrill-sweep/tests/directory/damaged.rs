@@ -142,7 +142,7 @@ fn damaged_plans_are_named() {
     let path = folder.path().join(PLAN);
     let good = serde_json::to_value(plan(GRID)).unwrap();
     for (pointer, value, said) in [
-        ("/format", serde_json::json!(9), "format 9; this program reads format 2"),
+        ("/format", serde_json::json!(9), "format 9; this program reads format 3"),
         (
             "/runs/horizon",
             serde_json::json!(1e9),
@@ -165,7 +165,7 @@ fn damaged_plans_are_named() {
         let error = Directory::open(folder.path()).unwrap_err().to_string();
         assert!(error.contains(PLAN) && error.contains(said), "{pointer}: {error}");
     }
-    for text in ["", "{", "[]", "{\"format\": 2}"] {
+    for text in ["", "{", "[]", "{\"format\": 3}"] {
         std::fs::write(&path, text).unwrap();
         let error = Directory::open(folder.path()).unwrap_err().to_string();
         assert!(error.contains("not the plan of a sweep, or damaged"), "{error}");

@@ -32,6 +32,7 @@ fn a_point_is_named_by_all_that_determines_it() {
                 plan.runs.fast = Some(Fast {
                     first_alarm: Priority::Low,
                     calm_after: 20.0,
+                    limit: 0.1,
                     turns: 3,
                 });
             }),
