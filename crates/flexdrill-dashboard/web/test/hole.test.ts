@@ -3,10 +3,20 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Plan, Session, Tool } from "../src/api";
-import type { HoleAhead } from "../src/messages";
+import type { HoleAhead, TwinStatus } from "../src/messages";
 import { distance, laid, type Point } from "../src/plan";
 import { Store } from "../src/store/store";
-import { details, drawing, drilledOf, needs, summary, surveyed, toPlan, withheld } from "../src/views/hole";
+import {
+  details,
+  drawing,
+  drilledOf,
+  needs,
+  summary,
+  surveyCounts,
+  surveyed,
+  toPlan,
+  withheld,
+} from "../src/views/hole";
 
 const RADIUS = 3.2;
 const radians = (angle: number) => (angle * Math.PI) / 180;
@@ -287,4 +297,20 @@ test("the hole as configured is drawn near the bit", () => {
   const points = drilledOf(heard(105), 1.117);
   assert.equal(points.length, 101);
   assert.ok(Math.abs(points[100][0] - RADIUS * (1 - Math.cos(1.117 / RADIUS))) < 1e-9);
+});
+
+test("the counts of surveys have what is used and what waits as accepted, and dashes where the twin says none", () => {
+  const counts = { surveys_known: 3, surveys_waiting: 1, surveys_refused: 0 } as TwinStatus;
+  assert.deepEqual(surveyCounts(counts), [
+    ["accepted", "4"],
+    ["used", "3"],
+    ["below the bit", "1"],
+    ["refused", "0"],
+  ]);
+  for (const none of [null, {} as TwinStatus]) {
+    assert.deepEqual(
+      surveyCounts(none).map(([, count]) => count),
+      ["–", "–", "–", "–"],
+    );
+  }
 });

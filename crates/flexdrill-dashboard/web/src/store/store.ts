@@ -5,6 +5,7 @@ import { CdrReader } from "../cdr";
 import type { Connection, Playback } from "../connection";
 import {
   DECODERS,
+  type Ageing,
   type AlarmEvent,
   type AlarmList,
   type AppliedInputs,
@@ -79,6 +80,8 @@ export class Store {
   residuals: Residuals[] = [];
   /** The newest answer where the tool drills; null where none has ever come. */
   hole: HoleAhead | null = null;
+  /** The newest ageing of the joints; null where none has ever come. */
+  ageing: Ageing | null = null;
   /** What plausible tools do. */
   readonly bands = new BandBook();
   /** Messages that were not understood: page and twin are of different versions. */
@@ -89,6 +92,7 @@ export class Store {
     this.book.forgetPast();
     this.bands.clear();
     this.hole = null;
+    this.ageing = null;
     this.cursorTime = null;
   });
   private cursorTime: number | null = null;
@@ -208,6 +212,9 @@ export class Store {
         return this.bands.take(message as Bands);
       case "twin/hole_ahead":
         this.hole = message as HoleAhead;
+        return;
+      case "twin/ageing":
+        this.ageing = message as Ageing;
         return;
       case "twin/residuals":
         return this.takeResiduals(message as Residuals);
@@ -358,6 +365,11 @@ export class Store {
     if (!this.hole || this.cursorTime !== null || this.silent) return null;
     const age = this.now - stamp(this.hole.header);
     return age <= HOLE_HOLDS && age > -1 ? this.hole : null;
+  }
+
+  /** Ageing of the joints; null where the views show the past or the twin is silent. */
+  get ageingNow(): Ageing | null {
+    return this.cursorTime === null && !this.silent ? this.ageing : null;
   }
 
   /** Takes the server's hour, older than what has been heard here; with a bag all of it. */

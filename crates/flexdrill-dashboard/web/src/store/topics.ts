@@ -20,6 +20,7 @@ export const TOPICS = [
   "twin/safe_window",
   "twin/residuals",
   "twin/hole_ahead",
+  "twin/ageing",
 ] as const;
 export type Topic = (typeof TOPICS)[number];
 

@@ -2,7 +2,7 @@
 
 import type { Plan } from "../api";
 import { fit, h, setText, show } from "../dom";
-import type { HoleAhead } from "../messages";
+import type { HoleAhead, TwinStatus } from "../messages";
 import { distance, laid, onHole, type Point } from "../plan";
 import type { Store } from "../store/store";
 import { stamp } from "../store/topics";
@@ -240,6 +240,20 @@ export function surveyed(store: Store, hole: HoleAhead): Point[] {
   return tool ? near.flatMap((depth) => [onHole(tool, depth)].filter((place) => place !== null)) : [];
 }
 
+/** What the twin has counted of the surveys that came: heading and value of each count, a dash where it is not known. */
+export function surveyCounts(status: TwinStatus | null): [string, string][] {
+  // A twin of an older version counts none.
+  const { surveys_known: used, surveys_waiting: waiting, surveys_refused: refused } = status ?? {};
+  const accepted = used === undefined || waiting === undefined ? undefined : used + waiting;
+  const digits = (count: number | undefined) => number(count ?? NaN, 0);
+  return [
+    ["accepted", digits(accepted)],
+    ["used", digits(used)],
+    ["below the bit", digits(waiting)],
+    ["refused", digits(refused)],
+  ];
+}
+
 /** Why nothing is drawn now; null where a known hole is of the present. */
 export function withheld(store: Store): string | null {
   if (!store.isBag && store.cursor !== null) return "The hole ahead is of the present.";
@@ -415,6 +429,7 @@ export class HoleView implements View {
   private readonly state = h("p", { class: "hint", id: "hole-state" });
   private readonly planned = h("p", { id: "hole-plan" });
   private readonly rest = h("p", { class: "hint", id: "hole-details" });
+  private readonly counts = surveyCounts(null).map(() => h("td", {}));
   private readonly body: HTMLElement;
   private readonly pictures: [Picture, Picture];
   private readonly target = h("span", {}, "⋯ target");
@@ -449,6 +464,12 @@ export class HoleView implements View {
       this.planned,
       this.state,
       this.body,
+      h(
+        "table",
+        { class: "transfer-table", id: "hole-surveys" },
+        h("thead", {}, h("tr", {}, h("td", {}), ...surveyCounts(null).map(([of]) => h("th", { scope: "col" }, of)))),
+        h("tbody", {}, h("tr", {}, h("th", { scope: "row" }, "Surveys"), ...this.counts)),
+      ),
     );
   }
 
@@ -458,6 +479,9 @@ export class HoleView implements View {
     const { store, settings } = context;
     const hole = store.holeNow;
     const why = withheld(store);
+    // Counts are of the present, as the answer is.
+    const isPresent = store.isBag || (store.cursor === null && !store.silent);
+    surveyCounts(isPresent ? store.status : null).forEach(([, count], at) => setText(this.counts[at], count));
     const isKnown = why === null && hole !== null && hole.known && hole.measured_depths.length > 1;
     show(this.body, isKnown);
     if (why !== null || !hole) {

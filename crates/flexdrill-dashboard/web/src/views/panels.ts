@@ -89,7 +89,7 @@ export class Panels implements View {
     const { tab } = this.tabs[this.tabs.length - 1];
     setText(tab, driving ? `Steer: ${driving.by ?? "on"}` : "Steer");
     tab.classList.toggle("driving", driving !== null);
-    // Only a server that was started with a table has lives to show.
+    // Only a server or a twin that was started with a table has lives to show.
     for (const { view, tab } of this.tabs) if (view === this.life) show(tab, this.life.offered);
     for (const { view } of this.tabs) view.draw(now);
   }
