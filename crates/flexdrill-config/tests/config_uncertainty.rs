@@ -123,6 +123,46 @@ fn unknown_keys_are_named_with_the_one_that_was_meant() {
     assert!(error.contains("did you mean `sensors`?"), "{error}");
 }
 
+/// Dotted paths of all numbers of a configuration that are no counts.
+fn continuous(value: &serde_json::Value, path: &str, into: &mut Vec<String>) {
+    let below = |key: &str| match path {
+        "" => key.to_owned(),
+        path => format!("{path}.{key}"),
+    };
+    match value {
+        serde_json::Value::Object(map) => {
+            map.iter().for_each(|(key, value)| continuous(value, &below(key), into));
+        }
+        serde_json::Value::Array(items) => {
+            let items = (0..).zip(items);
+            items.for_each(|(index, value): (usize, _)| continuous(value, &below(&index.to_string()), into));
+        }
+        serde_json::Value::Number(number) if number.is_f64() => into.push(path.to_owned()),
+        _ => {}
+    }
+}
+
+/// What the schema has as a number that is no count has limits, within which it may be uncertain: the damping of contacts that a
+/// file leaves out, numbers in lists.
+#[test]
+fn every_number_that_is_no_count_may_be_uncertain() {
+    let every_number = include_str!("data/every_number.yaml");
+    let rig = include_str!("../../../config/rig.yaml");
+    for (name, text) in [("small", GOOD), ("every_number", every_number), ("rig", rig)] {
+        let config = Config::from_text(name, text).unwrap().without_uncertainty();
+        let mut keys = Vec::new();
+        continuous(&config.to_tree(), "", &mut keys);
+        assert!(keys.iter().any(|key| key == "contact.outer.damping"), "{keys:?}");
+        let numbers = config.numbers();
+        let unknown = keys
+            .iter()
+            .filter(|key| !numbers.iter().any(|number| number.key == **key));
+        assert_eq!(unknown.collect::<Vec<_>>(), Vec::<&String>::new(), "{name}");
+    }
+    let fields = "key: contact.outer.damping, also: [contact.inner.damping], form: factor, distribution: {log_normal: {low: 0.5, high: 2}}";
+    assert_eq!(problems(&entry(fields)), []);
+}
+
 #[test]
 fn a_distribution_is_one() {
     for (distribution, bound) in [
