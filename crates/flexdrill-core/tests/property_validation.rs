@@ -357,6 +357,18 @@ fn strings_hoists_and_rocks_that_do_not_go_together_are_refused() {
 }
 
 /// Each error as it reads.
+fn mass_on_station(station: usize) -> PointMass {
+    PointMass {
+        location: Location::Station(station),
+        body: Body::Pipe,
+        mass: 1.0,
+        axial_inertia: 0.0,
+        transverse_inertia: 0.0,
+        eccentricity: 0.0,
+        eccentricity_phase: 0.0,
+    }
+}
+
 #[test]
 fn errors_name_field_value_bound_and_unit() {
     type Change = fn(&mut ToolDescription);
@@ -405,6 +417,10 @@ fn errors_name_field_value_bound_and_unit() {
         (
             |t| t.supports[0].location = Location::Joint(32),
             "supports[0].location = Joint(32): not on the tool, which has stations 0 to 165 and 32 joints",
+        ),
+        (
+            |t| t.masses = [165, 166].map(mass_on_station).to_vec(),
+            "masses[1].location = Station(166): not on the tool, which has stations 0 to 165 and 32 joints",
         ),
         (
             |t| t.supports[1].directions.clear(),

@@ -48,12 +48,10 @@ fn described(model: &Model) -> Vec<Described> {
     let d = &model.description;
     let mut found = Vec::new();
     for mass in d.bodies() {
-        // The checks of the description have found every location on the tool.
-        for unknown in model
-            .nodes("masses", mass.location, mass.body, false)
-            .into_iter()
-            .flatten()
-        {
+        let nodes = model.nodes("masses", mass.location, mass.body, false);
+        // `ToolDescription::check_at_nodes` refuses such a mass with its field before a model is built of it.
+        debug_assert!(nodes.is_ok(), "{nodes:?}");
+        for unknown in nodes.into_iter().flatten() {
             let station = &model.stations[model.layout.station_of(unknown)];
             // Gravity in the frame of the body's node, where its eccentricity is given.
             let frame = match mass.body {
@@ -147,6 +145,9 @@ impl Bodies {
             })
         };
         let list: Vec<OnNode> = described.iter().filter_map(on_node).collect();
+        // The chain has a node at every station that has a body (`at_nodes`), and no unknown of such a node follows from others:
+        // a body that is left out here would count in the weight without acting.
+        debug_assert_eq!(list.len(), described.len(), "bodies without a node");
         let weights = described.iter().map(|at| at.frame * at.gravity * at.mass.mass);
         (!list.is_empty()).then_some(Self {
             weight: weights.sum(),
