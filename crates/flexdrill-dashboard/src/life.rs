@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use flexdrill_life::{JointOfFile, Lives, MOST_BYTES, Part, UNKNOWN_TO_A_CLASS};
+use flexdrill_life::{JointOfFile, Lives, MOST_BYTES, Part, UNKNOWN_TO_A_CLASS, damage_with_band};
 use flexdrill_text::printable;
 use serde_json::{Value, json};
 
@@ -77,8 +77,8 @@ fn joint(joint: &JointOfFile) -> Value {
         "hours": joint.hours,
         "runs": joint.runs,
         "part": joint.part.words(),
-        "damage": joint.damage.words(),
-        "other": other.words(),
+        "damage": damage_with_band(joint.damage),
+        "other": damage_with_band(other),
         "verdict": joint.verdict.words(),
         "level": joint.verdict as u8,
         "hours_left": joint.hours_left,

@@ -23,6 +23,7 @@ pub mod words;
 
 use flexdrill_hole::{HoleError, Propagation, RIPPLE_THRESHOLD, Steady};
 
+pub use flexdrill_base::Band;
 pub use learnt::Learnt;
 pub use plan::Plan;
 pub use tool::{Drilling, Refusal, SPACING};
@@ -57,48 +58,6 @@ impl Station {
 
 /// The stations of a tool, from the bit on.
 pub type Track = Vec<Station>;
-
-/// Ends of 90 % of the members and their median.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Band {
-    /// 5 % of the members are below.
-    pub low: f64,
-    /// Half of the members are below.
-    pub median: f64,
-    /// 5 % of the members are above.
-    pub high: f64,
-}
-
-impl Band {
-    /// Fewest values of a band. Quantile q of n values is their number q (n + 1), so that the next value is below it with
-    /// the chance q: 5 % of fewer would be below the first of them.
-    pub const LEAST: usize = 19;
-
-    /// Of known values; none of fewer than [`Band::LEAST`].
-    pub fn of(mut values: Vec<f64>) -> Option<Self> {
-        if values.len() < Self::LEAST {
-            return None;
-        }
-        values.sort_by(f64::total_cmp);
-        let last = values.len() - 1;
-        let quantile = |share: f64| {
-            let at = (share * (values.len() + 1) as f64 - 1.0).clamp(0.0, last as f64);
-            let below = (at.floor() as usize).min(last);
-            let above = (below + 1).min(last);
-            values[below] + (at - below as f64) * (values[above] - values[below])
-        };
-        Some(Self {
-            low: quantile(0.05),
-            median: quantile(0.5),
-            high: quantile(0.95),
-        })
-    }
-
-    /// Half of its width.
-    pub fn half(&self) -> f64 {
-        0.5 * (self.high - self.low)
-    }
-}
 
 /// Where the members are at a station.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -225,25 +184,6 @@ pub fn curvature(track: &[Station]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_band_has_ninety_per_cent_between_its_ends() {
-        // The next of 19 equally likely values is below the first, or above the last, once in twenty times.
-        let of = |count: u32| Band::of((1..=count).rev().map(f64::from).collect());
-        let band = of(19).unwrap();
-        let near = |value: f64, expected: f64| (value - expected).abs() < 1e-9;
-        assert!(
-            near(band.low, 1.0) && near(band.median, 10.0) && near(band.high, 19.0),
-            "{band:?}"
-        );
-        let band = of(99).unwrap();
-        assert!(
-            near(band.low, 5.0) && near(band.median, 50.0) && near(band.high, 95.0),
-            "{band:?}"
-        );
-        assert!(near(band.half(), 45.0));
-        assert_eq!(of(18), None);
-    }
 
     #[test]
     fn azimuths_near_north_are_near_each_other() {

@@ -23,7 +23,7 @@ pub use error::LifeError;
 pub use kind::Kind;
 pub use lives::{Added, Lives, Row};
 pub use living::LivingJoints;
-pub use ranking::{Band, JointOfFile, Part, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words, ranked, verdict};
+pub use ranking::{JointOfFile, Part, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words, damage_with_band, ranked, verdict};
 pub use run::{JointOfRun, RunLife};
 
 /// Largest file that is read (bytes): some thousand runs of the longest tools.

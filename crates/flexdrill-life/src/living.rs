@@ -1,11 +1,11 @@
 //! What the joints of a run have lived while the run lasts: before it, by a table, and in it, by what it counts. `twin/ageing`
 //! has it by serial number.
 
+use flexdrill_base::Band;
 use flexdrill_config::Config;
 use flexdrill_messages::Ageing;
 
 use super::{Counted, Kind, LifeError, Lives, RunLife};
-use crate::ranking::Band;
 use crate::run::damages;
 
 /// The joints of a run with their lives so far. It is a function of the configuration, of what was lived before and of the
@@ -124,7 +124,7 @@ impl LivingJoints {
         // The scatter is that of the joint, the same in all its runs: the band is that of the sum.
         let factor = self.kind.details[of].band();
         for (lived, counted) in self.before.iter().zip(run) {
-            let band = Band::of(lived[of] + counted[of], factor);
+            let band = Band::within_factor(lived[of] + counted[of], factor);
             median.push(band.median);
             low.push(band.low);
             high.push(band.high);

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use flexdrill_base::Band;
+
 use super::{Counted, Kind, LifeError, Lives, Row};
 use crate::run::damages;
 
@@ -11,32 +13,10 @@ pub const UNKNOWN_TO_A_CLASS: &str = "A damage of 1 is a life: half of such deta
     of the stop and of the pins, torsion, assembly and make-up, overloads, straightening and transport, nor what the joint \
     had drilled before its first run here. An inspection that finds a crack is right, whatever stands here.";
 
-/// A damage with its band.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Band {
-    /// 5 %.
-    pub low: f64,
-    /// Median.
-    pub median: f64,
-    /// 95 %.
-    pub high: f64,
-}
-
-impl Band {
-    /// From a median and the factor to either end.
-    pub(crate) fn of(median: f64, factor: f64) -> Self {
-        Self {
-            low: median / factor,
-            median,
-            high: median * factor,
-        }
-    }
-
-    /// Median with the ends of its band, such as `0.42 (0.11 to 1.6)`.
-    pub fn words(self) -> String {
-        let [median, low, high] = [self.median, self.low, self.high].map(damage_in_words);
-        format!("{median} ({low} to {high})")
-    }
+/// Median of a damage with the ends of its band, such as `0.42 (0.11 to 1.6)`.
+pub fn damage_with_band(damage: Band) -> String {
+    let [median, low, high] = [damage.median, damage.low, damage.high].map(damage_in_words);
+    format!("{median} ({low} to {high})")
 }
 
 /// A damage with two digits; above a whole life with as many as it has.
@@ -121,8 +101,8 @@ impl Damages {
     fn of(kind: &Kind, [stop, link]: [f64; 2]) -> Self {
         let factors = kind.details.map(|detail| detail.band());
         Self {
-            stop: Band::of(stop, factors[0]),
-            link: Band::of(link, factors[1]),
+            stop: Band::within_factor(stop, factors[0]),
+            link: Band::within_factor(link, factors[1]),
         }
     }
 

@@ -1,12 +1,12 @@
 //! A table of lives in words.
 
-use flexdrill_life::{JointOfFile, Lives, Part, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words};
+use flexdrill_life::{JointOfFile, Lives, Part, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words, damage_with_band};
 use flexdrill_text::counted;
 
 fn joint(rank: usize, joint: &JointOfFile) -> String {
     let other = match joint.part {
-        Part::Stop => format!("link below {}", joint.link.words()),
-        Part::Link => format!("stop {}", joint.stop.words()),
+        Part::Stop => format!("link below {}", damage_with_band(joint.link)),
+        Part::Link => format!("stop {}", damage_with_band(joint.stop)),
     };
     let place = joint.places.last().copied().unwrap_or_default();
     let left = match joint.hours_left {
@@ -17,7 +17,7 @@ fn joint(rank: usize, joint: &JointOfFile) -> String {
         "{rank:>3}. {}: {} {}; {other}; {:.1} h in {}, last at place {place} from the bit. {}{left}",
         joint.serial,
         joint.part.words(),
-        joint.damage.words(),
+        damage_with_band(joint.damage),
         joint.hours,
         counted(joint.runs as u64, "run"),
         joint.verdict.words()
@@ -47,7 +47,7 @@ pub(super) fn lines(lives: &Lives, all: bool) -> Vec<String> {
         Some(next) if due == 0 => lines.push(format!(
             "None: the most damaged is {} with {}. {}",
             next.serial,
-            next.damage.words(),
+            damage_with_band(next.damage),
             Verdict::Sound.words()
         )),
         Some(_) => lines.push(format!(

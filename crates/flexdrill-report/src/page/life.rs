@@ -1,6 +1,6 @@
 //! Joints to inspect, by this recording and by all runs.
 
-use flexdrill_life::{JointOfFile, Kind, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words};
+use flexdrill_life::{JointOfFile, Kind, UNKNOWN_TO_A_CLASS, Verdict, damage_in_words, damage_with_band};
 use flexdrill_text::counted;
 use maud::{Markup, html};
 
@@ -62,8 +62,8 @@ fn table(joints: &[JointOfFile], design_factor: f64) -> Markup {
                 td.n { (joint.places.last().copied().unwrap_or_default()) }
                 td.n { (number(joint.hours)) }
                 td.n { (joint.runs) }
-                td.n { (joint.stop.words()) }
-                td.n { (joint.link.words()) }
+                td.n { (damage_with_band(joint.stop)) }
+                td.n { (damage_with_band(joint.link)) }
                 td { (joint.verdict.words()) }
             } } }
         }
