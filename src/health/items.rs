@@ -52,7 +52,7 @@ pub(super) fn solver(status: &TwinStatus) -> Item {
     let quality = words::model_quality(status.model_quality);
     let calm = match (status.state, status.model_quality) {
         (TwinStatus::FAILED, _) => format!("the model has stopped: {}", status.last_rejection_cause),
-        (_, TwinStatus::QUALITY_GOOD) => "converging".to_owned(),
+        (_, TwinStatus::QUALITY_GOOD) if status.model_quality_cause.is_empty() => "converging".to_owned(),
         _ => format!("converging, model quality {quality}: {}", status.model_quality_cause),
     };
     Item {

@@ -33,6 +33,8 @@ pub struct StatusKeeper {
     config_hash: String,
     /// What differs from it, in words.
     changed: Vec<String>,
+    /// What makes the motion doubtful and no quality of the steps sees, in words.
+    unseen: Option<String>,
     counters: SolverCounters,
     /// At the message before.
     counters_before: (SolverCounters, u64),
@@ -94,6 +96,7 @@ impl StatusKeeper {
             time_step: begun.solver.time_step,
             config_hash: begun.hash(),
             changed: Vec::new(),
+            unseen: begun.guide_that_rings(),
             begun,
             counters: SolverCounters::default(),
             counters_before: Default::default(),
@@ -113,6 +116,7 @@ impl StatusKeeper {
     pub fn reconfigure(&mut self, config: &Config) {
         let changed = config.changed_since(&self.begun);
         self.changed = changed.iter().map(ToString::to_string).collect();
+        self.unseen = config.guide_that_rings();
     }
 
     /// Keeps what a snapshot says of the solver.
@@ -222,7 +226,7 @@ impl StatusKeeper {
             energy_error: self.energy.error,
             energy_error_ratio: ratio(self.energy.error, self.energy.drive),
             model_quality: self.quality.level as u8,
-            model_quality_cause: self.quality.to_string(),
+            model_quality_cause: quality_cause(&self.quality, self.unseen.as_deref()),
             energy_error_share: self.quality.energy_error_share,
             frames_dropped: gauges.frames_dropped.load(Ordering::Relaxed),
             events_lost: gauges.events_lost.load(Ordering::Relaxed),
@@ -294,6 +298,16 @@ impl StatusKeeper {
     }
 }
 
+/// Why the motion cannot be trusted: what the quality has measured, and what it does not see.
+fn quality_cause(measured: &ModelQuality, unseen: Option<&str>) -> String {
+    let measured = measured.to_string();
+    match unseen {
+        None => measured,
+        Some(unseen) if measured.is_empty() => unseen.to_owned(),
+        Some(unseen) => format!("{measured}; {unseen}"),
+    }
+}
+
 /// The same counts as those of the item `surveys` of the diagnostics.
 fn fill_surveys(status: &mut TwinStatus, sources: &Sources<'_>) {
     let counts = sources.intake.surveys().counts();
@@ -334,4 +348,32 @@ fn fill_outputs(status: &mut TwinStatus, sources: &Sources<'_>) {
 
 fn ratio(error: f64, drive: f64) -> f64 {
     if drive == 0.0 { 0.0 } else { (error / drive).abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flexdrill_core::twin::QualityCause;
+
+    /// `check` warns of the guide of the rig's tool without damping at the wall; a run with it has a good quality.
+    #[test]
+    fn a_guide_that_rings_is_a_cause_of_doubt_that_a_good_quality_has() {
+        let rig = include_str!("../../config/rig.yaml");
+        let rig = Config::from_text("rig.yaml", rig).unwrap();
+        let dry = rig.with_value("contact.outer.damping", 0.5).unwrap();
+        let (calm, rings) = (rig.guide_that_rings(), dry.guide_that_rings());
+        let good = ModelQuality {
+            judged: true,
+            ..ModelQuality::default()
+        };
+        assert_eq!(quality_cause(&good, calm.as_deref()), "");
+        let said = quality_cause(&good, rings.as_deref());
+        assert!(said.starts_with("contact.outer.damping 0.5 s/m"), "{said}");
+        let poor = ModelQuality {
+            cause: Some(QualityCause::EnergyError),
+            ..good
+        };
+        let both = quality_cause(&poor, rings.as_deref());
+        assert!(both.starts_with("energy errors") && both.ends_with(&said), "{both}");
+    }
 }

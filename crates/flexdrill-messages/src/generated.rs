@@ -2244,7 +2244,8 @@ pub mod flexdrill {
         pub phase_time: Vec<f64>,
         /// How far the motion can be trusted: QUALITY_GOOD, QUALITY_DEGRADED or QUALITY_POOR.
         pub model_quality: u8,
-        /// Why it is not GOOD, with value and bound, or that it is not judged yet; empty if it is GOOD.
+        /// Why it is not GOOD, with value and bound, or that it is not judged yet; and what it does not see: a soft guide that rings
+        /// on the wall. Empty if there is nothing to say.
         pub model_quality_cause: std::string::String,
         /// Energy error of the steps over the last 10 s, magnitudes added, divided by the energy that contact, Rayleigh and
         /// numerical damping dissipated in that time; zero is exact.

@@ -2118,7 +2118,10 @@ export interface TwinStatus {
   phase_time: Float64Array;
   /** How far the motion can be trusted: QUALITY_GOOD, QUALITY_DEGRADED or QUALITY_POOR. */
   model_quality: number;
-  /** Why it is not GOOD, with value and bound, or that it is not judged yet; empty if it is GOOD. */
+  /**
+   * Why it is not GOOD, with value and bound, or that it is not judged yet; and what it does not see: a soft guide that rings
+   * on the wall. Empty if there is nothing to say.
+   */
   model_quality_cause: string;
   /**
    * Energy error of the steps over the last 10 s, magnitudes added, divided by the energy that contact, Rayleigh and
