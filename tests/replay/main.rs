@@ -22,5 +22,6 @@ mod logs;
 mod measured;
 mod posterior;
 mod report;
+mod safe_window;
 mod shapes;
 mod surveys;

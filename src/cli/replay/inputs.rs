@@ -9,6 +9,7 @@ use crate::cli::output::tell;
 use crate::cli::progress::Progress;
 use crate::cli::source::{FromRig, Samples};
 use crate::messages::topics::TopicInfo;
+use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::{Conditioner, InputKind, Stamp};
 use flexdrill_core::twin::RunInputs;
@@ -21,7 +22,8 @@ use flexdrill_uncertainty::Posterior;
 const TAIL: f64 = 1.0;
 
 /// Runs the model through the samples, which are in the order of their times. Plausible tools are drawn from `posterior`
-/// where the configuration names one, and `lives` are those of its joints, where a table has them.
+/// where the configuration names one, `lives` are those of its joints, where a table has them, and speed and weight are judged
+/// by `window`, where there is a map.
 pub(super) fn replay(
     config: Config,
     samples: Samples,
@@ -29,6 +31,7 @@ pub(super) fn replay(
     duration: Option<f64>,
     posterior: Option<Arc<Posterior>>,
     lives: Option<LivingJoints>,
+    window: Option<Arc<SafeWindow>>,
 ) -> anyhow::Result<(Player, Progress)> {
     // The messages are formed before the samples are taken apart: the recording
     // gets them as received, the conditioner gets their values.
@@ -59,6 +62,7 @@ pub(super) fn replay(
             measured,
             surveys,
         },
+        window,
         out,
         |topic: &TopicInfo| {
             if topic.name.starts_with('/') {

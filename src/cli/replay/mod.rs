@@ -14,6 +14,7 @@ mod summary;
 
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::Context as _;
 use clap::Args;
@@ -27,6 +28,7 @@ use crate::bag;
 use crate::cli::output::{say, say_text, tell};
 use crate::life_table::{self, TableError};
 use crate::messages::topics;
+use crate::safe_window::SafeWindow;
 use flexdrill_life::LivingJoints;
 use flexdrill_text::{counted, printable};
 
@@ -136,7 +138,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
                     topics::APPLIED_INPUTS.name
                 )
             })?;
-            inputs::replay(config, samples, out, args.duration, posterior, None)?
+            inputs::replay(config, samples, out, args.duration, posterior, None, script.window())?
         } else {
             script.replay(out, args.duration, posterior)?
         };
@@ -168,7 +170,10 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     // Before the run, which may take long: a tool without a class or serial numbers has no lives.
     let table = args.life.as_deref();
     let lives = table.map(|table| Ok::<_, TableError>(LivingJoints::of_table(&config, life_table::read(table)?)?));
-    let done = inputs::replay(config, samples, out, args.duration, posterior, lives.transpose()?)?;
+    // A relative path is relative to the folder of the configuration, as for the node.
+    let window = SafeWindow::of(&config, args.config.as_deref().unwrap_or(Path::new("")))?.map(Arc::new);
+    let lives = lives.transpose()?;
+    let done = inputs::replay(config, samples, out, args.duration, posterior, lives, window)?;
     finish(done, args.incidents.as_deref())
 }
 

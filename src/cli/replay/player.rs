@@ -18,6 +18,7 @@ use crate::field_log::LogRows;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::residuals::{self, Samples};
 use crate::rig_inputs::Surveys;
+use crate::safe_window::SafeWindow;
 use crate::session::Session;
 use flexdrill_config::{Config, Members, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
@@ -57,17 +58,18 @@ pub(super) struct Player {
 }
 
 impl Player {
-    /// Builds the model and creates the bag. `start` is in ns since 1970, as are the times of what came `from_rig`; `name`
-    /// makes topics absolute.
+    /// Builds the model and creates the bag. `start` is in ns since 1970, as are the times of what came `from_rig`; speed and
+    /// weight are judged by `window`, where there is a map; `name` makes topics absolute.
     pub(super) fn new(
         config: Config,
         start: i64,
         from_rig: FromRig,
+        window: Option<Arc<SafeWindow>>,
         out: &Path,
         name: impl Fn(&TopicInfo) -> String,
     ) -> anyhow::Result<Self> {
         let settings = config.simulation();
-        Self::with_settings(config, &settings, start, from_rig, out, name)
+        Self::with_settings(config, &settings, start, from_rig, window, out, name)
     }
 
     /// The same with other settings than those of the configuration.
@@ -76,6 +78,7 @@ impl Player {
         settings: &SimulationSettings,
         start: i64,
         mut from_rig: FromRig,
+        window: Option<Arc<SafeWindow>>,
         out: &Path,
         name: impl Fn(&TopicInfo) -> String,
     ) -> anyhow::Result<Self> {
@@ -106,6 +109,9 @@ impl Player {
         let tally = Tally::of_log(LogPlace { rows, start });
         let mut sink = BagSink::new(recorder, topics, from_rig, Surveys::new(&config), tally);
         let mut session = Session::new(Arc::clone(&config), AlarmBook::fresh(config, start));
+        if let Some(window) = window {
+            session.judge_by(window);
+        }
         session.begin(start, &mut sink)?;
         Ok(Self {
             frame: run.new_frame(),

@@ -31,7 +31,7 @@ pub(in crate::cli) fn record_case(run: &CaseRun, out: &Path) -> anyhow::Result<R
     let config = run
         .config
         .with_values("the case", topics.map(|topic| (format!("outputs.rates.{topic}"), rate)))?;
-    let mut player = Player::with_settings(config, &run.settings, 0, FromRig::default(), out, |topic| {
+    let mut player = Player::with_settings(config, &run.settings, 0, FromRig::default(), None, out, |topic| {
         format!("/{}", topic.name.trim_start_matches('/'))
     })?;
     let inputs = RunInputs {

@@ -46,6 +46,7 @@ use std::sync::Arc;
 use crate::messages::{AlarmEvent, Bands, HoleAhead, Residuals};
 use flexdrill_alarms::{AlarmSystem, Figures, Observation, Operator, Priority, Saved, SavedError, Statistics, Time};
 use flexdrill_config::{Advice, AdviceTable, Config, PROMPT_OFF_DELAY};
+use flexdrill_core::inputs::InputState;
 use flexdrill_core::twin::Snapshot;
 use flexdrill_motion::HazardKind;
 use flexdrill_outputs::ParameterChange;
@@ -79,6 +80,8 @@ pub struct AlarmBook {
     lead: Option<AlarmId>,
     /// Which of the rig's values the twin does not know.
     unknown: Unknown,
+    /// Whether no input that the run uses is stale or was never received.
+    inputs_known: bool,
     /// When rig and twin were compared last in steady motion.
     rig_judged: Time,
     /// When the hole ahead was compared last with its plan.
@@ -148,6 +151,7 @@ impl AlarmBook {
             tools: Plausible::default(),
             lead: None,
             unknown: Unknown::default(),
+            inputs_known: true,
             rig_judged: Time::MIN,
             plan_judged: Time::MIN,
             reserve: None,
@@ -186,6 +190,12 @@ impl AlarmBook {
         self.window = Some(window);
     }
 
+    /// Takes the worst state of the inputs that the run uses, in the message's INPUT_ constants. It is part of the applied
+    /// inputs, so that a replay has the one of the recorded run.
+    pub fn set_input_quality(&mut self, quality: u8) {
+        self.inputs_known = ![InputState::Stale as u8, InputState::NotReceived as u8].contains(&quality);
+    }
+
     /// Advances the clock of requests. Call it before the observations of that time.
     pub fn advance(&mut self, time: Time) {
         let mut events = Vec::new();
@@ -198,7 +208,10 @@ impl AlarmBook {
         let stands = |id: AlarmId| self.system.alarm(id as usize).standing.active().is_some();
         let mut findings = tool::findings(snapshot, stamp, &self.config, stands);
         if let Some(window) = &self.window {
-            findings.push((AlarmId::KnownWindow, window::finding(window, snapshot, self.unknown)));
+            findings.push((
+                AlarmId::KnownWindow,
+                window::finding(window, snapshot, self.inputs_known),
+            ));
         }
         findings.push((AlarmId::ChangedParameters, self.changed.finding()));
         self.operating = Operating::of(&snapshot.applied, self.unknown);

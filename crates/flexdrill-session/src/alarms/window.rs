@@ -1,6 +1,5 @@
 //! The alarm "outside the known window": where the present speed and weight are on the map that the node has loaded.
 
-use super::advice::Unknown;
 use super::catalogue::AlarmId;
 use super::finding::Finding;
 use super::sentence::{capitalized, number};
@@ -10,15 +9,15 @@ use flexdrill_core::twin::Snapshot;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_motion::DriveState;
 
-/// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged, nor are a speed and
-/// weight that are the twin's own.
-pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, unknown: Unknown) -> Finding {
+/// The finding on a snapshot. A tool at standstill, that runs up, or that is off bottom is not judged, nor are a speed
+/// and weight that are the twin's own: `inputs_known` says that those of the run are the rig's.
+pub(super) fn finding(window: &SafeWindow, snapshot: &Snapshot, inputs_known: bool) -> Finding {
     // The axis of the map is the magnitude of the speed.
     let rpm = rad_per_s_to_rpm(snapshot.applied.rotary_speed).abs();
     let kn = n_to_kn(snapshot.applied.weight_on_bit);
     // A speed that is assumed or held is no point of the rig, and a
     // judgement on it would accuse the driller of the twin's values.
-    let suppressed = snapshot.hazards.drive != DriveState::Turning || unknown.any();
+    let suppressed = snapshot.hazards.drive != DriveState::Turning || !inputs_known;
     let location = window.locate(rpm, kn);
     if suppressed || matches!(location, Location::Inside | Location::OffBottom) {
         return Finding {

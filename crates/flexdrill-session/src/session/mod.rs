@@ -229,6 +229,7 @@ impl Session {
         // Alarms are judged at their rate in model time, so that a replay judges at the same steps.
         if frame.due.has(Output::Alarms) {
             let stamp = outputs.instant(frame.ticks);
+            self.alarms.set_input_quality(frame.input_quality);
             self.observe(&frame.snapshot, stamp);
             self.hole.observe(frame, || host.surveys(stamp));
             host.judged(&mut self.alarms, &frame.snapshot);

@@ -3,10 +3,10 @@ use std::collections::BTreeMap;
 use super::*;
 use crate::ensemble::{Ensemble, Pace};
 use crate::rig_inputs::Measured;
-use flexdrill_core::inputs::MeasuredKind;
+use flexdrill_core::inputs::{InputState, MeasuredKind};
 use flexdrill_core::twin::{Run, Simulation};
 use flexdrill_messages::topics::Cadence;
-use flexdrill_messages::{HoleAhead, HoleDrilled, RigMeasured, from_cdr};
+use flexdrill_messages::{HoleAhead, HoleDrilled, RigMeasured, SafeWindow as SafeWindowMessage, from_cdr};
 use flexdrill_outputs::{MeasuredValues as _, schedule};
 
 const SECOND: i64 = 1_000_000_000;
@@ -109,14 +109,14 @@ const OF_THE_NODE: [&str; 3] = [
     topics::FORECAST.name,
 ];
 
-/// A topic that the session does not send would be missing in every host, and none of them could add it: nothing else in
-/// them sends messages of a run (`hosts_publish_nothing_of_their_own`, in `xtask/tests/arrows.rs`).
+/// A topic that the session does not send would be missing in every host, and none of them could add it: nothing else
+/// in them sends messages of a run (`hosts_publish_nothing_of_their_own`, in `xtask/tests/arrows.rs`).
 #[test]
 fn all_topics_of_a_run_come_from_the_session() {
     let (session, host) = hosted(&config());
     let counts = host.counts();
-    // A map is sent by sessions that have one, and nothing happens in two seconds that an alarm's event is of, or that a
-    // point of the hole is complete with.
+    // A map is sent by sessions that have one, and nothing happens in two seconds that an alarm's event is of, or that
+    // a point of the hole is complete with.
     let at_times = [
         topics::SAFE_WINDOW.name,
         topics::ALARM_EVENTS.name,
@@ -177,8 +177,53 @@ fn a_hole_that_an_earlier_run_has_drilled_is_published_at_the_start() {
     assert_eq!(host.sent.len(), before);
 }
 
-/// A host that has a table of lives gives them to the session; the joints count from the top in messages, from the bit up in a
-/// configuration.
+/// A session that is judged by the map of a recording has the alarms of the recorded one: at the same inputs it stands
+/// off the map, and is suppressed while an input is stale.
+#[test]
+fn a_session_with_a_recorded_map_judges_as_the_recorded_one() {
+    let config = config();
+    let map = SafeWindowMessage {
+        rotary_speed_rpm: vec![40.0, 80.0],
+        weight_on_bit_kn: vec![2.0, 6.0],
+        verdict: vec![SafeWindowMessage::CLEAR; 4],
+        chance: vec![0.0; 4],
+        alarm: vec![String::new(); 4],
+        was_run: vec![true; 4],
+        ..SafeWindowMessage::default()
+    };
+    let simulation = Simulation::new(&config.tool(), &config.simulation()).unwrap();
+    let due = schedule(&config, &config.outputs.rates);
+    let mut run = Run::new(simulation, due);
+    let mut frame = run.new_frame();
+    run.capture(&mut frame);
+    frame.snapshot.hazards.drive = flexdrill_motion::DriveState::Turning;
+    frame.snapshot.applied.rotary_speed = 60.0 * std::f64::consts::TAU / 60.0;
+    frame.snapshot.applied.weight_on_bit = 14e3;
+    let mut judge = |map: SafeWindowMessage, quality: InputState| {
+        let (mut session, mut host) = (session(&config), Kept::default());
+        session.judge_by(Arc::new(SafeWindow::of_recording(map).unwrap()));
+        session.begin(START, &mut host).unwrap();
+        frame.input_quality = quality as u8;
+        // Ten seconds, twice the delay of the alarm, at the ticks at which alarms are due.
+        for ticks in (1..=20_000).filter(|ticks| due.due(*ticks).has(Output::Alarms)) {
+            (frame.ticks, frame.due) = (ticks, due.due(ticks));
+            session.frame(&frame, &mut host).unwrap();
+        }
+        let sent = host.sent.iter().find(|(topic, ..)| *topic == topics::SAFE_WINDOW.name);
+        let sent: SafeWindowMessage = from_cdr(&sent.unwrap().2).unwrap();
+        (session.alarms().active(crate::alarms::AlarmId::KnownWindow), sent)
+    };
+    let (stands, recorded) = judge(map, InputState::Ok);
+    assert_eq!(stands, Some(flexdrill_alarms::Priority::Low));
+    let (again, twice) = judge(recorded.clone(), InputState::Slow);
+    assert_eq!((again, &twice), (stands, &recorded));
+    for unknown in [InputState::Stale, InputState::NotReceived] {
+        assert_eq!(judge(recorded.clone(), unknown).0, None, "{unknown}");
+    }
+}
+
+/// A host that has a table of lives gives them to the session; the joints count from the top in messages, from the bit
+/// up in a configuration.
 #[test]
 fn ageing_has_the_lives_of_the_joints_where_the_host_has_a_table() {
     let text = include_str!("../../../../config/default.yaml");
@@ -210,8 +255,8 @@ fn ageing_has_the_lives_of_the_joints_where_the_host_has_a_table() {
     assert_eq!(with.stop_damage_rate, without.stop_damage_rate);
 }
 
-/// A member of a look-ahead and the twin of the package for Python have a session that was never begun: it judges as the
-/// others do, and sends nothing.
+/// A member of a look-ahead and the twin of the package for Python have a session that was never begun: it judges as
+/// the others do, and sends nothing.
 #[test]
 fn a_session_that_was_not_begun_judges_and_sends_nothing() {
     let config = config();
@@ -244,8 +289,8 @@ fn a_session_that_was_not_begun_judges_and_sends_nothing() {
     assert_eq!((host.sent.len(), silent.instant(0)), (before, None));
 }
 
-/// The tool of config/default.yaml at rest under a weight (kN), with this in place of its guide's stiffness: what the newest
-/// message of the first second says.
+/// The tool of config/default.yaml at rest under a weight (kN), with this in place of its guide's stiffness: what the
+/// newest message of the first second says.
 fn at_rest(bending_factor: &str) -> HoleAhead {
     let text = include_str!("../../../../config/default.yaml");
     let text = text
@@ -281,8 +326,8 @@ fn at_rest(bending_factor: &str) -> HoleAhead {
 }
 
 /// Side force and tilt at rest at 10 kN after 90 degrees of arc against a static program of finite differences that was
-/// written apart from this one, for a guide as curved as the hole: 4083 N and -6.636 mrad, with a bending factor of 0.05
-/// 1930 N and -13.906 mrad. The twin holds the pipe's end too (23 N) and has friction: 2 %.
+/// written apart from this one, for a guide as curved as the hole: 4083 N and -6.636 mrad, with a bending factor of
+/// 0.05 1930 N and -13.906 mrad. The twin holds the pipe's end too (23 N) and has friction: 2 %.
 #[test]
 fn a_tool_at_rest_has_the_side_force_of_the_statics() {
     for (bending_factor, force, tilt) in [("1.0", 4083.0, -6.636e-3), ("0.05", 1930.0, -13.906e-3)] {

@@ -24,9 +24,10 @@ use crate::ensemble::Generation;
 use crate::messages::topics::{self, TopicInfo};
 use crate::messages::{
     Ageing, AppliedInputs, Bands, HoleAhead, JointDeflections, Message, Residuals, RigInputs, RigMeasured, RigSurvey,
-    SessionInfo, TwinStatus,
+    SafeWindow as WindowMessage, SessionInfo, TwinStatus,
 };
 use crate::residuals::Samples;
+use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
 use flexdrill_core::twin::RunInputs;
 use flexdrill_hole::Survey;
@@ -56,6 +57,8 @@ pub(super) struct Script {
     surveys: Vec<(i64, Arc<[Survey]>)>,
     /// The first ageing, which says what the joints had lived before the run.
     ageing: Option<Ageing>,
+    /// The map that speed and weight were judged by, where the run had one.
+    window: Option<Arc<SafeWindow>>,
     /// Plausible tools that ran with it, by the instant at which they began (ns since 1970), in the order of time.
     ensembles: Vec<(i64, Generation)>,
     /// Names of the recorded topics by relative name.
@@ -90,6 +93,7 @@ impl Script {
             Residuals::ROS_TYPE,
             Bands::ROS_TYPE,
             Ageing::ROS_TYPE,
+            WindowMessage::ROS_TYPE,
         ];
         // Only these types are decoded: they drive the model or say where
         // it was; the rest of a recording is far larger.
@@ -115,6 +119,7 @@ impl Script {
         let mut ensembles: Vec<(i64, Generation)> = Vec::new();
         let mut surveys: Vec<(i64, Arc<[Survey]>)> = Vec::new();
         let mut ageing: Option<Ageing> = None;
+        let mut window: Option<Arc<SafeWindow>> = None;
         for message in bag.by_ref() {
             let message = match message {
                 // The sequence numbers of the messages around a damaged part show the loss.
@@ -164,6 +169,11 @@ impl Script {
                         ageing = message.decode().ok();
                     }
                 }
+                // The recording has all of the map, so that a replay needs no file.
+                WindowMessage::ROS_TYPE => match SafeWindow::of_recording(message.decode()?) {
+                    Ok(found) => window = Some(Arc::new(found)),
+                    Err(error) => damaged.push(error.to_string()),
+                },
                 TwinStatus::ROS_TYPE => {
                     status_step = message.decode::<TwinStatus>()?.step_count;
                 }
@@ -210,6 +220,7 @@ impl Script {
             samples,
             surveys,
             ageing,
+            window,
             ensembles,
             names,
             last_step,
@@ -233,6 +244,11 @@ impl Script {
             "the recorded configuration",
             &self.session.configuration,
         )?)
+    }
+
+    /// The map that speed and weight were judged by, where the run had one.
+    pub(super) fn window(&self) -> Option<Arc<SafeWindow>> {
+        self.window.clone()
     }
 
     /// The posterior that its plausible tools were drawn from, if they were: in the file `given`, or in the recorded one next
@@ -281,6 +297,14 @@ impl Script {
                 "the recording begins at step {} of the run and does not have the model's state at that step: \
                  the replay begins there with the tool at rest",
                 first.step
+            ));
+        }
+        // Recorders of other programs that were started late, or without transient durability, have no latched message.
+        let names_a_map = self.config().is_ok_and(|config| config.map.file.is_some());
+        if names_a_map && self.window.is_none() {
+            exactness.departures.push(format!(
+                "the recording has no {}, the map of its run (map.file): known_window is not judged",
+                topics::SAFE_WINDOW.name
             ));
         }
         // Applied inputs and residuals act on the replay; gaps of all other
@@ -355,7 +379,8 @@ impl Script {
         // Steps and skips of the messages count from the start of the node,
         // those of the player from the start of the replay.
         let mut base = Base::of(&self.session, self.applied.first());
-        let mut player = Player::new(config, base.start, self.from_rig.clone(), out, |topic| self.name(topic))?;
+        let (from_rig, window) = (self.from_rig.clone(), self.window());
+        let mut player = Player::new(config, base.start, from_rig, window, out, |topic| self.name(topic))?;
         player.end_by_signal()?;
         player.compare_with(self.samples.iter().copied());
         player.survey_with(self.surveys.iter().cloned());
