@@ -372,7 +372,7 @@ fn mass_on_station(station: usize) -> PointMass {
 #[test]
 fn errors_name_field_value_bound_and_unit() {
     type Change = fn(&mut ToolDescription);
-    let cases: [(Change, &str); 15] = [
+    let cases: [(Change, &str); 16] = [
         (|t| t.links = 0, "links = 0: must be 1 to 20000"),
         (
             |t| t.links = 19_999,
