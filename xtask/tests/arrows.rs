@@ -242,7 +242,31 @@ const fn effect(own: &'static [&'static str], words: &'static [&'static str]) ->
     }
 }
 
-const EFFECTS: [OfEffect; 9] = [
+const EFFECTS: [OfEffect; 10] = [
+    // Its description has a file, next to that of the whole tool. What touches is published as contacts by whoever reads it,
+    // and the time of what acts at stations is that of contact.
+    OfEffect {
+        own: &["contact"],
+        words: &[
+            "GapDescription",
+            "FrictionLaw",
+            "friction_law",
+            "WallFrictionFactors",
+            "wall_friction_factors",
+            "inner_friction",
+            "outer_friction",
+            "slid_in",
+            "GapLaw",
+            "GapTangent",
+            "LayerContacts",
+            "has_bristles",
+            "contact::",
+            "description.inner",
+            "description.outer",
+        ],
+        others: &["mod contact;", "use contact::*;"],
+        most: 4,
+    },
     // Its description has a file, next to that of the whole tool. The words are those of law, description and state: torque,
     // weight and speed at the tool's lower end are published as those of the bit by whoever reads them.
     OfEffect {

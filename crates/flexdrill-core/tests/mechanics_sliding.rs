@@ -164,7 +164,7 @@ fn bristles_go_on_from_a_checkpoint_and_after_a_reset_to_the_bit() {
     assert!(
         whole
             .state()
-            .bristles
+            .held_friction
             .iter()
             .flatten()
             .flatten()

@@ -56,6 +56,30 @@ pub(crate) fn product<V: Vector>(columns: &[EndColumn; 12], [top, bottom]: &Ends
     [above[0].plus(below[0]), above[1].plus(below[1])]
 }
 
+/// A local force's lanes with those of the rotations times a radius.
+#[inline(always)]
+pub(crate) fn at_radius(force: &[f64; 6], radius: f64) -> [f64; 6] {
+    [
+        force[0],
+        force[1],
+        force[2],
+        radius * force[3],
+        radius * force[4],
+        radius * force[5],
+    ]
+}
+
+/// `sum` plus the forces on both ends of a span by the components `x` of a local force.
+#[inline(always)]
+pub(crate) fn plus_rows<V: Vector>(sum: [V; 2], rows: &[EndColumn; 6], x: &[f64; 6]) -> [V; 2] {
+    let (mut even, mut odd) = (sum, [V::splat(0.0); 2]);
+    for k in 0..3 {
+        even = plus_column(even, &rows[2 * k], V::splat(x[2 * k]));
+        odd = plus_column(odd, &rows[2 * k + 1], V::splat(x[2 * k + 1]));
+    }
+    [even[0].plus(odd[0]), even[1].plus(odd[1])]
+}
+
 /// First unknowns of a span's ends, [top, bottom], of the pipe (0) or the guide (1).
 #[inline(always)]
 pub(crate) fn ends(span: usize, body: usize) -> [usize; 2] {

@@ -1,20 +1,16 @@
-//! How spans deflect between their ends: the static deflection of inner stations under contacts and weight, the ends held,
+//! How spans deflect between their ends: the static deflection of inner stations under weight and what effects push inside, the ends held,
 //! w = K_ii^-1 f_i.
 //!
 //! The slaving moves inner stations with the ends, and transfers their forces to the ends. The rest of the static
 //! solution is this deflection, which opens and closes gaps: with a soft guide by enough to change the force on the wall
 //! by 1 %. A step counts with the deflection that the forces at its start make. That is as good as solving for it, since
-//! a span inside is so much stiffer than a contact: what the lag leaves out is their ratio times the change of the force.
+//! a span inside is so much stiffer than what pushes there: what the lag leaves out is their ratio times the change of the force.
 
 use super::Chain;
-use super::columns::{EndColumn, at_ends, load, store};
-use super::contacts::{at_radius, plus_rows};
-
-use crate::dynamics::interactions::Interactions;
+use super::columns::{EndColumn, at_ends};
+use super::effect::Effect;
 use crate::dynamics::state::{Deflection, State, translation};
 use crate::model::Model;
-use crate::simd::Kernel;
-use crate::simd::vector::Vector;
 
 impl Chain {
     /// How the spans are deflected in `full`, whose ends are those of `to`.
@@ -43,64 +39,19 @@ impl Chain {
         }
     }
 
-    /// How the spans deflect under the contacts of the last residual and under their weight, into `to`.
-    pub(super) fn deflect_spans(&self, to: &mut [Deflection], model: &Model, interactions: &Interactions) {
-        self.model.instructions.run(Deflections {
-            chain: self,
-            to,
-            model,
-            interactions,
-        });
+    /// How the spans deflect under what effects push inside them as the last residual found it, and under their weight, into
+    /// `to`.
+    pub(super) fn deflect_spans(&self, effects: &impl Effect, to: &mut [Deflection]) {
+        to.iter_mut()
+            .zip(&self.model.links)
+            .for_each(|(to, link)| *to = *link.by_weight);
+        effects.deflect(self, to);
     }
 
     /// Deflections by local forces at station `i` of span `l`, of pipe and guide; `None` at a span's end.
     #[inline(always)]
-    fn deflection(&self, l: usize, i: usize) -> Option<&[[EndColumn; 6]; 2]> {
+    pub(crate) fn deflection(&self, l: usize, i: usize) -> Option<&[[EndColumn; 6]; 2]> {
         let deflection = &self.model.kinds[self.model.links[l].kind].deflection;
         deflection.get(i.checked_sub(1)?).map(|deflection| &**deflection)
-    }
-}
-
-struct Deflections<'a> {
-    chain: &'a Chain,
-    to: &'a mut [Deflection],
-    model: &'a Model,
-    interactions: &'a Interactions,
-}
-
-impl Kernel for Deflections<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<V: Vector>(self) {
-        let Self {
-            chain,
-            to,
-            model,
-            interactions,
-        } = self;
-        let [inner_radius, outer_radius] = model.guide_radii;
-        to.iter_mut()
-            .zip(&chain.model.links)
-            .for_each(|(to, link)| *to = *link.by_weight);
-        for (station, touch) in interactions.inner.iter() {
-            let (l, i) = chain.model.nodes.stations[station];
-            if let Some([by_pipe, by_guide]) = chain.deflection(l, i) {
-                let on_pipe = touch.force();
-                let mut on_guide = at_radius(&on_pipe, inner_radius);
-                on_guide.iter_mut().for_each(|x| *x = -*x);
-                let [pipe, guide] = &mut to[l];
-                store(plus_rows::<V>(load(pipe), by_pipe, &on_pipe), pipe);
-                store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);
-            }
-        }
-        for (station, touch) in interactions.outer.iter() {
-            let (l, i) = chain.model.nodes.stations[station];
-            if let Some([_, by_guide]) = chain.deflection(l, i) {
-                let on_guide = at_radius(&touch.force(), outer_radius);
-                let guide = &mut to[l][1];
-                store(plus_rows::<V>(load(guide), by_guide, &on_guide), guide);
-            }
-        }
     }
 }

@@ -11,7 +11,7 @@ use super::nodes::Node;
 use super::precision::{Lanes, Precision};
 use super::{Chain, GUIDE, NODE, U};
 use crate::dynamics::carried::JointForces;
-use crate::dynamics::interactions::{Joints, pin_lanes, rotations};
+use crate::dynamics::joints::{Joints, pin_lanes, rotations};
 use crate::dynamics::state::State;
 use crate::elements::joint::group::JointGroup;
 use crate::simd::Kernel;

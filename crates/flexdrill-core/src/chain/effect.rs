@@ -4,16 +4,19 @@
 use flexdrill_base::energies::Energies;
 use nalgebra::Vector3;
 
-use super::Chain;
+use super::columns::EndForces;
 use super::precision::Precision;
 use super::tangent::Additions;
+use super::{Chain, ChainModel};
 use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{Deflection, State};
 use crate::elements::factors::TangentFactors;
 use crate::model::Model;
+use crate::simd::aligned::Aligned;
+use crate::tool::description::Body;
 
 /// What a residual is evaluated under.
 pub(crate) struct Under<'a> {
@@ -35,6 +38,32 @@ pub(crate) struct Along {
     pub on_top: [f64; 3],
     /// Elongation of the pipe beyond that by the motion of its ends along it (m).
     pub beyond_ends: f64,
+}
+
+/// Forces of what acts inside all spans on their ends.
+pub(crate) struct Inside<'a> {
+    pub model: &'a ChainModel,
+    /// Of each span: pipe and guide.
+    pub forces: &'a mut [Aligned<EndForces>],
+    /// Whether it is part of the present correction.
+    pub moved: &'a [bool],
+}
+
+/// What touches a body at a station from outside, as the last residual found it: the guide the pipe, the wall the guide.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Touched {
+    /// Normal force (N, >= 0).
+    pub normal: f64,
+    /// Friction on the body around it, positive in the sense of positive spin (N).
+    pub tangential: f64,
+    /// Friction on the body along the hole, downhole positive (N).
+    pub axial: f64,
+    /// Power taken by damping (W).
+    pub dissipation: f64,
+    /// Power taken by friction (W, >= 0).
+    pub friction_power: f64,
+    /// Local force on the body at its surface: along x, y, z of the station (N), and torque and couples per radius (N).
+    pub force: [f64; 6],
 }
 
 /// What acts on the tool's lower end, as the last residual found it.
@@ -96,7 +125,7 @@ pub(crate) struct Carrier {
     pub by_weight: bool,
 }
 
-/// Something that acts inside spans or at nodes, beyond beams, contacts and joints. It keeps what it found at the last residual: its tangent
+/// Something that acts inside spans or at nodes, beyond beams and joints. It keeps what it found at the last residual: its tangent
 /// and its energy read that. It evaluates the spans that a correction has moved ([`Chain::is_active`]); the others keep their
 /// forces. An effect that is linear along spans is data of theirs ([`Acting`](super::Acting)) and needs no force here.
 ///
@@ -119,14 +148,21 @@ pub(crate) trait Effect {
     /// it makes of them. Nothing of it counts before [`Effect::accept`].
     fn lead(&mut self, _asked: &Asked, _conditions: &mut Conditions) {}
 
-    /// Begins the corrections of a step of size `step` (s), or with 0 of a state at rest.
-    fn begin(&mut self, _step: f64) {}
+    /// Sets in `state`, from which the tool comes to rest, what it keeps there meanwhile.
+    fn settle(&self, _state: &mut State) {}
+
+    /// Begins the corrections of a step of size `step` (s) from the state `from`, or with 0 of a state at rest.
+    fn begin(&mut self, _from: &State, _step: f64) {}
 
     /// Evaluates the effect at `state`, and adds its forces to [`Chain::inside`]. An effect with a
     /// [tension](Effect::has_tension) sets the axial forces of the state, unless they count as they are.
     fn force(&mut self, _chain: &mut Chain, _state: &mut State, _under: &Under<'_>) {}
 
-    /// Adds the derivative of these forces by the motion at `state`, with the factors of the iteration `at`.
+    /// Adds the derivative of those of these forces that begin and end from station to station, with the factors of the iteration
+    /// `at`, before all others.
+    fn at_stations<S: Precision>(&self, _to: &mut Additions<S>, _chain: &Chain, _at: &Iteration<'_>) {}
+
+    /// Adds the derivative of the other ones by the motion at `state`.
     fn tangent<S: Precision>(&self, _to: &mut Additions<S>, _chain: &Chain, _state: &State, _at: &Iteration<'_>) {}
 
     /// Adds its forces at nodes to the `residual`, on nodes whose first unknown is `wanted`.
@@ -144,6 +180,18 @@ pub(crate) trait Effect {
     fn energy(&self, _chain: &Chain, _point: &mut LedgerPoint, _state: &State, _under: &Under<'_>) -> f64 {
         0.0
     }
+
+    /// Adds to `point` its dry friction, and what else of it begins and ends from station to station: the power of its damping,
+    /// what friction holds, and the power of the advance against it. Gives the energy that its springs store there (J).
+    fn friction(&self, _chain: &Chain, _point: &mut LedgerPoint, _under: &Under<'_>) -> f64 {
+        0.0
+    }
+
+    /// Adds how the spans deflect between their ends by its forces inside them.
+    fn deflect(&self, _chain: &Chain, _to: &mut [Deflection]) {}
+
+    /// Leaves in `to` what it keeps in the state at the end of a step, where the last residual was evaluated.
+    fn leave(&self, _to: &mut State) {}
 
     /// Takes the step that ends at `state`, where the last residual was evaluated.
     fn accept(&mut self, _state: &State) {}
@@ -203,6 +251,14 @@ pub(crate) trait Effect {
     fn weight(&self) -> Vector3<f64> {
         Vector3::zeros()
     }
+
+    /// What touches `body` at a station; `None` where nothing does.
+    fn touched(&self, _body: Body, _station: usize) -> Option<Touched> {
+        None
+    }
+
+    /// Hands all that touches `body`, with its station, to `visit`: from the top down where the whole tool was evaluated.
+    fn each_touched(&self, _body: Body, _visit: &mut impl FnMut(usize, &Touched)) {}
 
     /// What it does to the tool's lower end; `None` where it acts elsewhere.
     fn end_load(&self) -> Option<EndLoad> {

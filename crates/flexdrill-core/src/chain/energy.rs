@@ -1,20 +1,20 @@
-//! What the chain carries, and its point of the energy ledger: elements and friction; the rest is shared with the whole
+//! What the chain carries, and its point of the energy ledger: elements and effects; the rest is shared with the whole
 //! tool.
 
 use nalgebra::Vector3;
 
-use super::columns::{EndColumn, TENSION, around, at_ends, ends, load, product, store};
-use super::contacts::{OnSpan, at_radius, plus_rows};
+use super::columns::{EndColumn, TENSION, around, at_ends, at_radius, ends, load, product, store};
 use super::{Chain, Effect, Under};
 
 use crate::dynamics::carried::{Carried, JointForces};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{LedgerPoint, SpanForces, SpanWorks};
-use crate::dynamics::interactions::Interactions;
+use crate::dynamics::joints::Joints;
 use crate::dynamics::state::State;
 use crate::model::{HeldNode, Model};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
+use crate::tool::description::Body;
 
 impl Chain {
     /// Evaluates `carried` and `point` at `state`, at which the residual was evaluated last.
@@ -27,7 +27,7 @@ impl Chain {
         model: &Model,
         state: &State,
         conditions: &Conditions,
-        interactions: &Interactions,
+        joints: &Joints,
     ) {
         let instructions = self.model.instructions;
         point.drag.fill(0.0);
@@ -51,26 +51,21 @@ impl Chain {
         }
         stored += of_effects;
         stored += point.sums.kinetic + self.model.numbered(model).hanger_energy(state);
-        point.friction.fill(0.0);
-        point.sums.contact_dissipation = 0.0;
-        stored += instructions.run(Friction {
-            chain: self,
-            point,
-            model,
-            interactions,
-        });
+        // What comes and goes with the motion is added last, so that the other sums are the same with and without it.
+        point.begin_touching();
+        stored += effects.friction(self, point, &under);
         effects.carry(carried);
-        self.deflect_spans(&mut carried.deflection, model, interactions);
+        self.deflect_spans(effects, &mut carried.deflection);
         carried.joints.multipliers.copy_from_slice(&self.multipliers);
         let numbered = self.model.numbered(model);
-        point.finish(stored, &numbered, conditions, interactions, &self.residual, carried);
-        self.reactions_inside_a_fixed_guide(effects, carried, model, state, conditions, interactions);
+        point.finish(stored, &numbered, conditions, joints, &self.residual, carried);
+        self.reactions_inside_a_fixed_guide(effects, carried, model, state, conditions);
     }
 }
 
 impl Chain {
-    /// Reactions of the supports at stations between the nodes, of a guide that is fixed as a whole: they balance weight,
-    /// contacts, and what effects do to the guide, since nothing else acts there.
+    /// Reactions of the supports at stations between the nodes, of a guide that is fixed as a whole: they balance weight
+    /// and what effects do to the guide, since nothing else acts there.
     fn reactions_inside_a_fixed_guide(
         &self,
         effects: &impl Effect,
@@ -78,7 +73,6 @@ impl Chain {
         model: &Model,
         state: &State,
         conditions: &Conditions,
-        interactions: &Interactions,
     ) {
         // Only there are stations slaved to supports, whose reactions no residual has.
         if !model.description.guide_fixed {
@@ -90,7 +84,7 @@ impl Chain {
             keeps_axial: true,
         };
         let inside = |at: &&HeldNode| self.model.places.held[at.held.start].is_none();
-        // The weight begins the sum: without contacts and effects the support carries nothing else.
+        // The weight begins the sum: without effects the support carries nothing else.
         for at in model.held_nodes.iter().filter(inside) {
             for index in at.held.clone() {
                 carried.reactions[index] = -model.weight[model.held[index]];
@@ -98,29 +92,28 @@ impl Chain {
             let on_guide = effects.on_guide(self, at.station, state, &under);
             for index in at.held.clone() {
                 let k = model.held[index] - at.node;
-                // Effects act across the hole only.
+                // By the pipe's motion effects act across the hole only.
                 if matches!(k, 1 | 2) {
                     carried.reactions[index] -= on_guide[k - 1];
                 }
             }
         }
-        // Signs as in the residual: the guide has the opposite of the inner
-        // layer's forces, and those of the wall themselves.
-        let layers = [(&interactions.inner, 1.0), (&interactions.outer, -1.0)];
-        for ((layer, sign), radius) in layers.into_iter().zip(model.guide_radii) {
-            for (station, touch) in layer.iter() {
+        // Signs as in the residual: the guide has the opposite of what it does to the pipe, and what the wall does to it.
+        let bodies = [(Body::Pipe, 1.0), (Body::Guide, -1.0)];
+        for ((body, sign), radius) in bodies.into_iter().zip(model.guide_radii) {
+            effects.each_touched(body, &mut |station, touched| {
                 let guide = model.stations[station].guide;
                 let Ok(first) = model.held.binary_search(&guide) else {
-                    continue;
+                    return;
                 };
                 // Where the chain has the node, its reaction comes from the residual.
                 if self.model.places.held[first].is_none() {
                     let reactions = &mut carried.reactions[first..first + 6];
-                    for (reaction, force) in reactions.iter_mut().zip(at_radius(&touch.force(), radius)) {
+                    for (reaction, force) in reactions.iter_mut().zip(at_radius(&touched.force, radius)) {
                         *reaction += sign * force;
                     }
                 }
-            }
+            });
         }
     }
 }
@@ -254,7 +247,7 @@ impl Kernel for SpanEnergies<'_> {
                 if body == 0 {
                     let (linear, geometric_forces) = (&chain.linear[l][0], &chain.geometric_forces[l][0]);
                     // A joint carries what the span below needs at its top,
-                    // contacts included, less weight and what effects push with there.
+                    // what acts inside it included, less weight and what effects push with there.
                     for (i, top) in joints.on_top[l].iter_mut().enumerate() {
                         let inside = if chain.has_inside[l] {
                             chain.inside[l][0][i]
@@ -336,67 +329,6 @@ impl Kernel for MeanSpanWorks<'_> {
             geometric: 0.5 * sum(works[2]),
         }
     }
-}
-
-/// Friction of all contacts into `point`, with the power of their damping. Gives the energy in their springs (J).
-struct Friction<'a> {
-    chain: &'a Chain,
-    point: &'a mut LedgerPoint,
-    model: &'a Model,
-    interactions: &'a Interactions,
-}
-
-impl Kernel for Friction<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run<V: Vector>(self) -> f64 {
-        let Self {
-            chain,
-            point,
-            model,
-            interactions,
-        } = self;
-        let mut stored = 0.0;
-        for (station, touch) in interactions.inner.iter() {
-            let (l, i) = chain.model.nodes.stations[station];
-            let [on_pipe, on_guide] = &chain.model.kinds[chain.model.links[l].kind].force[i].0;
-            let force = touch.friction_force();
-            let mut on = on_ends::<V>(on_pipe, &force);
-            add_to_ends(&mut point.friction, l, 0, &on);
-            on = on_ends::<V>(on_guide, &at_radius(&force, model.guide_radii[0]));
-            on.iter_mut().for_each(|x| *x = -*x);
-            add_to_ends(&mut point.friction, l, 1, &on);
-            stored += touch.energy;
-            point.sums.contact_dissipation += touch.dissipation;
-        }
-        let mut sum = OnSpan::<V>::new();
-        let mut on = [0.0; 16];
-        for (station, touch) in interactions.outer.iter() {
-            let (l, i) = chain.model.nodes.stations[station];
-            if l != sum.span {
-                let span = sum.span;
-                store(sum.next(l), &mut on);
-                add_to_ends(&mut point.friction, span, 1, &on);
-            }
-            let rows = &chain.model.kinds[chain.model.links[l].kind].force[i][1];
-            sum.add(rows, &at_radius(&touch.friction_force(), model.guide_radii[1]));
-            stored += touch.energy;
-            point.sums.contact_dissipation += touch.dissipation;
-        }
-        let span = sum.span;
-        store(sum.next(span), &mut on);
-        add_to_ends(&mut point.friction, span, 1, &on);
-        stored
-    }
-}
-
-/// Forces on both ends of a span by a local force `x`.
-#[inline(always)]
-fn on_ends<V: Vector>(rows: &[EndColumn; 6], x: &[f64; 6]) -> EndColumn {
-    let mut out = [0.0; 16];
-    store(plus_rows([V::splat(0.0); 2], rows, x), &mut out);
-    out
 }
 
 /// Sum of the lanes.

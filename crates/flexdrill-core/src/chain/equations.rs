@@ -9,7 +9,7 @@ use super::{Chain, NODE};
 use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
-use crate::dynamics::interactions::Interactions;
+use crate::dynamics::joints::Joints;
 use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::state::State;
@@ -19,13 +19,13 @@ use crate::model::Model;
 use crate::simd::Instructions;
 use crate::tool::description::Body;
 
-/// The chain's equations: the chain's data with the effects and interactions that they evaluate.
+/// The chain's equations: the chain's data with the effects and joints that they evaluate.
 pub(crate) struct ChainEquations<'a, E> {
     pub model: &'a Model,
     pub chain: &'a mut Chain,
-    /// What acts inside the spans.
+    /// What acts inside the spans and at nodes.
     pub effects: &'a mut E,
-    pub interactions: &'a mut Interactions,
+    pub joints: &'a mut Joints,
     pub stopwatch: &'a mut Stopwatch,
 }
 
@@ -51,30 +51,23 @@ impl<E: Effect> ChainEquations<'_, E> {
         conditions: &Conditions,
     ) {
         self.stopwatch.lap(Phase::Assembly);
-        self.chain.energy(
-            self.effects,
-            carried,
-            point,
-            self.model,
-            state,
-            conditions,
-            self.interactions,
-        );
+        self.chain
+            .energy(self.effects, carried, point, self.model, state, conditions, self.joints);
     }
 
-    /// Evaluates the residual at `to`: spans, contacts, effects, what is attached, joints, in this order.
+    /// Evaluates the residual at `to`: spans, effects, what is attached, joints, in this order.
     fn residual_by(&mut self, evaluation: Evaluation, to: &mut State, conditions: &Conditions) {
         let Self {
             model,
             chain,
             effects,
-            interactions,
+            joints,
             stopwatch,
         } = self;
         stopwatch.lap(Phase::Other);
         chain.span_forces(evaluation, to, conditions);
         stopwatch.lap(Phase::Assembly);
-        chain.contact_forces(interactions, model, to, conditions);
+        chain.clear_inside();
         let under = Under {
             model,
             conditions,
@@ -85,28 +78,27 @@ impl<E: Effect> ChainEquations<'_, E> {
         stopwatch.lap(Phase::Contact);
         chain.attached_forces(&**effects, to, &under);
         // Joints come last: what they take over from dependent rotations is the whole moment there.
-        chain.joint_forces(&mut interactions.joints, to, model.moment_scale);
+        chain.joint_forces(joints, to, model.moment_scale);
     }
 
     /// Begins the corrections of a step of size `step` (s) from the state `from`, or with 0 of a state at rest.
     pub(crate) fn begin_corrections(&mut self, from: &State, step: f64) {
-        self.interactions.begin(from, step);
-        self.effects.begin(step);
+        self.joints.begin();
+        self.effects.begin(from, step);
     }
 
-    /// Adds up what the last residual left of contacts and effects at `state` for the tangent, in one precision.
+    /// Adds up what the last residual left of effects at `state` for the tangent, in one precision.
     fn linearise<S: Precision>(&mut self, operator: usize, state: &State, at: &Iteration<'_>) {
         let Self {
-            model,
-            chain,
-            effects,
-            interactions,
-            ..
+            model, chain, effects, ..
         } = self;
         // Effects read the chain while they add: what they add to is taken out of it meanwhile.
         let mut to = std::mem::take(S::additions(chain));
         let crossing = S::crossing(&chain.operators[operator]);
-        to.linearise(&chain.model, &chain.active, interactions, model, at, crossing);
+        to.begin(&chain.model, &chain.active, crossing);
+        effects.at_stations(&mut to, chain, at);
+        let numbered = chain.model.numbered(model);
+        numbered.hanger_tangent(at.factors, |row, column, value| to.add_within_node(row, column, value));
         effects.at_ends(at.factors, &mut |row, column, value| {
             to.add_within_node(row, column, value)
         });
@@ -131,7 +123,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         let Self {
             chain,
             effects,
-            interactions,
+            joints,
             stopwatch,
             ..
         } = self;
@@ -145,7 +137,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         }
         let (blocks, of_joints) = (&mut chain.sweep.joints, &chain.model.nodes.of_joints);
         let lambda = |joint: usize| chain.multipliers[joint];
-        interactions.joints.tangents(
+        joints.tangents(
             at.factors,
             lambda,
             |_| true,
@@ -172,7 +164,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         self.linearise::<f32>(operator, state, at);
         let Self {
             chain,
-            interactions,
+            joints,
             stopwatch,
             ..
         } = self;
@@ -180,11 +172,9 @@ impl<E: Effect> ChainEquations<'_, E> {
         let lambda = |joint: usize| chain.multipliers[joint];
         // Outside the window the columns of the earlier sweep remain valid.
         let is_active = |joint: usize| chain.active.nodes[of_joints[joint]];
-        interactions
-            .joints
-            .tangents(at.factors, lambda, is_active, |joint, tangent| {
-                sweep.join(of_joints[joint], tangent);
-            });
+        joints.tangents(at.factors, lambda, is_active, |joint, tangent| {
+            sweep.join(of_joints[joint], tangent);
+        });
         stopwatch.lap(Phase::Assembly);
         chain.solve_in_single(operator)
     }

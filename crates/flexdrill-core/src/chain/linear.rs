@@ -61,12 +61,13 @@ pub(crate) struct CoupledParts {
 pub(crate) type NodeMasses = (usize, [f64; 6]);
 
 /// How effects act on the chain that is built: `every_station` is a node where one acts at single stations in a way that does
-/// not follow from the ends of a span, `at_nodes` gives what must be nodes, and `linear` adds what they have along a part of
-/// the tool.
+/// not follow from the ends of a span, `at_nodes` gives what must be nodes, `stiffness` that with which they may push stations
+/// back, the pipe from the guide and the guide from outside (N/m), and `linear` adds what they have along a part of the tool.
 #[derive(Clone, Copy)]
 pub(crate) struct Acting {
     pub every_station: bool,
     pub at_nodes: fn(&Model) -> Vec<NodeMasses>,
+    pub stiffness: fn(&Model) -> [f64; 2],
     pub linear: fn(&Segment<'_>, &mut Parts),
 }
 

@@ -17,8 +17,6 @@ pub(crate) struct Link {
     pub kind: usize,
     /// Where the undeflected pipe lies at each station but the first: y, z (m).
     pub offset: Aligned<[[f64; 8]; 2]>,
-    /// Squares of the inner clearance at those stations; in lanes without a station the largest number.
-    pub clearance_squared: Aligned<[f64; 8]>,
     /// Force of the pipe's weight on its top end (N), along the axes of the link above.
     pub weight_on_top: [f64; 3],
     /// Lateral deflection of the inner stations under the weight of pipe and guide and constant forces (m), as
@@ -41,14 +39,12 @@ pub(super) fn links(model: &Model, nodes: &Nodes, made: Vec<LinkMatrices>) -> (V
         let mut link = Link {
             kind,
             offset: Aligned([[0.0; 8]; 2]),
-            clearance_squared: Aligned([f64::MAX; 8]),
             weight_on_top: [0.0; 3],
             by_weight: Aligned([[0.0; 16]; 2]),
         };
         for i in 0..per {
             let station = &model.stations[first + i + 1];
             (link.offset[0][i], link.offset[1][i]) = (station.offset.x, station.offset.y);
-            link.clearance_squared[i] = station.inner_clearance * station.inner_clearance;
         }
         links.push(link);
     }

@@ -14,12 +14,11 @@
 //! | 9..15 | guide |
 //! | 15 | multiplier of the axial tie, in the last node |
 //!
-//! All stations keep their contacts: one inside a span moves with both ends, and acts on both, through the slaving. Slaving
-//! holds where inner stations vibrate faster than a step can follow; [`nodes`] places the nodes so that it does.
+//! Effects act at all stations: one inside a span moves with both ends, and what pushes it acts on both, through the slaving.
+//! Slaving holds where inner stations vibrate faster than a step can follow; [`nodes`] places the nodes so that it does.
 
 mod active;
 pub(crate) mod columns;
-mod contacts;
 mod deflection;
 mod dependents;
 pub(crate) mod double;
@@ -29,6 +28,7 @@ mod equations;
 mod geometric;
 mod linear;
 mod links;
+mod motion;
 mod nodes;
 mod numbering;
 mod operator;
@@ -63,13 +63,13 @@ use single::SingleSweep;
 use slaving::LinkMatrices;
 use solve::Sweep;
 
-pub(crate) use contacts::SpanMotion;
-pub(crate) use effect::{Along, Asked, Carrier, Effect, EndLoad, FromAbove, Under};
+pub(crate) use effect::{Along, Asked, Carrier, Effect, EndLoad, FromAbove, Inside, Touched, Under};
 pub(crate) use energy::add_to_ends;
 pub(crate) use equations::ChainEquations;
 pub(crate) use linear::{Acting, CoupledParts, Parts, Segment};
+pub(crate) use motion::SpanMotion;
 use numbering::Numbering;
-pub(crate) use precision::Precision;
+pub(crate) use precision::{Lanes, Precision};
 pub(crate) use slaving::row;
 pub(crate) use tangent::{Additions, Touching};
 
@@ -90,8 +90,8 @@ const LEAST_FREQUENCY: f64 = 3.0;
 /// The same for parts of a step, which keep the spans of the whole. A finer step is taken for faster motions, which inner
 /// stations must then answer to 1 / 8^2.
 const LEAST_REFINED: f64 = 8.0;
-/// Largest deflection of a span between its ends under what its contacts push back with when all its inner stations are
-/// displaced by 1: the largest row sum of K_ii^-1 times the contacts' stiffness. As spans are deflected by the forces of
+/// Largest deflection of a span between its ends under what effects push back with when all its inner stations are
+/// displaced by 1: the largest row sum of K_ii^-1 times their stiffness. As spans are deflected by the forces of
 /// the step before, an error of the deflection shrinks by this from step to step, and would grow above 1.
 const MOST_COMPLIANCE: f64 = 0.5;
 
@@ -141,6 +141,12 @@ impl ChainModel {
         &self.kinds[self.links[l].kind]
     }
 
+    /// The span that a station is in, and which of its stations it is; that of its top end is 0.
+    #[inline(always)]
+    pub(crate) fn span_of(&self, station: usize) -> (usize, usize) {
+        self.nodes.stations[station]
+    }
+
     /// The tool in the chain's numbering.
     pub(crate) fn numbered<'a>(&'a self, model: &'a Model) -> Numbered<'a> {
         Numbered {
@@ -170,7 +176,7 @@ pub(crate) struct Chain {
     linear: Vec<Aligned<EndForces>>,
     /// Those of geometric stiffness per axial force; one lane holds the axial force of the displacements.
     pub(crate) geometric_forces: Vec<Aligned<EndForces>>,
-    /// Those of contacts and effects inside the spans, and whether there are any.
+    /// Those of effects inside the spans, and whether there are any.
     inside: Vec<Aligned<EndForces>>,
     has_inside: Vec<bool>,
     /// What effects do to the pipe of each span along its axis.
@@ -183,7 +189,7 @@ pub(crate) struct Chain {
     multipliers: Vec<[f64; 2]>,
     /// Residual with its reactions.
     residual: Vec<f64>,
-    /// What contacts and effects add to the tangent, in both precisions.
+    /// What effects add to the tangent, in both precisions.
     additions: Additions<f64>,
     single_additions: Additions<f32>,
     sweep: Sweep,
@@ -206,7 +212,7 @@ impl Chain {
     }
 
     /// The chain with a node at every station, for steps of any size, solved in double precision. Nothing is slaved, so that
-    /// it finds a tool at rest under the contacts of all stations.
+    /// it finds a tool at rest under what acts at all stations.
     pub(crate) fn over_stations(
         model: &Model,
         tolerances: &Tolerances,
@@ -361,6 +367,12 @@ impl Chain {
         self.model.links.len()
     }
 
+    /// Whether the whole tool is part of the present correction.
+    #[inline(always)]
+    pub(crate) fn is_whole(&self) -> bool {
+        self.active.whole
+    }
+
     /// Whether span `l` is part of the present correction.
     #[inline(always)]
     pub(crate) fn is_active(&self, l: usize) -> bool {
@@ -373,8 +385,15 @@ impl Chain {
     }
 
     /// The span that a station is in, and which of its stations it is; that of its top end is 0.
+    #[inline(always)]
     pub(crate) fn span_of(&self, station: usize) -> (usize, usize) {
-        self.model.nodes.stations[station]
+        self.model.span_of(station)
+    }
+
+    /// Station `i` of span `l`.
+    #[inline(always)]
+    pub(crate) fn station(&self, l: usize, i: usize) -> usize {
+        self.model.nodes.first(l) + i
     }
 
     /// The stations of span `l`, that of its top end left out.
@@ -384,6 +403,7 @@ impl Chain {
     }
 
     /// The elements of span `l`.
+    #[inline(always)]
     pub(crate) fn elements_of(&self, l: usize) -> std::ops::Range<usize> {
         self.model.nodes.first(l)..self.model.nodes.first(l + 1)
     }
@@ -396,6 +416,23 @@ impl Chain {
             *self.inside[l] = [[0.0; 16]; 2];
         }
         &mut self.inside[l].0
+    }
+
+    /// Takes what acts inside the spans that are part of the present correction out, as they are evaluated again.
+    fn clear_inside(&mut self) {
+        for (any, moved) in self.has_inside.iter_mut().zip(&self.active.spans) {
+            *any &= !moved;
+        }
+    }
+
+    /// Forces of what acts inside all spans, to be added to where [`Chain::inside`] has been asked for.
+    #[inline(always)]
+    pub(crate) fn forces_inside(&mut self) -> Inside<'_> {
+        Inside {
+            model: &self.model,
+            forces: &mut self.inside,
+            moved: &self.active.spans,
+        }
     }
 
     /// Whether the tangent has the geometric stiffness.

@@ -119,9 +119,9 @@ fn split(
 ) {
     let elements = bottom - top;
     let whole = (elements <= MOST_STATIONS).then(|| LinkMatrices::of(model, acting, top, elements));
-    let contacts = [&model.description.inner, &model.description.outer].map(|gap| gap.stiffness);
+    let pushed_back = (acting.stiffness)(model);
     let will_do =
-        |span: &LinkMatrices| span.slowest * h >= LEAST_FREQUENCY && span.compliance(contacts) <= MOST_COMPLIANCE;
+        |span: &LinkMatrices| span.slowest * h >= LEAST_FREQUENCY && span.compliance(pushed_back) <= MOST_COMPLIANCE;
     match whole {
         Some(span) if elements == 1 || will_do(&span) => {
             ends.push(bottom);

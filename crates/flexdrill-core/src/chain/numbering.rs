@@ -6,7 +6,7 @@ use super::columns::{EndForces, ends};
 use super::nodes::Nodes;
 use super::{Chain, ChainModel, GUIDE, NODE, TIE, U};
 use crate::dynamics::carried::JointForces;
-use crate::dynamics::state::{State, bristles};
+use crate::dynamics::state::{State, held_friction};
 use crate::model::Model;
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -107,7 +107,7 @@ impl Chain {
     pub(crate) fn take(&self, model: &Model, from: &State, to: &mut State) {
         self.model.numbering.gather(from, to);
         self.take_deflections(model, from, to);
-        to.bristles.copy_from_slice(&from.bristles);
+        to.held_friction.copy_from_slice(&from.held_friction);
     }
 
     /// A state of the right sizes.
@@ -123,7 +123,7 @@ impl Chain {
             guide_axial: vec![0.0; spans],
             deflection: vec![[[0.0; 16]; 2]; spans],
             pin_moments: vec![0.0; self.multipliers.len()],
-            bristles: bristles(model),
+            held_friction: held_friction(model),
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -272,7 +272,7 @@ impl Kernel for Show<'_> {
         // What is no unknown is the same in both numberings.
         full.pin_moments.copy_from_slice(&chain.pin_moments);
         (full.scheme_step, full.time, full.drive_angle) = (chain.scheme_step, chain.time, chain.drive_angle);
-        full.bristles.copy_from_slice(&chain.bristles);
+        full.held_friction.copy_from_slice(&chain.held_friction);
         for (from, to) in [
             (&chain.q, &mut full.q),
             (&chain.v, &mut full.v),

@@ -45,9 +45,8 @@ pub(crate) trait Lanes<S>: Copy {
     fn swapped(self) -> Self;
 }
 
-/// Forces on the unknowns of the nodes [above, below] of a span by each of the six local forces of a gap at a station:
-/// through pipe and guide in the inner layer, through the guide in the outer one. Their transpose is the motion of the gap
-/// by those unknowns.
+/// Forces on the unknowns of the nodes [above, below] of a span by each of the six local forces at a station:
+/// between pipe and guide, and on the guide from outside. Their transpose is the motion there by those unknowns.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(crate) struct OnNodes<S> {

@@ -1,8 +1,8 @@
-//! The residual over the chain: spans, contacts, joints, ends.
+//! The residual over the chain: spans, effects, joints, ends.
 //!
 //! A step's first residual is evaluated whole. After that only the correction's share is added: what is linear changes by
 //! the step-constant tangent times the correction, and what geometric stiffness multiplies its axial force by likewise;
-//! contacts, effects, stops and joint rows are evaluated again.
+//! effects, stops and joint rows are evaluated again.
 
 use super::columns::{EndColumn, Ends, TENSION, around, at_ends, ends, load, plus_column, product, store};
 use super::effect::{Effect, Under};
@@ -92,7 +92,7 @@ impl Kernel for Foresee<'_> {
     }
 }
 
-/// The residual of constant forces, spans and contacts.
+/// The residual of constant forces, spans and effects.
 struct Gather<'a> {
     chain: &'a mut Chain,
     state: &'a State,

@@ -23,7 +23,7 @@ pub struct JointForces {
 pub struct Carried {
     /// Of each joint.
     pub(crate) joints: JointForces,
-    /// How the contacts and the weight deflect each span: what the next step counts with.
+    /// How the weight and what effects push inside deflect each span: what the next step counts with.
     pub(crate) deflection: Vec<Deflection>,
     /// Force of the support of each held unknown on the tool (N, N m), in the order of [`Model::held`].
     pub(crate) reactions: Vec<f64>,

@@ -1,6 +1,5 @@
 //! Inputs and parameters that act on the tool at one instant.
 
-use crate::elements::gap::GapLaw;
 use crate::inputs::Inputs;
 use crate::tool::description::{LiveParameters, LoadHistory, Rayleigh, ToolDescription};
 
@@ -22,14 +21,10 @@ pub struct Conditions {
     pub depth: f64,
     /// Torque of the drive (N m); `None` where it is the reaction of the spin that the drive prescribes.
     pub drive_torque: Option<f64>,
-    /// Parameters in force. The friction of both layers is in their laws below.
+    /// Parameters in force.
     pub live: LiveParameters,
     /// Whether the tool is coming to rest. What vanishes at rest is left out on the way there.
     pub comes_to_rest: bool,
-    /// Contact law of pipe and guide.
-    pub inner: GapLaw,
-    /// Contact law of guide and wall.
-    pub outer: GapLaw,
     /// Damping of both pipes.
     pub rayleigh: Rayleigh,
 }
@@ -47,13 +42,6 @@ impl Conditions {
 
     /// The same without advance and pressure.
     pub fn new(description: &ToolDescription, live: &LiveParameters, time: f64, weight_on_bit: f64) -> Self {
-        let [mut inner, mut outer] = [description.inner, description.outer].map(|surface| GapLaw {
-            surface,
-            slip_speed: surface.slip_speed.unwrap_or(description.slip_speed),
-            bristle_stiffness: GapLaw::bristle_stiffness(surface.stiffness, description.material.poisson_ratio),
-        });
-        [inner.surface.friction_tangential, inner.surface.friction_axial] = live.inner_friction;
-        [outer.surface.friction_tangential, outer.surface.friction_axial] = live.outer_friction;
         Self {
             time,
             drive_angle: 0.0,
@@ -64,8 +52,6 @@ impl Conditions {
             drive_torque: None,
             live: *live,
             comes_to_rest: false,
-            inner,
-            outer,
             rayleigh: description.rayleigh,
         }
     }

@@ -1,9 +1,9 @@
-//! The tool in motion: state, time scheme, Newton, interactions, energy.
+//! The tool in motion: state, time scheme, Newton, joints, energy.
 
 pub(crate) mod carried;
 pub(crate) mod conditions;
 pub(crate) mod energy;
-pub(crate) mod interactions;
+pub(crate) mod joints;
 pub(crate) mod newton;
 pub(crate) mod numbered;
 pub(crate) mod outcome;

@@ -208,7 +208,7 @@ mod tests {
                 guide_axial: vec![],
                 deflection: vec![],
                 pin_moments: vec![],
-                bristles: vec![],
+                held_friction: vec![],
                 time: 0.0,
                 drive_angle: 0.0,
             };

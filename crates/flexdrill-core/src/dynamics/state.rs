@@ -5,13 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::elements::joint::Rotations;
 use crate::model::{Model, Station};
-use crate::tool::FrictionLaw;
 
 /// How far a span deflects, see [`State::deflection`].
 pub type Deflection = [[f64; 16]; 2];
 
-/// Friction of a station's bristles, see [`State::bristles`].
-pub type BristleForces = [[f64; 2]; 2];
+/// Friction that is held at a station, see [`State::held_friction`].
+pub type HeldFriction = [[f64; 2]; 2];
 
 /// State at one instant, in the model's numbering: q_rd of Eq. 19 station by station, with the multipliers. Multiplier
 /// slots of `q` hold scaled multipliers; their velocity and acceleration are zero.
@@ -39,9 +38,9 @@ pub struct State {
     /// Moment with which slipping pins of each joint resist about either axis of its cross (N m), by the forces at the
     /// start of the last step.
     pub pin_moments: Vec<f64>,
-    /// Friction that the bristles of each station hold, of pipe and guide and of guide and wall, around and along (N); zero
-    /// where the gap is open. Empty where no layer has bristles.
-    pub bristles: Vec<BristleForces>,
+    /// Friction that each station holds by an elastic slip, of pipe and guide and of guide and wall, around and along (N);
+    /// zero where nothing touches. Empty where no friction holds.
+    pub held_friction: Vec<HeldFriction>,
     /// Model time (s).
     pub time: f64,
     /// Angle of the drive (rad) as prescribed at this time.
@@ -62,7 +61,7 @@ impl State {
             guide_axial: vec![0.0; model.guide.len()],
             deflection: Vec::new(),
             pin_moments: vec![0.0; model.joints.len()],
-            bristles: bristles(model),
+            held_friction: held_friction(model),
             time: 0.0,
             drive_angle: 0.0,
         }
@@ -79,17 +78,20 @@ impl State {
         self.guide_axial.copy_from_slice(&other.guide_axial);
         self.deflection.copy_from_slice(&other.deflection);
         self.pin_moments.copy_from_slice(&other.pin_moments);
-        self.bristles.copy_from_slice(&other.bristles);
+        self.held_friction.copy_from_slice(&other.held_friction);
         self.time = other.time;
         self.drive_angle = other.drive_angle;
     }
 }
 
-/// Bristles without force, one per station if a layer has any.
-pub(crate) fn bristles(model: &Model) -> Vec<BristleForces> {
-    let layers = [&model.description.inner, &model.description.outer];
-    let any = layers.iter().any(|layer| layer.friction_law == FrictionLaw::Bristle);
-    vec![[[0.0; 2]; 2]; if any { model.stations.len() } else { 0 }]
+/// Stations that hold no friction yet; none where no friction holds.
+pub(crate) fn held_friction(model: &Model) -> Vec<HeldFriction> {
+    let stations = if model.description.holds_friction() {
+        model.stations.len()
+    } else {
+        0
+    };
+    vec![[[0.0; 2]; 2]; stations]
 }
 
 /// Eq. 20: lateral position (y, z) of the pipe relative to the guide, offset included (m).
@@ -97,6 +99,11 @@ pub(crate) fn bristles(model: &Model) -> Vec<BristleForces> {
 pub fn inner_lateral(station: &Station, state: &State) -> Vector2<f64> {
     let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
     station.offset + Vector2::new(pipe.y - state.q[station.guide + 1], pipe.z - state.q[station.guide + 2])
+}
+
+/// Gap (m, negative is penetration) at the lateral displacement (y, z) within `clearance`, Eq. 27 and 31.
+pub fn gap(lateral: Vector2<f64>, clearance: f64) -> f64 {
+    clearance - lateral.norm()
 }
 
 /// Displacement of a node.

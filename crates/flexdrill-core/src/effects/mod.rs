@@ -1,4 +1,4 @@
-//! What acts on the tool beyond beams, contacts and joints: a file each, with law, switch, force, tangent, energy and history.
+//! What acts on the tool beyond beams and joints: a file each, with law, switch, force, tangent, energy and history.
 //!
 //! The list below is the only place that names them all. They act in its order, so that sums have one order too; an
 //! effect may read what an earlier one has written ([`Along`](crate::chain::Along)). A new effect
@@ -7,6 +7,7 @@
 
 pub(crate) mod bit;
 pub(crate) mod bodies;
+pub(crate) mod contact;
 pub(crate) mod mud;
 pub(crate) mod mud_wall;
 pub(crate) mod preload;
@@ -25,14 +26,15 @@ use nalgebra::Vector3;
 #[cfg(feature = "checkpoints")]
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{Acting, Additions, Asked, Chain, Effect, EndLoad, FromAbove, Precision, Under};
+use crate::chain::{Acting, Additions, Asked, Chain, Effect, EndLoad, FromAbove, Precision, Touched, Under};
 use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::{LEDGER_PLACES, LedgerPoint, StepWork};
 use crate::dynamics::newton::Iteration;
-use crate::dynamics::state::State;
+use crate::dynamics::state::{Deflection, State};
 use crate::elements::factors::TangentFactors;
 use crate::model::Model;
+use crate::tool::Body;
 
 /// Makes [`Effects`] of a list of names and types.
 macro_rules! effects {
@@ -83,15 +85,27 @@ macro_rules! effects {
                 })+
             }
 
-            fn begin(&mut self, step: f64) {
+            fn settle(&self, state: &mut State) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.settle(state);
+                })+
+            }
+
+            fn begin(&mut self, from: &State, step: f64) {
                 $($(#[$attribute])* if let Some(effect) = &mut self.$name {
-                    effect.begin(step);
+                    effect.begin(from, step);
                 })+
             }
 
             fn force(&mut self, chain: &mut Chain, state: &mut State, under: &Under<'_>) {
                 $($(#[$attribute])* if let Some(effect) = &mut self.$name {
                     effect.force(chain, state, under);
+                })+
+            }
+
+            fn at_stations<S: Precision>(&self, to: &mut Additions<S>, chain: &Chain, at: &Iteration<'_>) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.at_stations(to, chain, at);
                 })+
             }
 
@@ -125,6 +139,26 @@ macro_rules! effects {
                     stored += effect.energy(chain, point, state, under);
                 })+
                 stored
+            }
+
+            fn friction(&self, chain: &Chain, point: &mut LedgerPoint, under: &Under<'_>) -> f64 {
+                let mut stored = 0.0;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    stored += effect.friction(chain, point, under);
+                })+
+                stored
+            }
+
+            fn deflect(&self, chain: &Chain, to: &mut [Deflection]) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.deflect(chain, to);
+                })+
+            }
+
+            fn leave(&self, to: &mut State) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.leave(to);
+                })+
             }
 
             fn accept(&mut self, state: &State) {
@@ -226,6 +260,20 @@ macro_rules! effects {
                 sum
             }
 
+            fn touched(&self, body: Body, station: usize) -> Option<Touched> {
+                let mut found = None;
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    found = found.or(effect.touched(body, station));
+                })+
+                found
+            }
+
+            fn each_touched(&self, body: Body, visit: &mut impl FnMut(usize, &Touched)) {
+                $($(#[$attribute])* if let Some(effect) = &self.$name {
+                    effect.each_touched(body, visit);
+                })+
+            }
+
             fn end_load(&self) -> Option<EndLoad> {
                 let mut found = None;
                 $($(#[$attribute])* if let Some(effect) = &self.$name {
@@ -270,6 +318,7 @@ macro_rules! effects {
 }
 
 effects! {
+    contact: contact::Contact,
     bodies: bodies::Bodies,
     mud: mud::Mud,
     preload: preload::Preloaded,
@@ -344,6 +393,7 @@ pub(crate) fn acting(model: &Model) -> Acting {
     Acting {
         every_station: slots::is_on(model),
         at_nodes: |model| bodies::at_nodes(model).collect(),
+        stiffness: contact::stiffness,
         linear: |at, parts| {
             mud::linear(at, parts);
             preload::linear(at, parts);

@@ -8,7 +8,7 @@
 //! Comput. 20, 1999). This slope is never negative. It equals the exact one where prediction and friction agree, so
 //! that the last corrections converge as Newton's do. The residual is unchanged, and so is the solution.
 
-use crate::simd::number::Number;
+use crate::simd::number::{Lane, Number};
 
 /// Friction at a sliding speed, or one in each of eight lanes.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,6 +33,24 @@ impl<N: Number> Slip<N> {
             friction: full * (speed * over),
             slope: full * (square * over * over * over),
         }
+    }
+}
+
+impl Slip<Lane> {
+    /// The slip in lane `k`.
+    #[inline(always)]
+    pub(crate) fn lane(&self, k: usize) -> Slip {
+        Slip {
+            speed: self.speed[k],
+            friction: self.friction[k],
+            slope: self.slope[k],
+        }
+    }
+
+    /// Sets the slip in lane `k`.
+    #[inline(always)]
+    pub(crate) fn set_lane(&mut self, k: usize, from: &Slip) {
+        (self.speed[k], self.friction[k], self.slope[k]) = (from.speed, from.friction, from.slope);
     }
 }
 

@@ -22,8 +22,6 @@ pub struct Station {
     pub offset: Vector2<f64>,
     /// Clearance of the inner layer, Eq. 27 (m).
     pub inner_clearance: f64,
-    /// Factor on the friction of the outer layer: the mean over the half elements on both sides of the station.
-    pub wall_friction_factor: f64,
     /// Radius of the pipe's outer surface (m).
     pub pipe_radius: f64,
     /// Number of the joint at this station, if any.
@@ -92,7 +90,6 @@ impl Bore {
         let position = self.path.position(depth);
         let away = frame.transpose() * (on_chord - position);
         let contact = d.pipe_contact_diameters[within];
-        let carried = [-0.5, 0.5].map(|side| (depth + side * self.spacing).clamp(0.0, self.path.length()));
         Station {
             depth,
             inclination,
@@ -101,7 +98,6 @@ impl Bore {
             pipe_to_station: frame.transpose() * self.link_frames[link],
             offset: Vector2::new(away.y, away.z),
             inner_clearance: 0.5 * (d.guide_section.inner_diameter - contact),
-            wall_friction_factor: self.path.mean(carried, |interval| d.wall_friction_factors.of(interval)),
             pipe_radius: 0.5 * contact,
             joint: is_joint.then(|| s / self.per_link - 1),
             pipe_above: first,

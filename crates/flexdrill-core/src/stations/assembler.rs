@@ -4,7 +4,7 @@
 //! it ([`residual`](Assembler::residual)) linearises joints and contacts into the [`Interactions`], from which the
 //! tangent is assembled.
 //!
-//! [`Interactions`]: crate::dynamics::interactions::Interactions
+//! [`Interactions`]: crate::stations::Interactions
 
 use super::constants::Constants;
 use super::linear::{BlockSystem, TangentIncrement};

@@ -5,14 +5,15 @@ use nalgebra::{Vector2, Vector3};
 
 use super::assembler::Assembler;
 use super::axial::node;
+use super::interactions::Interactions;
 use super::linear::ContactBlock;
 use crate::chain::Touching;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, inner_lateral};
+use crate::effects::contact::law::{GapLaw, GapVector, LayerContacts};
+use crate::effects::contact::{Layers, laws};
 use crate::effects::mud_wall::Motion;
 use crate::elements::factors::TangentFactors;
-use crate::elements::gap::{GapVector, LayerContacts};
 use crate::model::{Model, Station};
 use crate::simd::Kernel;
 use crate::simd::vector::Vector;
@@ -26,20 +27,21 @@ impl Assembler {
         state: &State,
         conditions: &Conditions,
     ) {
-        let Interactions {
+        let Layers {
             inner,
             outer,
             start,
             step,
             ..
-        } = &mut *interactions;
+        } = &mut interactions.layers;
         self.instructions.run(Search {
             layers: [inner, outer],
             start,
             step: *step,
             model,
             state,
-            conditions,
+            laws: laws(&model.description, conditions),
+            advance: conditions.rate_of_penetration,
         });
         let residual = &mut self.residual;
         let walls = crate::effects::mud_wall::at_stations(model);
@@ -49,7 +51,7 @@ impl Assembler {
             let total = taken.map(|taken| [0, 1].map(|k| taken.film[k] + taken.inertia[k]));
             add_mud_forces(residual, station, total);
         }
-        let Interactions { inner, outer, .. } = &*interactions;
+        let Layers { inner, outer, .. } = &interactions.layers;
         for (s, touch) in inner.iter() {
             let station = &model.stations[s];
             let (on_pipe, on_guide) = inner_forces(model, station, &touch.force().into());
@@ -69,7 +71,7 @@ impl Assembler {
     pub(super) fn contact_tangent(&mut self, interactions: &Interactions, model: &Model, factors: TangentFactors) {
         let walls = crate::effects::mud_wall::at_stations(model);
         for (s, station) in model.stations.iter().enumerate() {
-            let (inner, outer) = (interactions.inner.get(s), interactions.outer.get(s));
+            let (inner, outer) = (interactions.layers.inner.get(s), interactions.layers.outer.get(s));
             self.increment.touching[s] = match (&inner, &outer) {
                 (None, None) => Touching::Nothing,
                 (None, Some(_)) => Touching::Guide,
@@ -157,7 +159,8 @@ struct Search<'a> {
     step: f64,
     model: &'a Model,
     state: &'a State,
-    conditions: &'a Conditions,
+    laws: [GapLaw; 2],
+    advance: f64,
 }
 
 impl Kernel for Search<'_> {
@@ -171,20 +174,20 @@ impl Kernel for Search<'_> {
             step,
             model,
             state,
-            conditions,
+            laws,
+            advance,
         } = self;
-        let advance = conditions.rate_of_penetration;
         inner.clear();
         outer.clear();
         for (s, station) in model.stations.iter().enumerate() {
             let (lateral, clearance) = (inner_lateral(station, state), station.inner_clearance);
             if lateral.norm_squared() > clearance * clearance {
                 let velocity = inner_motion(model, station, &state.v);
-                if conditions.inner.has_bristles() {
+                if laws[0].has_bristles() {
                     let travel = inner_motion(model, station, &state.q) - inner_motion(model, station, start);
                     inner.set_travel(six::<V>(&travel));
                 }
-                inner.push::<V>(&conditions.inner, s, lateral.into(), clearance, six::<V>(&velocity));
+                inner.push::<V>(&laws[0], s, lateral.into(), clearance, six::<V>(&velocity));
             }
             let clearance = model.outer_clearance;
             let lateral = Vector2::new(state.q[station.guide + 1], state.q[station.guide + 2]);
@@ -193,16 +196,16 @@ impl Kernel for Search<'_> {
                 if advance != 0.0 {
                     velocity[0] += advance;
                 }
-                if conditions.outer.has_bristles() {
+                if laws[1].has_bristles() {
                     let mut travel = outer_motion(model, station, &state.q) - outer_motion(model, station, start);
                     travel[0] += advance * step;
                     outer.set_travel(six::<V>(&travel));
                 }
-                outer.push::<V>(&conditions.outer, s, lateral.into(), clearance, six::<V>(&velocity));
+                outer.push::<V>(&laws[1], s, lateral.into(), clearance, six::<V>(&velocity));
             }
         }
-        inner.finish::<V>(&conditions.inner);
-        outer.finish::<V>(&conditions.outer);
+        inner.finish::<V>(&laws[0]);
+        outer.finish::<V>(&laws[1]);
     }
 }
 

@@ -3,13 +3,14 @@
 use super::Assembler;
 use super::axial::{add, element_values};
 use super::contacts::{add_mud_forces, inner_forces, mud_motions, outer_force};
+use super::interactions::Interactions;
 use super::slots::slots_energy;
 use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::{State, joint_rotations};
 use crate::effects::bodies::Bodies;
+use crate::effects::contact::laws;
 use crate::model::Model;
 
 impl LedgerPoint {
@@ -96,9 +97,8 @@ impl LedgerPoint {
             bodies.add_to(self, state, conditions.rayleigh.alpha);
         }
         stored += self.sums.kinetic + numbered.hanger_energy(state);
-        self.friction.fill(0.0);
-        self.sums.contact_dissipation = 0.0;
-        for (s, touch) in interactions.inner.iter() {
+        self.begin_touching();
+        for (s, touch) in interactions.layers.inner.iter() {
             let station = &model.stations[s];
             let (pipe, guide) = inner_forces(model, station, &touch.friction_force().into());
             for k in 0..6 {
@@ -106,20 +106,22 @@ impl LedgerPoint {
                 self.friction[station.guide + k] += guide[k];
             }
             stored += touch.energy;
-            self.sums.contact_dissipation += touch.dissipation;
+            self.sums.touch_dissipation += touch.dissipation;
         }
-        for (s, touch) in interactions.outer.iter() {
+        for (s, touch) in interactions.layers.outer.iter() {
             let guide = outer_force(model, &touch.friction_force().into());
             let first = model.stations[s].guide;
             (0..6).for_each(|k| self.friction[first + k] += guide[k]);
             stored += touch.energy;
-            self.sums.contact_dissipation += touch.dissipation;
+            self.sums.touch_dissipation += touch.dissipation;
         }
+        let laws = laws(&model.description, conditions);
+        interactions.layers.hold(&laws, conditions, self);
         self.finish(
             stored,
             &numbered,
             conditions,
-            interactions,
+            &interactions.joints,
             &assembler.residual,
             carried,
         );

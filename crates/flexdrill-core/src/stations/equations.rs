@@ -1,10 +1,10 @@
 //! The equations of a step station by station.
 
 use super::assembler::Assembler;
+use super::interactions::Interactions;
 use super::linear::LinearSolver;
 use crate::chain::Effect;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{Equations, Iteration, LARGEST_DISPLACEMENT, Singular, Stride};
 use crate::dynamics::phases::{Phase, Stopwatch};
 use crate::dynamics::state::State;
@@ -118,7 +118,7 @@ impl StationEquations<'_> {
 impl Equations for StationEquations<'_> {
     fn begin(&mut self, stride: &Stride, from: &State) {
         self.interactions.begin(from, stride.h);
-        self.room.assembler.bit.begin(stride.h);
+        self.room.assembler.bit.begin(from, stride.h);
         from.foresee_axial(self.model, stride.foresight, &mut self.room.foreseen);
         self.room.foreseen_part = stride.foreseen_part;
         self.room.limits.for_step(stride.h);

@@ -2,7 +2,7 @@
 
 use super::assembler::Assembler;
 use super::equations::StationRoom;
-use crate::dynamics::interactions::{JointLinearisation, JointTangent, Joints};
+use crate::dynamics::joints::{JointLinearisation, JointTangent, Joints};
 use crate::dynamics::state::{State, translation};
 use crate::elements::factors::TangentFactors;
 use crate::model::Model;

@@ -9,6 +9,7 @@ mod constants;
 mod contacts;
 mod energy;
 mod equations;
+mod interactions;
 mod joints;
 pub(crate) mod linear;
 mod residual;
@@ -20,5 +21,6 @@ mod tests;
 
 pub(crate) use assembler::Assembler;
 pub(crate) use energy::joint_violation;
+pub(crate) use interactions::Interactions;
 pub(crate) use shortening::add_shortening_tangent;
 pub(crate) use slots::add_slots_tangent;

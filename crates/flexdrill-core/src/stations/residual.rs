@@ -3,9 +3,9 @@
 use super::assembler::Assembler;
 use super::axial::{add, element_values};
 use super::constants::Constants;
+use super::interactions::Interactions;
 use crate::chain::Effect;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::state::State;
 use crate::effects::bodies::Bodies;
 use crate::model::Model;

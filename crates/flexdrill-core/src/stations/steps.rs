@@ -1,11 +1,11 @@
 //! Whole steps of the chain with a node at every station against those of the witness, from the same states.
 
 use super::equations::{StationEquations, StationRoom};
+use super::interactions::Interactions;
 use super::joint_violation;
 use super::linear::{BlockLu, LinearSolver, SparseReference};
 use crate::Instructions;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::newton::{self, Stride};
 use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
@@ -136,9 +136,10 @@ fn check(tool: &ToolDescription, steps: usize, asked: impl Fn(usize) -> bool) ->
             assert!(apart < 1e-9 * largest, "step {step}: {apart} of {largest}");
         }
         let inside = |station: &usize| model.stations[*station].joint.is_none();
-        let inner = stepper.interactions().inner.iter().map(|(station, _)| station);
+        let layers = stepper.effects().contact.as_ref().unwrap().layers();
+        let inner = layers.inner.iter().map(|(station, _)| station);
         contacts[0] += inner.filter(inside).count();
-        contacts[1] += stepper.interactions().outer.count();
+        contacts[1] += layers.outer.count();
     }
     contacts
 }

@@ -2,12 +2,12 @@
 //! forces, and what contacts, joints and the bit add in each iteration.
 
 use super::assembler::Assembler;
+use super::interactions::Interactions;
 use super::linear::{BlockSystem, ContactBlock, add_columns};
 use super::shortening::add_shortening_tangent;
 use super::slots::add_slots_tangent;
 use crate::chain::{Effect, Touching};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::numbered::along_the_hole;
 use crate::dynamics::state::State;
 use crate::effects::bodies::{self, Bodies};

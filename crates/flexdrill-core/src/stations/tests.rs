@@ -1,9 +1,9 @@
 //! The assembled tangent is the derivative of the assembled residual, for every term: stiffness, damping and mass, with
 //! contacts, friction, stops and all joint kinds at work.
 
+use super::interactions::Interactions;
 use crate::Instructions;
 use crate::chain::Effect;
-use crate::dynamics::interactions::Interactions;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::Tolerances;
@@ -84,7 +84,7 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
         .q
         .iter_mut()
         .for_each(|x| *x += 4e-5 * generator.next() * generator.next().abs());
-    let forces = start.bristles.iter_mut().flatten().flatten();
+    let forces = start.held_friction.iter_mut().flatten().flatten();
     forces.for_each(|force| *force = 300.0 * generator.next());
     let free = |i: usize| !model.held.contains(&i) && model.driven != Some(i) && !model.padding.contains(&i);
     let mut assembler = Assembler::new(model, Instructions::best());
@@ -95,11 +95,11 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
         state.q[model.places.end_spin] - turned,
         state.q[model.places.guide_end] - 3e-4,
     ];
-    assembler.bit.begin(settings.time_step);
+    assembler.bit.begin(&start, settings.time_step);
     assembler.bit.start(bit_before);
     assembler.residual(&mut interactions, model, &state, &conditions);
-    assert!(interactions.inner.count() > 2, "no inner contact to test");
-    assert!(interactions.outer.count() > 2, "no outer contact to test");
+    assert!(interactions.layers.inner.count() > 2, "no inner contact to test");
+    assert!(interactions.layers.outer.count() > 2, "no outer contact to test");
     let n = model.unknowns();
     for (name, factors) in [
         (
@@ -152,7 +152,7 @@ fn check_turned(tool: &ToolDescription, turned: f64) {
                 let mut assembler = Assembler::new(model, Instructions::best());
                 let mut interactions = Interactions::new(model, Instructions::best());
                 interactions.begin(&start, settings.time_step);
-                assembler.bit.begin(settings.time_step);
+                assembler.bit.begin(&start, settings.time_step);
                 assembler.bit.start(bit_before);
                 assembler.residual(&mut interactions, model, &moved, &conditions);
                 assembler.residual

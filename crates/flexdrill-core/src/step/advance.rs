@@ -138,7 +138,7 @@ impl Stepper {
             model,
             chain,
             effects,
-            interactions,
+            joints,
             stopwatch,
             track,
             ..
@@ -156,12 +156,12 @@ impl Stepper {
             model,
             chain,
             effects,
-            interactions,
+            joints,
             stopwatch,
         };
         // On failure nothing of the track has been taken, and the caller halves.
         let iterations = newton::step(&mut equations, &stride, &conditions, from, to)?;
-        equations.interactions.keep_bristles(to);
+        equations.effects.leave(to);
         equations.energy(&mut track.trial_carried, &mut track.trial_ledger, to, &conditions);
         // The works of the ledger are over these displacements.
         track.measure_displacements();

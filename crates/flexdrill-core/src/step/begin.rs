@@ -22,7 +22,7 @@ impl Stepper {
             model: &self.model,
             chain: &mut self.chain,
             effects: &mut self.effects,
-            interactions: &mut self.interactions,
+            joints: &mut self.joints,
             stopwatch: &mut self.stopwatch,
         };
         // The balance over all stations is not quite the balance over the nodes.
@@ -54,7 +54,7 @@ impl Stepper {
             model,
             chain,
             effects,
-            interactions,
+            joints,
             stopwatch,
             track,
             ..
@@ -64,7 +64,7 @@ impl Stepper {
             model,
             chain,
             effects,
-            interactions,
+            joints,
             stopwatch,
         };
         equations.begin_corrections(state, 0.0);

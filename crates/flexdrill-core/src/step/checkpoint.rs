@@ -52,7 +52,7 @@ impl Stepper {
         let track = &mut self.track;
         let same = checkpoint.state.q.len() == track.state.q.len()
             && checkpoint.state.pipe_axial.len() == track.state.pipe_axial.len()
-            && checkpoint.state.bristles.len() == track.state.bristles.len()
+            && checkpoint.state.held_friction.len() == track.state.held_friction.len()
             && checkpoint.carried.fits(&track.carried)
             && checkpoint.ledger.fits(&track.ledger)
             && self.effects.fit(&checkpoint.effects);

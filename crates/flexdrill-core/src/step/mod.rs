@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use crate::chain::{Carrier, Chain, ChainEquations, Effect, EndLoad, FromAbove};
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
+use crate::dynamics::joints::Joints;
 use crate::dynamics::outcome::{FailureCause, StepFailure};
 use crate::dynamics::phases::{PhaseTimes, Stopwatch};
 use crate::dynamics::scheme::Scheme;
@@ -56,8 +56,8 @@ pub(crate) struct Stepper {
     /// Steps are taken in 2^refinement parts.
     refinement: u32,
     live: LiveParameters,
-    /// Contacts and joints at the end of the last step.
-    interactions: Interactions,
+    /// The joints at the end of the last step.
+    joints: Joints,
     stopwatch: Stopwatch,
     /// The tool over its nodes.
     chain: Chain,
@@ -108,7 +108,7 @@ impl Stepper {
             max_halvings,
             refinement: 0,
             live: LiveParameters::of(description),
-            interactions: Interactions::new(&model, instructions),
+            joints: Joints::new(&model, instructions),
             stopwatch: Stopwatch::default(),
             effects,
             chain,
@@ -132,9 +132,9 @@ impl Stepper {
         &self.model
     }
 
-    /// Contacts and joints at the end of the last step.
-    pub fn interactions(&self) -> &Interactions {
-        &self.interactions
+    /// The joints at the end of the last step.
+    pub fn joints(&self) -> &Joints {
+        &self.joints
     }
 
     /// When a step counts as solved.
@@ -247,13 +247,13 @@ impl Stepper {
         self.live = live;
     }
 
-    /// The equations of a `chain` with its `effects`, which are others than those of the steps, with the contacts of this tool.
+    /// The equations of a `chain` with its `effects`, which are others than those of the steps, with the joints of this tool.
     fn equations_of<'a>(&'a mut self, (chain, effects): &'a mut (Chain, Effects)) -> ChainEquations<'a, Effects> {
         ChainEquations {
             model: &self.model,
             chain,
             effects,
-            interactions: &mut self.interactions,
+            joints: &mut self.joints,
             stopwatch: &mut self.stopwatch,
         }
     }

@@ -101,9 +101,7 @@ impl Stepper {
 
     /// Share of an axial force that a rope which slides round the turns of the hole passes on, e^(-mu theta).
     pub fn arrives_round_the_arc(&self) -> f64 {
-        let description = &self.model.description;
-        let [_, friction] = self.live.outer_friction;
-        libm::exp(-friction * description.wall_friction_factors.arc * description.well.turn())
+        libm::exp(-self.model.description.round_the_arc(&self.live))
     }
 
     /// Load on the hook (N): the weight of the string in mud and of all that hangs on its end, less what is slacked off.
@@ -153,9 +151,10 @@ impl Stepper {
     pub fn outside_forces(&self) -> OutsideForces {
         let (model, energy) = (&self.model, &self.track.ledger);
         let bottom = &model.stations[model.last()];
-        let wall = self.interactions.outer.iter().map(|(station, touch)| {
-            let [x, y, z, ..] = touch.force();
-            model.stations[station].frame * Vector3::new(x, y, z)
+        let mut wall = Vector3::zeros();
+        self.effects.each_touched(Body::Guide, &mut |station, touched| {
+            let [x, y, z, ..] = touched.force;
+            wall += model.stations[station].frame * Vector3::new(x, y, z);
         });
         let loads = model.loads.iter().zip(&energy.loads).filter_map(|(load, value)| {
             let (node, _, frame) = model.node_of(load.unknown);
@@ -180,7 +179,7 @@ impl Stepper {
                 .sum::<Vector3<f64>>()
                 + self.carried_from_above().unwrap_or_default(),
             weight: model.total_weight + self.effects.weight(),
-            wall: wall.sum::<Vector3<f64>>() - self.turned_with_the_tool(),
+            wall: wall - self.turned_with_the_tool(),
             end: bottom.frame.column(0) * -self.end_load().weight,
             loads: loads.sum(),
             inertia: -sum(&energy.inertia, |span| &span.inertia),

@@ -46,8 +46,6 @@ const STEPS: [f64; 2] = [1e-3, 5.0];
 /// At rest when nothing moves faster (m/s, rad/s) over steps of the largest size: ten times what Newton's tolerance
 /// lets through there.
 const REST: f64 = 1e-6;
-/// Friction that no contact holds (N): what the wall resists with is at its limit then.
-const BEYOND_ANY_LIMIT: f64 = 1e12;
 /// Steps before giving up.
 const MOST_STEPS: u32 = 2000;
 
@@ -130,16 +128,8 @@ impl Stepper {
         let mut tool = self.chain_over_stations();
         let mut state = self.as_given(&mut tool, inputs, 0.0)?;
         // A guide that was slid in lies against friction at its limit along the hole, and keeps that as its history.
-        let slid_in = self.model().description.slid_in;
-        if slid_in {
-            // Along the guide, against the advance.
-            state
-                .bristles
-                .iter_mut()
-                .for_each(|[_, wall]| *wall = [0.0, -BEYOND_ANY_LIMIT]);
-        }
-        // Friction that vanishes at rest would slow the approach and change nothing of the end.
-        let conditions = settling(self.conditions(0.0, inputs), slid_in);
+        tool.1.settle(&mut state);
+        let conditions = settling(self.conditions(0.0, inputs));
         let most_iterations = self.tolerances().max_iterations;
         let mut equations = self.equations_of(&mut tool);
         let mut trial = state.clone();
@@ -147,7 +137,7 @@ impl Stepper {
         let mut speed = f64::INFINITY;
         let mut at_largest = 0;
         let mut steps = 0;
-        // The first steps are small: the tool falls into its contacts, and a large step would pass through them.
+        // The first steps are small: the tool falls onto what holds it, and a large step would pass through that.
         while steps < MOST_STEPS {
             steps += 1;
             let stride = Stride {
@@ -196,9 +186,7 @@ impl Stepper {
                 limit: REST,
             });
         }
-        if slid_in {
-            equations.interactions.keep_bristles(&mut state);
-        }
+        equations.effects.leave(&mut state);
         // The remaining velocities are set to zero, and what they leave out of balance is corrected below.
         let mut rest = state;
         rest.v.fill(0.0);
@@ -217,13 +205,8 @@ impl Stepper {
     }
 }
 
-/// Conditions while settling: without friction, but for that of the wall on a guide that has been slid in.
-fn settling(mut conditions: Conditions, slid_in: bool) -> Conditions {
-    let wall = (!slid_in).then_some(&mut conditions.outer);
-    for layer in [Some(&mut conditions.inner), wall].into_iter().flatten() {
-        layer.surface.friction_tangential = 0.0;
-        layer.surface.friction_axial = 0.0;
-    }
+/// Conditions while settling: damped, and without what vanishes at rest.
+fn settling(mut conditions: Conditions) -> Conditions {
     conditions.comes_to_rest = true;
     conditions.rayleigh.alpha += SETTLING_ALPHA;
     conditions

@@ -1,8 +1,8 @@
 //! What a description must satisfy before a model can be built from it.
 
 use super::description::{
-    Body, Direction, FrictionLaw, GapDescription, JointDescription, JointKind, LoadHistory, Location, Material,
-    ToolDescription, Tube, WallFrictionFactors, WeightPlace, WellDescription, WellSection, WobPath,
+    Body, Direction, JointDescription, JointKind, LoadHistory, Location, Material, ToolDescription, Tube, WeightPlace,
+    WellDescription, WellSection, WobPath,
 };
 use crate::validation::{Bound, ValidationError, count, length, require};
 
@@ -25,10 +25,7 @@ impl ToolDescription {
         self.joint.validate()?;
         Bound::NotNegative.check("rayleigh.alpha", self.rayleigh.alpha, "1/s")?;
         Bound::NotNegative.check("rayleigh.beta", self.rayleigh.beta, "s")?;
-        self.inner.validate("inner")?;
-        self.outer.validate("outer")?;
-        self.wall_friction_factors.validate()?;
-        Bound::Positive.check("slip_speed", self.slip_speed, "m/s")?;
+        self.check_contact()?;
         Bound::NotNegative.check("gravity", self.gravity, "m/s2")?;
         self.check_along_the_pipes()?;
         self.validate_supports()?;
@@ -175,16 +172,7 @@ impl ToolDescription {
             Bound::Finite.check(&format!("initial_pipe_displacement[{k}]"), displacement, "m")?;
         }
         Bound::Finite.check("initial_spin_rate", self.initial_spin_rate, "rad/s")?;
-        require(
-            !self.slid_in || self.static_start,
-            "slid_in",
-            "a guide that has been slid in is at rest; set static_start to true or slid_in to false",
-        )?;
-        require(
-            !self.slid_in || (self.outer.friction_law == FrictionLaw::Bristle && !self.guide_fixed),
-            "slid_in",
-            "only a guide that may slide, with outer.friction_law Bristle, holds friction at rest; set slid_in to false",
-        )?;
+        self.check_friction_at_rest()?;
         let moves = self.initial_pipe_velocity != [0.0; 3]
             || self.initial_pipe_displacement != [0.0; 3]
             || self.initial_spin_rate != 0.0;
@@ -234,17 +222,6 @@ impl WellDescription {
             }
         }
         Ok(())
-    }
-}
-
-impl WallFrictionFactors {
-    fn validate(&self) -> Checked {
-        let factors = [
-            ("before_arc", self.before_arc),
-            ("arc", self.arc),
-            ("after_arc", self.after_arc),
-        ];
-        Bound::NotNegative.check_all("wall_friction_factors", &factors, "")
     }
 }
 
@@ -306,21 +283,6 @@ impl JointDescription {
             "joint.play.half_angle",
             "a hinge (joint.kind revolute) has no play in the model; set joint.play.half_angle to 0",
         )
-    }
-}
-
-impl GapDescription {
-    fn validate(&self, under: &str) -> Checked {
-        Bound::NotNegative.check(&format!("{under}.stiffness"), self.stiffness, "N/m")?;
-        Bound::NotNegative.check(&format!("{under}.damping"), self.damping, "s/m")?;
-        let frictions = [
-            ("friction_tangential", self.friction_tangential),
-            ("friction_axial", self.friction_axial),
-        ];
-        Bound::NotNegative.check_all(under, &frictions, "")?;
-        self.slip_speed.map_or(Ok(()), |speed| {
-            Bound::Positive.check(&format!("{under}.slip_speed"), speed, "m/s")
-        })
     }
 }
 

@@ -1,9 +1,9 @@
 //! Parts of a snapshot that are read from the mechanics as it stands.
 
 use super::snapshot::{ContactLayer, Holder, Joints, Reactions};
-use crate::dynamics::interactions::Interactions;
+use crate::chain::Touched;
+use crate::dynamics::joints::Joints as Linearised;
 use crate::dynamics::state::{State, joint_rotations, translation};
-use crate::elements::gap::LayerContacts;
 use crate::model::Model;
 use crate::step::Stepper;
 use crate::tool::{Direction, JointKind};
@@ -12,13 +12,13 @@ use flexdrill_motion::ContactStatistics;
 /// Contacts of one layer at all stations: gaps, present forces, peak and RMS.
 pub(super) fn fill_layer(
     out: &mut ContactLayer,
-    touches: &LayerContacts,
+    touched: impl Fn(usize) -> Option<Touched>,
     statistics: &ContactStatistics,
     gap: impl Fn(usize) -> f64,
 ) {
     for s in 0..out.gap.len() {
         out.gap[s] = gap(s);
-        let values = touches.get(s).map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);
+        let values = touched(s).map_or([0.0; 3], |t| [t.normal, t.tangential, t.axial]);
         [out.normal[s], out.tangential[s], out.axial[s]] = values;
     }
     statistics.write(&mut out.normal_peak, &mut out.normal_rms);
@@ -70,11 +70,11 @@ pub(super) fn fill_reactions(stepper: &Stepper, out: &mut Reactions) {
 pub(super) fn fill_joints(
     model: &Model,
     state: &State,
-    forces: &Interactions,
+    joints: &Linearised,
     on_pins: impl Fn(usize) -> f64,
     out: &mut Joints,
 ) {
-    for (to, stop) in out.stop_moment.iter_mut().zip(forces.joints.stops()) {
+    for (to, stop) in out.stop_moment.iter_mut().zip(joints.stops()) {
         *to = stop.moment;
     }
     for (j, joint) in model.joints.iter().enumerate() {
@@ -91,12 +91,10 @@ pub(super) fn fill_joints(
         let force = joint.upper.tr_mul(&(translation(&state.q, first) * model.force_scale));
         out.axial_force[j] = -force.x + on_pins(j);
         out.shear_force[j] = (force.y * force.y + force.z * force.z).sqrt();
-        let twist = -forces.joints.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
+        let twist = -joints.row_gradient(j, 0)[3] * state.q[first + 3] * model.moment_scale;
         out.torque[j] = match joint.law.kind {
             JointKind::Universal | JointKind::BallCage => twist,
-            JointKind::Revolute => {
-                twist - forces.joints.row_gradient(j, 1)[3] * state.q[first + 4] * model.moment_scale
-            }
+            JointKind::Revolute => twist - joints.row_gradient(j, 1)[3] * state.q[first + 4] * model.moment_scale,
         };
     }
 }

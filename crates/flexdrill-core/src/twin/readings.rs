@@ -10,9 +10,9 @@ use nalgebra::Vector3;
 use super::quality::ModelQuality;
 use super::simulation::Simulation;
 use super::snapshot::{Applied, Bit, Contacts, Joints, SolverCounters};
+use crate::chain::{Effect, Touched};
 use crate::dynamics::Energies;
 use crate::dynamics::state::State;
-use crate::elements::gap::Touch;
 use crate::model::Station;
 use crate::tool::{Body, Direction};
 
@@ -142,13 +142,9 @@ impl Simulation {
         self.stepper().weight_at_kickoff()
     }
 
-    fn touch(&self, station: usize, body: Body) -> Option<Option<Touch>> {
-        let forces = self.stepper().interactions();
-        let touches = match body {
-            Body::Pipe => &forces.inner,
-            Body::Guide => &forces.outer,
-        };
-        (station < self.stepper().model().stations.len()).then(|| touches.get(station))
+    fn touch(&self, station: usize, body: Body) -> Option<Option<Touched>> {
+        let stepper = self.stepper();
+        (station < stepper.model().stations.len()).then(|| stepper.effects().touched(body, station))
     }
 
     /// Distance of a pipe's axis from the bore's, horizontally and towards the low side (m).

@@ -219,8 +219,7 @@ impl Simulation {
             WeightPlace::Kickoff => self.applied.weight_at_kickoff,
         };
         reaction.map_or(set, |reaction| {
-            let [_, friction] = self.stepper.live().outer_friction;
-            let gain = libm::exp(friction * description.wall_friction_factors.arc * description.well.turn());
+            let gain = libm::exp(description.round_the_arc(&self.stepper.live()));
             let [least, most] = Inputs::bounds(InputKind::WeightOnBit);
             let change = dt / (WEIGHT_TIME * gain) * (set - reaction);
             (self.applied.weight_on_bit + change).clamp(least, most)

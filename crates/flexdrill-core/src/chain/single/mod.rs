@@ -24,7 +24,7 @@ use super::operator::Operator;
 use super::precision::Rounded;
 use super::tangent::{Additions, Touching};
 use super::{GUIDE, Link, NODE, TIE};
-use crate::dynamics::interactions::JointTangent;
+use crate::dynamics::joints::JointTangent;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::single::Single;

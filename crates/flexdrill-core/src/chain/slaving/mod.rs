@@ -46,7 +46,7 @@ pub(crate) struct LinkMatrices {
     pub motion: Vec<Aligned<MotionColumns>>,
     /// The same by rows: forces on the ends by the components of a local force.
     pub force: Vec<Aligned<ForceRows>>,
-    /// Forces on the unknowns of both nodes by those of a gap, in both precisions.
+    /// Forces on the unknowns of both nodes by local ones at each station, in both precisions.
     pub on_nodes: OnNodesInBoth,
     /// Displacements of the inner nodes in their own frames, columns of a node one after the other.
     pub inner: Vec<Aligned<MotionColumns>>,
@@ -158,7 +158,7 @@ impl LinkMatrices {
         self.slaved[body].tr_mul(forces)
     }
 
-    /// Largest deflection that contacts of these stiffnesses (N/m; pipe-guide, guide-wall) make between the ends for a
+    /// Largest deflection that springs of these stiffnesses (N/m; of pipe and guide, of guide and wall) make between the ends for a
     /// deflection of 1 in either direction at all inner stations: a bound on what is left of it from step to step.
     pub fn compliance(&self, [inner, outer]: [f64; 2]) -> f64 {
         let mut largest = 0.0_f64;
@@ -333,7 +333,7 @@ impl Span<'_> {
     }
 
     /// The local motion of pipe and guide at each station, the top included, by the unknowns of the ends: six rows, twelve
-    /// columns. At the span's top it is the span above that meets the gap, but for the tool's first station.
+    /// columns. At the span's top it is the span above that has the station, but for the tool's first station.
     fn station_maps(&self, slaved: &[DMatrix<f64>; 2]) -> Vec<[DMatrix<f64>; 2]> {
         let at = |i: usize, body: usize| local(self.model, self.first + i, body) * slaved[body].rows(6 * i, 6);
         (0..=self.per).map(|i| [at(i, 0), at(i, 1)]).collect()

@@ -54,7 +54,7 @@ fn check_state(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tu
         let mut full_start = State::at_rest(&model);
         chain.show(&model, &start, &forces, &mut full_start);
         at_stations.begin(&full_start, h);
-        whole.bit.begin(h);
+        whole.bit.begin(&full_start, h);
         whole.bit.start(bit_before);
         whole.residual(&mut at_stations, &model, &full, &conditions);
         let inside = |layer: &LayerContacts| {
@@ -63,15 +63,14 @@ fn check_state(tool: &ToolDescription, (h, nodes_for): (f64, f64), seed: u64, tu
                 .filter(|(station, _)| model.stations[*station].joint.is_none())
                 .count()
         };
-        let touches =
-            inside(&room.interactions.inner) > 0 && (tool.guide_fixed || inside(&room.interactions.outer) > 0);
+        let touches = inside(&room.layers().inner) > 0 && (tool.guide_fixed || inside(&room.layers().outer) > 0);
         if tool.elements_per_link > 1 && !touches {
             return false;
         }
         assert!(
             model.joints.is_empty()
                 || tool.joint.kind == JointKind::Revolute
-                || room.interactions.joints.stops().any(|stop| stop.moment > 0.0),
+                || room.joints.stops().any(|stop| stop.moment > 0.0),
             "no shut stop"
         );
 

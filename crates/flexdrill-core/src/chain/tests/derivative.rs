@@ -39,9 +39,9 @@ fn check_chain(tool: &ToolDescription, model: &Model, mut chain: Chain, axial: f
     let bit_before = bit_before(&chain, &state, turned);
     room.begin(&start, 5e-4, bit_before);
     equations(model, &mut chain, &mut room).evaluate(&mut state, &conditions, true);
-    assert!(room.interactions.inner.count() > 2, "no inner contact to test");
+    assert!(room.layers().inner.count() > 2, "no inner contact to test");
     assert!(
-        tool.guide_fixed || room.interactions.outer.count() > 2,
+        tool.guide_fixed || room.layers().outer.count() > 2,
         "no outer contact to test"
     );
     let mut seed = 7;

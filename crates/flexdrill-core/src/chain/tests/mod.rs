@@ -13,18 +13,19 @@ use crate::chain::{Chain, ChainEquations, Effect, NODE, TIE};
 use crate::dynamics::carried::{Carried, JointForces};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::energy::LedgerPoint;
-use crate::dynamics::interactions::Interactions;
+use crate::dynamics::joints::Joints;
 use crate::dynamics::newton::{Equations, Iteration, correct};
 use crate::dynamics::phases::Stopwatch;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::state::State;
 use crate::dynamics::tolerances::{Accuracy, Tolerances};
+use crate::effects::contact::Layers;
+use crate::effects::contact::law::LayerContacts;
 use crate::effects::{Effects, acting};
 use crate::elements::factors::TangentFactors;
-use crate::elements::gap::LayerContacts;
 use crate::elements::joint::Joint;
 use crate::model::Model;
-use crate::stations::Assembler;
+use crate::stations::{Assembler, Interactions};
 use crate::tool::description::LiveParameters;
 use crate::tool::{
     AddedMass, Body, Direction, FreeCurvature, FrictionLaw, JointKind, LoadHistory, Location, MudDamping,
@@ -174,7 +175,7 @@ fn before(chain: &Chain, state: &State, seed: u64) -> State {
             before.q.copy_within(NODE * k..NODE * k + 3, NODE * k + 6);
         }
     }
-    let forces = before.bristles.iter_mut().flatten().flatten();
+    let forces = before.held_friction.iter_mut().flatten().flatten();
     forces.for_each(|force| *force = 300.0 * random(&mut seed));
     before
 }
@@ -273,7 +274,7 @@ fn no_forces(chain: &Chain) -> JointForces {
 /// What the chain's equations need apart from the chain.
 struct Room {
     effects: Effects,
-    interactions: Interactions,
+    joints: Joints,
     stopwatch: Stopwatch,
 }
 
@@ -281,15 +282,20 @@ impl Room {
     fn new(model: &Model, chain: &Chain, instructions: Instructions) -> Self {
         Self {
             effects: Effects::of(model, chain),
-            interactions: Interactions::new(model, instructions),
+            joints: Joints::new(model, instructions),
             stopwatch: Stopwatch::default(),
         }
     }
 
+    /// What touches.
+    fn layers(&self) -> &Layers {
+        self.effects.contact.as_ref().unwrap().layers()
+    }
+
     /// Begins a step of size `h` (s) from `start`, in which the bit was at an angle (rad) over a flat bottom at a depth (m).
     fn begin(&mut self, start: &State, h: f64, bit_before: [f64; 2]) {
-        self.interactions.begin(start, h);
-        self.effects.begin(h);
+        self.joints.begin();
+        self.effects.begin(start, h);
         self.effects.bit.as_mut().unwrap().start(bit_before);
     }
 }
@@ -299,7 +305,7 @@ fn equations<'a>(model: &'a Model, chain: &'a mut Chain, room: &'a mut Room) -> 
         model,
         chain,
         effects: &mut room.effects,
-        interactions: &mut room.interactions,
+        joints: &mut room.joints,
         stopwatch: &mut room.stopwatch,
     }
 }

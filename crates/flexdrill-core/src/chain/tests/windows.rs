@@ -93,7 +93,7 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
         }
         let (got, touching) = (
             chain.residual.clone(),
-            [contacts(&room.interactions.inner), contacts(&room.interactions.outer)],
+            [contacts(&room.layers().inner), contacts(&room.layers().outer)],
         );
         equations(&model, &mut chain, &mut room).evaluate(&mut state, &conditions, false);
         let scale = chain.residual.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -107,7 +107,7 @@ fn a_window_is_solved_for_as_the_whole_tool_and_leaves_its_residual() {
         // The same numbers: what did not move was not looked at, what did was evaluated anew.
         assert_eq!(
             touching,
-            [contacts(&room.interactions.inner), contacts(&room.interactions.outer)]
+            [contacts(&room.layers().inner), contacts(&room.layers().outer)]
         );
         assert!(touching.iter().all(|layer| layer.len() > 8));
     }

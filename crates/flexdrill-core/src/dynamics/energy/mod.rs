@@ -3,7 +3,7 @@
 //!
 //! With F the sum of all forces, Newmark gives exactly dT = dq . (F_0 + F_1)/2 - D, where D is the scheme's own loss.
 //! Linear elastic forces then store exactly what they take, so the ledger's error is what is left: the quadrature of
-//! contacts, stops and joint rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
+//! what touches, stops and joint rows, and Newton's residual. See `docs/decisions/energy_audit.md`.
 
 mod step;
 
@@ -13,7 +13,7 @@ pub(crate) use step::{SpanWorks, StepEnd, StepWork};
 
 use crate::dynamics::carried::Carried;
 use crate::dynamics::conditions::Conditions;
-use crate::dynamics::interactions::Interactions;
+use crate::dynamics::joints::Joints;
 use crate::dynamics::numbered::Numbered;
 use crate::model::Model;
 
@@ -35,7 +35,7 @@ pub struct SpanForces {
 /// Energies and powers of the whole tool at one end of a step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sums {
-    /// Kinetic, elastic, geometric, contact and stop energy (J).
+    /// Kinetic, elastic and geometric energy, and that of springs that touch (J).
     pub(crate) stored: f64,
     /// Part of `stored` that is kinetic.
     pub(crate) kinetic: f64,
@@ -44,16 +44,16 @@ pub struct Sums {
     /// Power of the geometric stiffness with the axial force in use, less that with the axial force of the
     /// displacements (W).
     pub(crate) foresight: f64,
-    /// Power of contact, stop and play damping (W).
-    pub(crate) contact_dissipation: f64,
+    /// Power of the damping of what touches: of effects at stations, stops and plays (W).
+    pub(crate) touch_dissipation: f64,
     /// Force on the tool's lower end up the hole (N).
     pub(crate) pushed_up: f64,
     /// Rate at which the frame of the displacements advances with the tool (m/s).
     pub(crate) advance: f64,
-    /// Energy in the bristles of the contacts (J), which the friction has not taken yet.
-    bristles: f64,
-    /// Power of the advance against the friction of the wall (W).
-    feed: f64,
+    /// Energy that friction holds by an elastic slip (J), and has not taken yet.
+    pub(crate) held: f64,
+    /// Power of the advance against friction from outside (W).
+    pub(crate) feed: f64,
     /// Work of the weight of what effects have at nodes, since the tool was undeflected (J).
     pub(crate) fallen: f64,
     /// What the works of effects need of this end of the step, each at its place.
@@ -64,7 +64,7 @@ pub struct Sums {
 /// reads them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LedgerPoint {
-    /// Friction of both layers on every unknown (N, N m).
+    /// Dry friction on every unknown (N, N m).
     pub(crate) friction: Vec<f64>,
     /// Geometric-stiffness force N G q with the axial force in use.
     pub(crate) geometric: Vec<f64>,
@@ -139,6 +139,12 @@ impl LedgerPoint {
         (self.has_nodes, self.sums) = (other.has_nodes, other.sums);
     }
 
+    /// Nothing touches yet.
+    pub(crate) fn begin_touching(&mut self) {
+        self.friction.fill(0.0);
+        (self.sums.touch_dissipation, self.sums.held, self.sums.feed) = (0.0, 0.0, 0.0);
+    }
+
     /// Nothing acts at nodes yet.
     pub(crate) fn begin_nodes(&mut self) {
         self.sums.fallen = 0.0;
@@ -155,26 +161,26 @@ impl LedgerPoint {
         [&mut self.damping, &mut self.inertia]
     }
 
-    /// Adds joints, loads and drive to what elements, effects and contacts have `stored` (J), and writes what supports,
+    /// Adds joints, loads and drive to what elements and effects have `stored` (J), and writes what supports,
     /// pins and drive carry.
     pub(crate) fn finish(
         &mut self,
         mut stored: f64,
         numbered: &Numbered<'_>,
         conditions: &Conditions,
-        interactions: &Interactions,
+        joints: &Joints,
         residual: &[f64],
         carried: &mut Carried,
     ) {
         let Numbered { model, places, .. } = *numbered;
-        // Stops and plays store elastic energy and dissipate as contacts do.
-        for stop in interactions.joints.stops() {
+        // Stops and plays store elastic energy and dissipate as all that touches.
+        for stop in joints.stops() {
             stored += stop.energy;
-            self.sums.contact_dissipation += stop.dissipation;
+            self.sums.touch_dissipation += stop.dissipation;
         }
-        for play in interactions.joints.plays() {
+        for play in joints.plays() {
             stored += play.energy;
-            self.sums.contact_dissipation += play.dissipation;
+            self.sums.touch_dissipation += play.dissipation;
         }
         let of_joints = carried
             .pin_power
@@ -183,7 +189,7 @@ impl LedgerPoint {
             .zip(&places.joints);
         // Each pin's friction acts on the rotations of both its links; its
         // moments are kept for the work of the joint alone.
-        for (((power, kept), joint), (moments, taken)) in of_joints.zip(interactions.joints.frictions()) {
+        for (((power, kept), joint), (moments, taken)) in of_joints.zip(joints.frictions()) {
             (*power, *kept) = (taken, moments);
             let rotations = (joint.above..joint.above + 3).chain(joint.below..joint.below + 3);
             rotations
@@ -198,18 +204,8 @@ impl LedgerPoint {
         for (reaction, held) in carried.reactions.iter_mut().zip(&places.held) {
             *reaction = held.map_or(0.0, |held| residual[held]);
         }
-        // Bristles of the contacts are springs: what they hold is stored, not lost.
-        self.sums.bristles =
-            interactions.inner.bristle_energy(&conditions.inner) + interactions.outer.bristle_energy(&conditions.outer);
-        self.sums.stored = stored + self.sums.bristles;
-        // The wall moves past the guide by the advance. Without one the
-        // sum must be exactly zero, and not a rounding of it.
-        self.sums.feed = if conditions.rate_of_penetration == 0.0 {
-            0.0
-        } else {
-            let along = interactions.outer.iter().map(|(_, touch)| touch.axial);
-            -conditions.rate_of_penetration * along.sum::<f64>()
-        };
+        // What friction holds is stored, not lost.
+        self.sums.stored = stored + self.sums.held;
         // At the driven spin the residual is the drive's torque. A string computes its own.
         let at_the_tool = places.driven.map_or(0.0, |driven| residual[driven]);
         carried.drive_torque = conditions.drive_torque.unwrap_or(at_the_tool);

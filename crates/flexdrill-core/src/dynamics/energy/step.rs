@@ -134,10 +134,10 @@ impl StepWork<'_> {
         for (k, &load) in places.loads.iter().enumerate() {
             ledger.loads += mean(e0.loads[k], e1.loads[k]) * moved[load];
         }
-        // The wall that moves past a guide at rest does work by its friction; what bristles take they give back.
+        // The wall that moves past a guide at rest does work by its friction; what it holds it gives back.
         let feed = h * mean(at0.feed, at1.feed);
         ledger.feed += feed;
-        ledger.friction += (feed - (at1.bristles - at0.bristles)) - friction;
+        ledger.friction += (feed - (at1.held - at0.held)) - friction;
         // By the same rule as `friction`, of which it is a part: the mean of the pins' power differs by what the joint's
         // swing turns within the step.
         for ((m0, m1), joint) in e0.pin_moments.iter().zip(&e1.pin_moments).zip(&places.joints) {
@@ -147,8 +147,8 @@ impl StepWork<'_> {
                 .map(|(at, (m0, m1))| moved[at] * (m0 + m1));
             ledger.joint_friction -= 0.5 * work.sum::<f64>();
         }
-        // Powers are integrated over time, forces over displacement: contact damping is known as a power.
-        ledger.contact_damping += h * mean(at0.contact_dissipation, at1.contact_dissipation);
+        // Powers are integrated over time, forces over displacement: the damping of what touches is known as a power.
+        ledger.contact_damping += h * mean(at0.touch_dissipation, at1.touch_dissipation);
         ledger.gravity += gravity;
         ledger.gravity += at1.fallen - at0.fallen;
         ledger.rayleigh_damping += damping;

@@ -153,7 +153,7 @@ impl Effect for Bit {
         self.start([state.q[self.spin], state.q[self.down]]);
     }
 
-    fn begin(&mut self, step: f64) {
+    fn begin(&mut self, _from: &State, step: f64) {
         self.load.begin(step);
     }
 

@@ -1,11 +1,11 @@
 //! Balances that any mechanics must keep: reactions carry the loads, masses add up, the static start is at rest.
 
 use crate::Instructions;
-use crate::dynamics::interactions::Interactions;
+use crate::chain::Effect;
 use crate::dynamics::scheme::Scheme;
 use crate::dynamics::tolerances::Tolerances;
 use crate::inputs::Inputs;
-use crate::stations::Assembler;
+use crate::stations::{Assembler, Interactions};
 use crate::step::{SolverKind, Stepper, StepperSettings};
 use crate::tool::{Body, Direction, JointKind, LoadHistory, Location, PointLoad, ToolDescription};
 use nalgebra::Vector3;
@@ -53,10 +53,10 @@ fn reactions_at_rest_carry_weight_and_weight_on_bit() {
     let bottom = &model.stations[model.last()];
     total -= bottom.frame.column(0) * weight_on_bit;
     let mut wall = Vector3::zeros();
-    for (station, touch) in stepper.interactions().outer.iter() {
-        let [x, y, z, ..] = touch.force();
+    stepper.effects().each_touched(Body::Guide, &mut |station, touched| {
+        let [x, y, z, ..] = touched.force;
         wall += model.stations[station].frame * Vector3::new(x, y, z);
-    }
+    });
     total += wall;
     for &unknown in &model.held {
         let station = &model.stations[model.layout.station_of(unknown)];

@@ -37,7 +37,7 @@ fn spoil(stepper: &mut Stepper) {
         }
         let sums = &mut ledger.sums;
         (sums.stored, sums.kinetic, sums.geometric_energy) = (NONSENSE, NONSENSE, NONSENSE);
-        (sums.foresight, sums.contact_dissipation) = (NONSENSE, NONSENSE);
+        (sums.foresight, sums.touch_dissipation) = (NONSENSE, NONSENSE);
         sums.of_effects.fill(NONSENSE);
     }
 }

@@ -4,6 +4,7 @@
 //! [`LiveParameters`] can change.
 
 mod bit;
+mod contact;
 mod joint;
 mod string;
 mod whole;
@@ -12,6 +13,7 @@ pub use flexdrill_base::{Body, Location};
 use serde::{Deserialize, Serialize};
 
 pub use bit::*;
+pub use contact::*;
 pub use joint::*;
 pub use string::*;
 pub use whole::*;
@@ -39,43 +41,6 @@ pub enum HoleInterval {
 impl HoleInterval {
     /// From the top down.
     pub const ALL: [Self; 3] = [Self::BeforeArc, Self::Arc, Self::AfterArc];
-}
-
-/// Factors on both friction coefficients of the layer between guide and wall, by the interval of the hole in which a
-/// station lies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct WallFrictionFactors {
-    /// In [`HoleInterval::BeforeArc`].
-    pub before_arc: f64,
-    /// In [`HoleInterval::Arc`].
-    pub arc: f64,
-    /// In [`HoleInterval::AfterArc`].
-    pub after_arc: f64,
-}
-
-impl WallFrictionFactors {
-    /// The same friction all along the hole.
-    pub const ONE: Self = Self {
-        before_arc: 1.0,
-        arc: 1.0,
-        after_arc: 1.0,
-    };
-
-    /// That of an interval.
-    #[must_use]
-    pub const fn of(&self, interval: HoleInterval) -> f64 {
-        match interval {
-            HoleInterval::BeforeArc => self.before_arc,
-            HoleInterval::Arc => self.arc,
-            HoleInterval::AfterArc => self.after_arc,
-        }
-    }
-}
-
-impl Default for WallFrictionFactors {
-    fn default() -> Self {
-        Self::ONE
-    }
 }
 
 /// One section of the well path.
@@ -132,54 +97,6 @@ pub struct Rayleigh {
     pub alpha: f64,
     /// Stiffness-proportional damping (s).
     pub beta: f64,
-}
-
-/// One layer of gap elements, Eq. 20 to 34.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct GapDescription {
-    /// Normal stiffness per station (N/m).
-    pub stiffness: f64,
-    /// Hunt-Crossley damping c of F = k d (1 + c d') (s/m).
-    pub damping: f64,
-    /// Coulomb coefficient around the circumference, mu_1.
-    pub friction_tangential: f64,
-    /// Coulomb coefficient along the axis, mu_2.
-    pub friction_axial: f64,
-    /// How friction follows from sliding.
-    pub friction_law: FrictionLaw,
-    /// Speed at which the regularised friction of this layer reaches 71 % of Coulomb's (m/s); `None` takes
-    /// [`ToolDescription::slip_speed`]. A bristle has none.
-    pub slip_speed: Option<f64>,
-}
-
-/// How the friction of a gap layer follows from sliding.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FrictionLaw {
-    /// Around and along by themselves, Eq. 25.
-    #[default]
-    Separate,
-    /// Against the whole sliding velocity.
-    Vector,
-    /// Against the whole sliding velocity, with an elastic slip before it: the contact can stick.
-    Bristle,
-}
-
-impl GapDescription {
-    /// A layer of penalty stiffness `stiffness` (N/m) with the same Coulomb coefficient `friction` in both directions
-    /// and the damping of the paper's case. A stiffness of 0 switches the layer off.
-    #[must_use]
-    pub const fn new(stiffness: f64, friction: f64) -> Self {
-        Self {
-            stiffness,
-            damping: 0.5,
-            friction_tangential: friction,
-            friction_axial: friction,
-            friction_law: FrictionLaw::Separate,
-            slip_speed: None,
-        }
-    }
 }
 
 /// One of a node's six degrees of freedom, in storage order.

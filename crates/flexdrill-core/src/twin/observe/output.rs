@@ -1,8 +1,8 @@
 //! The snapshot, made from the state and the statistics.
 
 use super::{Observer, gap_lateral};
-use crate::dynamics::state::{State, inner_lateral, translation};
-use crate::elements::gap::gap;
+use crate::chain::Effect;
+use crate::dynamics::state::{State, gap, inner_lateral, translation};
 use crate::model::Model;
 use crate::step::Stepper;
 use crate::tool::{Body, Direction};
@@ -74,17 +74,24 @@ impl Observer {
 
     /// Fills a snapshot from the state and the statistics; the contacts' states are those of Table 2.
     pub(in crate::twin) fn fill(&self, stepper: &Stepper, state: &State, out: &mut Snapshot) {
-        let (model, forces) = (stepper.model(), stepper.interactions());
+        let (model, effects) = (stepper.model(), stepper.effects());
         // Joints first: their forces come from the elements and from effects.
-        fill_joints(model, state, forces, |joint| stepper.on_pins(joint), &mut out.joints);
+        fill_joints(
+            model,
+            state,
+            stepper.joints(),
+            |joint| stepper.on_pins(joint),
+            &mut out.joints,
+        );
         let contacts = &mut out.contacts;
+        let touched = |body: Body| move |station: usize| effects.touched(body, station);
         // Gaps are computed for all stations, also those without contact;
         // the statistics hold the forces between two snapshots.
-        fill_layer(&mut contacts.pipe_guide, &forces.inner, &self.inner, |s| {
+        fill_layer(&mut contacts.pipe_guide, touched(Body::Pipe), &self.inner, |s| {
             let station = &model.stations[s];
             gap(inner_lateral(station, state), station.inner_clearance)
         });
-        fill_layer(&mut contacts.guide_wall, &forces.outer, &self.outer, |s| {
+        fill_layer(&mut contacts.guide_wall, touched(Body::Guide), &self.outer, |s| {
             gap(gap_lateral(model, state, s, Body::Guide), model.outer_clearance)
         });
         // Shock has its own window and is written over the layer's.
@@ -93,7 +100,8 @@ impl Observer {
         out.shock = self.shock.level();
         for (s, station) in model.stations.iter().enumerate() {
             // Bits of the state are those of Table 2: 1 for the inner contact, 2 for the outer.
-            contacts.state[s] = u8::from(forces.inner.get(s).is_some()) + 2 * u8::from(forces.outer.get(s).is_some());
+            let [inner, outer] = [Body::Pipe, Body::Guide].map(|body| u8::from(effects.touched(body, s).is_some()));
+            contacts.state[s] = inner + 2 * outer;
             let guide = translation(&state.q, station.guide);
             let pipe = station.pipe_to_station * translation(&state.q, station.pipe_above);
             out.shape.pipe[s] = [station.offset.x + pipe.y, station.offset.y + pipe.z];

@@ -23,14 +23,14 @@ impl Observer {
         if self.quality.push(dt, stepper.audit()) {
             self.update_trust();
         }
-        let forces = stepper.interactions();
+        let effects = stepper.effects();
         // Drag and power of a layer are summed with its contacts, as the transfer needs both.
         let mut rubbing = [Rubbing::default(); 2];
-        for (layer, (touches, statistics)) in [(&forces.inner, &mut self.inner), (&forces.outer, &mut self.outer)]
+        for (layer, (body, statistics)) in [(Body::Pipe, &mut self.inner), (Body::Guide, &mut self.outer)]
             .into_iter()
             .enumerate()
         {
-            for (station, touch) in touches.iter() {
+            effects.each_touched(body, &mut |station, touch| {
                 statistics.touch(station, dt, touch.normal);
                 self.shock.push(layer, station, dt, touch.normal);
                 if layer == 0 {
@@ -39,13 +39,13 @@ impl Observer {
                 self.ageing.rub(layer, station, touch.friction_power * dt);
                 rubbing[layer].drag -= touch.axial;
                 rubbing[layer].power += touch.friction_power;
-            }
+            });
             statistics.advance(dt);
         }
         // Nothing is judged while the drive stands or speeds up: transients would raise alarms.
         let (time, judged) = (step as f64 * dt, self.whirl.drive() == DriveState::Turning);
         self.shock.advance(time, dt, judged);
-        for (joint, stop) in forces.joints.stops().enumerate() {
+        for (joint, stop) in stepper.joints().stops().enumerate() {
             self.joint_load.push(joint, dt, stop.moment);
             self.ageing.stop(joint, dt, stop.moment);
         }
@@ -75,11 +75,7 @@ impl Observer {
         // accumulated: impacts are shorter than its interval.
         let share = 1.0 / self.decimation as f64;
         for (sample, &(station, body)) in self.samples.iter_mut().zip(&self.watched) {
-            let touch = match body {
-                Body::Pipe => forces.inner.get(station),
-                Body::Guide => forces.outer.get(station),
-            };
-            if let Some(touch) = touch {
+            if let Some(touch) = effects.touched(body, station) {
                 sample.normal_force = sample.normal_force.max(touch.normal);
                 sample.contact_share += share;
                 sample.impulse += touch.normal * dt;

@@ -22,7 +22,7 @@ pub struct Joints {
 }
 
 impl Joints {
-    pub(super) fn new(model: &Model, instructions: Instructions) -> Self {
+    pub(crate) fn new(model: &Model, instructions: Instructions) -> Self {
         Self {
             groups: model.joints.chunks(8).map(JointGroup::of).collect(),
             count: model.joints.len(),
@@ -31,7 +31,7 @@ impl Joints {
     }
 
     /// Forgets what the corrections of the step before learned of friction.
-    pub(super) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self) {
         self.groups.iter_mut().for_each(JointGroup::begin);
     }
 

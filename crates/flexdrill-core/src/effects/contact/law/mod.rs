@@ -25,9 +25,8 @@ pub use layer::LayerContacts;
 
 #[cfg(test)]
 use nalgebra::SVector;
-use nalgebra::Vector2;
 
-use super::slip::Slip;
+use crate::elements::slip::Slip;
 use crate::simd::number::{Lane, Number};
 use crate::tool::{FrictionLaw, GapDescription};
 
@@ -269,24 +268,6 @@ impl Touch<Lane> {
     }
 }
 
-impl Slip<Lane> {
-    /// The slip in lane `k`.
-    #[inline(always)]
-    pub(in crate::elements) fn lane(&self, k: usize) -> Slip {
-        Slip {
-            speed: self.speed[k],
-            friction: self.friction[k],
-            slope: self.slope[k],
-        }
-    }
-
-    /// Sets the slip in lane `k`.
-    #[inline(always)]
-    fn set_lane(&mut self, k: usize, from: &Slip) {
-        (self.speed[k], self.friction[k], self.slope[k]) = (from.speed, from.friction, from.slope);
-    }
-}
-
 impl<N: Number> Touch<N> {
     /// Writes all lanes to memory, but for the coupling, which only some laws have.
     #[inline(always)]
@@ -308,11 +289,6 @@ impl<N: Number> Touch<N> {
             self.slip[k].slope.store(&mut to.slip[k].slope);
         }
     }
-}
-
-/// Gap (m, negative is penetration) at the lateral displacement (y, z) within `clearance`, Eq. 27 and 31.
-pub fn gap(lateral: Vector2<f64>, clearance: f64) -> f64 {
-    clearance - lateral.norm()
 }
 
 impl GapLaw {

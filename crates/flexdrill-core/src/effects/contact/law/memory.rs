@@ -69,7 +69,7 @@ impl LayerMemory {
 
 #[cfg(test)]
 mod tests {
-    use crate::elements::gap::{GapLaw, LayerContacts};
+    use crate::effects::contact::law::{GapLaw, LayerContacts};
     use crate::simd::vector::{Portable, Vector};
     use crate::tool::{FrictionLaw, GapDescription};
 

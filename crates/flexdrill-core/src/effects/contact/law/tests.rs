@@ -1,7 +1,7 @@
 //! Tests of the gap laws.
 
 use super::*;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector2};
 
 fn law() -> GapLaw {
     GapLaw {
