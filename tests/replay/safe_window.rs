@@ -16,9 +16,11 @@ fn succeeds(arguments: &[&Path]) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// Topic, time and bytes of each message of a bag with the map or an event of an alarm, and the events of
-/// `known_window`.
-fn judged(path: &Path) -> (Vec<(String, i64, Vec<u8>)>, Vec<AlarmEvent>) {
+/// Topic, time (ns) and bytes of a message.
+type Recorded = (String, i64, Vec<u8>);
+
+/// The messages of a bag that have the map or an event of an alarm, and the events of `known_window`.
+fn judged(path: &Path) -> (Vec<Recorded>, Vec<AlarmEvent>) {
     let (mut messages, mut events) = (Vec::new(), Vec::new());
     for message in bag::open(path).unwrap().map(Result::unwrap) {
         if message.topic.ros_type == AlarmEvent::ROS_TYPE {

@@ -24,7 +24,7 @@ const WORDS: [&str; 13] = [
     "weight_on_bit",
 ];
 /// Sources that need chosen figures, and what for. A figure that is added is in none of them.
-const USES: [(&str, &str); 10] = [
+const USES: [(&str, &str); 11] = [
     (
         "crates/flexdrill-report/src/balances.rs",
         "a balance is a sum of certain figures",
@@ -56,6 +56,10 @@ const USES: [(&str, &str); 10] = [
         "the size of messages of older senders",
     ),
     ("src/health/motion.rs", "diagnostics"),
+    (
+        "src/cli/watch/texts.rs",
+        "what drilling comes to, in one line of the terminal",
+    ),
 ];
 /// Most sources, but its table, that name a figure.
 const MOST: usize = 4;
