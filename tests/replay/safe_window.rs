@@ -39,7 +39,7 @@ fn a_replay_judges_by_the_map_of_the_recorded_run() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let small = crate::common::small_config();
-    let map = "map SMALL --rpm 40:80 --wob 2:6 --grid 2x2 --share 100 --horizon 5 --members 1 --jobs 2 --out MAP";
+    let map = "map SMALL --rpm 40:80 --wob 2:6 --grid 2x2 --share 100 --horizon 10 --members 1 --jobs 2 --out MAP";
     let place = at("map");
     let words = map.split(' ').map(|word| match word {
         "SMALL" => small.as_path(),
