@@ -1,10 +1,11 @@
-//! How spans deflect between their ends: the static deflection of inner stations under weight and what effects push inside, the ends held,
-//! w = K_ii^-1 f_i.
+//! How spans deflect between their ends: the static deflection of inner stations under weight and what effects push
+//! inside, the ends held, w = K_ii^-1 f_i.
 //!
 //! The slaving moves inner stations with the ends, and transfers their forces to the ends. The rest of the static
 //! solution is this deflection, which opens and closes gaps: with a soft guide by enough to change the force on the wall
 //! by 1 %. A step counts with the deflection that the forces at its start make. That is as good as solving for it, since
-//! a span inside is so much stiffer than what pushes there: what the lag leaves out is their ratio times the change of the force.
+//! a span inside is far stiffer than what pushes there. The lag leaves out the ratio of the two stiffnesses times the change of
+//! the force.
 
 use super::Chain;
 use super::columns::{EndColumn, at_ends};
