@@ -9,6 +9,8 @@ use super::start::Start;
 use crate::alarms::AlarmId;
 use flexdrill_alarms::Priority;
 use flexdrill_core::twin::QualityLevel;
+use flexdrill_messages as messages;
+use flexdrill_outputs::words::priority_code;
 
 /// The chance of one alarm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +23,23 @@ pub struct AlarmChance {
     pub chance: Chance,
     /// Median over the members that saw it of the time to the first of it (s); NaN where none did.
     pub first: f64,
+}
+
+impl AlarmChance {
+    /// As a message.
+    pub fn message(&self) -> messages::AlarmChance {
+        messages::AlarmChance {
+            id: self.id.id().to_owned(),
+            name: self.id.name().to_owned(),
+            priority: priority_code(Some(self.priority)),
+            seen: self.chance.seen,
+            members: self.chance.of,
+            probability: self.chance.probability,
+            lower: self.chance.interval[0],
+            upper: self.chance.interval[1],
+            time_to_first: self.first,
+        }
+    }
 }
 
 /// The answer on one candidate.

@@ -11,6 +11,7 @@
 //! - [`look_ahead`]: runs the members on some threads (`engine`) and gathers an [`Answer`].
 //! - [`search`]: the smallest change of speed or weight that ends the alarms that stand.
 //! - [`forecast`]: the next minute at the present speed and weight, second by second. [`Held`] compares it with what came.
+//! - [`Advisor`], [`ForecastDesk`]: what is asked, what was found and for how long it holds, for a node and for a replay.
 //!
 //! # Choices
 //! - **Same bytes.** A member is determined by start, candidate, seed and its number. Results count in the order of these
@@ -22,6 +23,7 @@
 //!   since the way may decide whether a motion ends. Only a long way is run once for all.
 
 mod advice;
+mod advisor;
 mod answer;
 mod calm;
 mod chance;
@@ -36,11 +38,13 @@ mod member;
 #[cfg(test)]
 mod plausible_tests;
 mod set_point;
+mod standing;
 mod start;
 mod tally;
 mod trace;
 
-pub use advice::{LEAST_CONFIRMING, SearchProgress, Searched, search};
+pub use advice::{ADVICE_SEED, SearchProgress, Searched, search, tools_in_which};
+pub use advisor::{Acting, Advisor, Asked, InForce};
 pub use answer::{AlarmChance, Answer, CandidateAnswer, Progress};
 pub use chance::{Band, Chance};
 pub use engine::{Members, keep_priority, look_ahead, look_further};
@@ -49,5 +53,6 @@ pub use goal::{Candidate, Ends, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, 
 pub use held::Held;
 pub use member::{DISTURBANCE, Figure};
 pub use set_point::SetPoint;
+pub use standing::{Busy, FORECAST_INTERVAL, FORECAST_SEED, ForecastDesk, Forecasts, Issued};
 pub use start::{NoTool, Start, StartError};
 pub use trace::{SIGNALS, Second, Signal, Trace};

@@ -8,9 +8,9 @@ use std::time::Duration;
 use tokio::sync::oneshot;
 
 use super::NodeError;
-use super::advisor::{Acting, Advisor, InForce};
 use super::confirmed::Confirmation;
 use super::publish::PublisherParts;
+use crate::ahead::{Acting, Advisor, InForce};
 use crate::alarms::{AlarmBook, Request};
 use crate::health::conditions::{NodeConditions, NodeState, RecordingState};
 use crate::state_file::{self, Kept, StateError, StateWriter, Words};
@@ -120,12 +120,11 @@ impl AlarmDesk {
         self.parameters = InForce::of(config);
     }
 
-    /// Gives the alarms that stand what look-aheads have found for them under what the driller has set.
-    pub fn advise(&self, book: &mut AlarmBook, set: Inputs) {
+    /// Gives the alarms that stand what look-aheads have found for them under what the driller has set, at `now` (s) of the
+    /// steady clock.
+    pub fn advise(&self, book: &mut AlarmBook, set: Inputs, now: f64) {
         if let Some(advisor) = &self.advisor {
-            let acting = Acting::new(set, &self.parameters);
-            let tested = advisor.follow(book.leading(), &acting);
-            book.set_tested(tested, advisor.trial());
+            advisor.advise(book, &Acting::new(set, &self.parameters), now);
         }
     }
 
@@ -410,7 +409,7 @@ mod tests {
         let mut advice = |desk: &AlarmDesk| {
             second += 1;
             book.observe_tool(&snapshot, 1_000_000_000 * second);
-            desk.advise(&mut book, snapshot.applied.inputs());
+            desk.advise(&mut book, snapshot.applied.inputs(), second as f64);
             // The texts are written after what was found was taken.
             book.observe_tool(&snapshot, 1_000_000_000 * second + 1);
             let list = book.list(Header::default());
@@ -418,8 +417,9 @@ mod tests {
             alarm.unwrap().what_to_do
         };
         assert!(advice(&desk).contains("a rule of thumb: the twin has not tried it out."));
-        advisor.settle();
-        let (asked, _) = advisor.due().unwrap();
+        // The question is of the first second, and due once it has settled.
+        assert!(advisor.due(1.5).is_none());
+        let (asked, _) = advisor.due(4.0).unwrap();
         assert!(advice(&desk).contains("the twin is searching for a change that ends the alarm."));
         let tested = Tested {
             ends: asked.leading.standing,
@@ -445,7 +445,6 @@ mod tests {
             words.contains("a rule of thumb") && !words.contains("84 r/min"),
             "{words}"
         );
-        advisor.settle();
-        assert!(advisor.due().is_some(), "it is asked for anew");
+        assert!(advisor.due(9.0).is_some(), "it is asked for again");
     }
 }

@@ -14,6 +14,11 @@ pub struct Clocks {
     simulated: Option<Arc<AtomicU64>>,
 }
 
+/// Time of the steady clock (s).
+pub fn steady() -> f64 {
+    monotonic::now() as f64 * 1e-9
+}
+
 impl Clocks {
     /// The clocks of a node; `use_sim_time` makes them follow `/clock`.
     pub fn new(use_sim_time: bool) -> Self {

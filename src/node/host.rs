@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::clocks::steady;
 use super::publish::PublisherParts;
 use super::thinned::{Share, Thinned};
 use crate::alarms::AlarmBook;
@@ -73,7 +74,7 @@ impl Host for NodeHost<'_> {
 
     fn judged(&mut self, alarms: &mut AlarmBook, _: &Snapshot) {
         if let Some(set) = self.parts.set_point.inputs() {
-            self.parts.alarms.advise(alarms, set);
+            self.parts.alarms.advise(alarms, set, steady());
         }
     }
 
@@ -96,7 +97,7 @@ impl PublisherParts {
         }
     }
 
-    /// Sends a message that is not of the session: status, diagnostics and forecasts, which replays do not have.
+    /// Sends a message that is not of the session: status, diagnostics and forecasts.
     pub(super) fn send_message<M: Message>(&self, topic: &'static TopicInfo, message: &M, stamp: i64) {
         match to_cdr(message) {
             Ok(cdr) => {

@@ -5,7 +5,6 @@
 //! - the publisher's thread: [`publish`]; the recorder's thread: [`RecordingThread`](crate::bag::RecordingThread);
 //! - tokio tasks: inputs ([`receive`]), `/clock` (`clock_topic`), services and parameters ([`control`]).
 
-mod advisor;
 pub mod alarms;
 mod clock_topic;
 pub mod clocks;
@@ -15,7 +14,6 @@ pub mod demonstration_rig;
 mod duration;
 mod error;
 mod following;
-mod forecast;
 mod host;
 pub mod inputs;
 pub mod life;

@@ -9,11 +9,10 @@ use tokio::sync::{Notify, oneshot};
 use tokio::task::JoinSet;
 
 use super::alarms::{self, AlarmDesk, AlarmRequest};
-use super::clocks::Clocks;
+use super::clocks::{Clocks, steady};
 use super::confirmed::{self, Confirmed};
 use super::control::{self, Control, ParameterUpdate};
 use super::following::{self, Moves};
-use super::forecast::ForecastDesk;
 use super::inputs::RigInputs;
 use super::life::JointLife;
 use super::publish::{Publisher, PublisherParts};
@@ -26,6 +25,7 @@ use super::simulator::{self, Simulator};
 use super::viewers::{self, Viewers};
 use super::what_if::{self, Answering};
 use super::{LiveAddress, NodeError, NodeSetup, clock_topic, lifecycle, parameters, surveys};
+use crate::ahead::ForecastDesk;
 use crate::bag::{RecordingThread, Topic};
 use crate::drilling::live::{Point, SharedPoints, split};
 use crate::ensemble::{self, Ensemble, Pace, Running};
@@ -350,7 +350,7 @@ impl PreparedNode {
             dds: port.monitor(),
             node_name: setup.identity.full_name(),
             finish: Arc::clone(&finish),
-            forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config)),
+            forecasts: forecasts.map(|forecasts| ForecastDesk::new(forecasts, &self.config, steady())),
             set_point: Arc::clone(&answering.set_point),
             moves: self.moves,
             drilled: self.drilled,

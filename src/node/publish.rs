@@ -4,14 +4,13 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Receiver;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::alarms::{self, AlarmDesk};
-use super::clocks::Clocks;
+use super::clocks::{Clocks, steady};
 use super::confirmed::Confirmed;
 use super::control::ParameterUpdate;
 use super::following::Moves;
-use super::forecast::ForecastDesk;
 use super::host::NodeHost;
 use super::inputs::RigInputs;
 use super::life::JointLife;
@@ -19,6 +18,7 @@ use super::publishers::Publishers;
 use super::received::{Received, ReceivedQueue};
 use super::set_point::SharedSetPoint;
 use super::thinned::Thinned;
+use crate::ahead::ForecastDesk;
 use crate::bag::RecordingThread;
 use crate::drilling::live::SharedPoints;
 use crate::health::conditions::{another_of_this_name, not_in_real_time};
@@ -272,7 +272,7 @@ impl Publisher {
                 // The alarm stands until the model runs again, whether or not the line below is logged.
                 self.failure = Some(failure);
                 // Inputs that change continuously repeat the step, and its failure, continuously.
-                let clock = monotonic::now() as f64 * 1e-9;
+                let clock = steady();
                 let more = self.failure_lines.ending(failure.cause.name(), clock);
                 self.failure_logged |= more.is_some();
                 if let Some(more) = more {
@@ -406,7 +406,7 @@ impl Publisher {
             return;
         }
         self.namesake = true;
-        if let Some(more) = self.namesake_lines.ending(monotonic::now() as f64 * 1e-9) {
+        if let Some(more) = self.namesake_lines.ending(steady()) {
             tracing::warn!(
                 "{}; start one of them with another --namespace{more}",
                 another_of_this_name(&status.namesake)
@@ -421,7 +421,7 @@ impl Publisher {
             return;
         };
         let frame_id = &session.config().outputs.frame_id;
-        if let Some(forecast) = desk.take(frame_id, |ticks| session.instant(ticks).unwrap_or_default()) {
+        if let Some(forecast) = desk.take(steady(), frame_id, |ticks| session.instant(ticks).unwrap_or_default()) {
             self.parts.send_message(&topics::FORECAST, &forecast, self.instant());
         }
     }
@@ -439,7 +439,7 @@ impl Publisher {
         let node = &self.parts.node_name;
         let mut status = diagnostics::items(node, &self.newest_status, &rig, &self.motion, &alarms);
         let look_ahead = self.parts.forecasts.as_ref();
-        status.extend(look_ahead.map(|desk| desk.item(node, Instant::now())));
+        status.extend(look_ahead.map(|desk| desk.item(node, steady())));
         let message = DiagnosticArray {
             header: self.header(),
             status,

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use super::clocks::steady;
 use super::confirmed::Confirmed;
 use super::inputs::RigInputs;
 use super::received::{Received, ReceivedSender, plain_topic};
@@ -14,7 +15,6 @@ use flexdrill_messages::std_msgs::Float64;
 use flexdrill_messages::topics::{self, TopicInfo};
 use flexdrill_messages::{Message, RigMeasured, RigSurvey, message_from_cdr_body};
 use flexdrill_outputs::{InputValues as _, MeasuredValues as _};
-use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::frames::Peer;
 use flexdrill_ros2::dds::plan::Guid;
 use flexdrill_ros2::dds::port::{Inbox, Monitor, Sample};
@@ -47,7 +47,7 @@ pub struct SampleReceiver {
 impl SampleReceiver {
     /// Asks discovery about a publisher whose node or host is not known yet.
     fn query_publisher(&self, id: DriverId, queried: &mut HashMap<DriverId, f64>) {
-        let now = monotonic::now() as f64 * 1e-9;
+        let now = steady();
         if self.inputs.is_described(id) || queried.get(&id).is_some_and(|last| now - last < QUERY_INTERVAL) {
             return;
         }

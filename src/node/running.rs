@@ -9,6 +9,7 @@ use std::time::Duration;
 use tokio::sync::{Notify, oneshot};
 use tokio::task::JoinSet;
 
+use super::clocks::steady;
 use super::duration::{DurationWatch, Ended};
 use super::simulator::Simulator;
 use super::what_if::WhatIf;
@@ -17,7 +18,6 @@ use crate::bag::RecordingThread;
 use flexdrill_core::twin::BuildError;
 use flexdrill_messages::TwinStatus;
 use flexdrill_realtime::link::Gauges;
-use flexdrill_realtime::monotonic;
 use flexdrill_ros2::dds::port::{Monitor, Port};
 use flexdrill_ros2::logging;
 use flexdrill_ros2::parameters::Parameters;
@@ -88,10 +88,10 @@ impl RunningNode {
         let Some(duration) = self.duration else {
             return std::future::pending().await;
         };
-        let mut watch = DurationWatch::new(duration, monotonic::now() as f64 * 1e-9);
+        let mut watch = DurationWatch::new(duration, steady());
         let ended = loop {
             let model_time = self.gauges.step.load(Ordering::Relaxed) as f64 * self.time_step;
-            if let Some(ended) = watch.update(model_time, monotonic::now() as f64 * 1e-9) {
+            if let Some(ended) = watch.update(model_time, steady()) {
                 break ended;
             }
             tokio::time::sleep(DURATION_INTERVAL).await;

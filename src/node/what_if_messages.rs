@@ -1,11 +1,10 @@
 //! What a look-ahead is asked and answers, as messages of the action `~/what_if`.
 
-use crate::ahead::{AlarmChance as Seen, Answer, Candidate, CandidateAnswer, Ends, Figure, Goal, Progress};
+use crate::ahead::{AlarmChance, Answer, Candidate, CandidateAnswer, Ends, Figure, Goal, Progress};
 use flexdrill_messages::unique_identifier_msgs::UUID;
 use flexdrill_messages::{
-    AlarmChance, FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
+    FigureBand, WhatIfAnswer, WhatIfCandidate, WhatIfFeedback, WhatIfFeedbackMessage, WhatIfGoal,
 };
-use flexdrill_outputs::words::priority_code;
 use flexdrill_ros2::action::GoalId;
 use flexdrill_text::{counted, six_digits};
 
@@ -136,7 +135,7 @@ pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
         any_alarm: of.any_alarm.probability,
         any_alarm_lower: of.any_alarm.interval[0],
         any_alarm_upper: of.any_alarm.interval[1],
-        alarms: of.alarms.iter().map(of_alarm).collect(),
+        alarms: of.alarms.iter().map(AlarmChance::message).collect(),
         figures: Figure::ALL
             // Name and unit are in every band, so that a client can show figures that it does not know.
             .iter()
@@ -168,21 +167,6 @@ pub(super) fn of_candidate(of: &CandidateAnswer) -> WhatIfAnswer {
         friction_members: Vec::new(),
         friction_failed: Vec::new(),
         friction_any_alarm: Vec::new(),
-    }
-}
-
-/// How likely an alarm is.
-pub(super) fn of_alarm(of: &Seen) -> AlarmChance {
-    AlarmChance {
-        id: of.id.id().to_owned(),
-        name: of.id.name().to_owned(),
-        priority: priority_code(Some(of.priority)),
-        seen: of.chance.seen,
-        members: of.chance.of,
-        probability: of.chance.probability,
-        lower: of.chance.interval[0],
-        upper: of.chance.interval[1],
-        time_to_first: of.first,
     }
 }
 

@@ -188,63 +188,83 @@ def standing(found, seconds):
     return by_second
 
 
-def one(number, options):
-    """Runs a hidden rig and the twin on its log; figures by second."""
-    rng = random.Random(f"{options.seed} {number}")
-    folder = options.out / f"rig_{number:03}"
-    result = folder.with_suffix(".json")
-    if result.exists():
-        return json.loads(result.read_text())
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    yaml = YAML(typ="safe")
-    config = yaml.load(options.config.read_text())
-    names = hidden_rig(config, rng)
-    with (folder / "hidden.yaml").open("w") as to:
-        yaml.dump(config, to)
-    rows = plan(options.seconds, rng)
-    (folder / "plan.csv").write_text(
-        "time_s,rpm,wob\n" + "".join(f"{second},{speed},{weight}\n" for second, (speed, weight) in enumerate(rows))
-    )
-    columns = (
+class Hidden:
+    """A hidden rig with its plan, and the folder of its files."""
+
+    COLUMNS = (
         'separator: ","\ncolumns:\n  time: {column: time_s, format: seconds}\n'
         "  rotary_speed: {column: rpm, unit: r/min}\n  weight_on_bit: {direct: {column: wob, unit: kN}}\n"
     )
-    (folder / "plan.yaml").write_text(columns)
-    binary = options.binary
-    run(
-        [binary, "replay", folder / "plan.csv", "--mapping", folder / "plan.yaml", "--config", folder / "hidden.yaml"]
-        + ["--out", folder / "truth"],
-        folder / "truth.log",
-    )
-    truth = messages(folder / "truth", TOPICS)
 
-    # What the rig's sensors show of it.
-    speed = Sensor(rng, 0.01, 0.0, 0.2, 0.0, 0.1, 0)
-    weight = Sensor(rng, 0.05, 2.0, 0.4, 0.2, 0.1, 0)
-    torque = Sensor(rng, 0.05, 50.0, 15.0, 5.0, 1.0, rng.randrange(0, 3))
-    first = min(truth["transfer"])
-    lines = ["time_s,rpm,wob,torque"]
-    for second, (rpm, kn) in enumerate(rows):
-        at_surface = truth["transfer"].get(first + second - torque.delay)
-        shown = torque.shows(at_surface.surface_torque) if at_surface else None
-        # A driller zeroes the weight off bottom, and never puts on less than nothing.
-        shown_weight = weight.shows(kn) if kn > 0 else 0.0
-        values = [speed.shows(rpm), None if shown_weight is None else max(shown_weight, 0.0), shown]
-        lines.append(",".join([str(second), *("" if value is None else f"{value:.3f}" for value in values)]))
-    (folder / "rig.csv").write_text("\n".join(lines) + "\n")
-    (folder / "rig.yaml").write_text(columns + "  torque: {column: torque, unit: N.m}\n")
-    run(
-        [binary, "replay", folder / "rig.csv", "--mapping", folder / "rig.yaml", "--config", options.config]
-        + ["--members", options.members, "--out", folder / "twin"],
-        folder / "twin.log",
-    )
-    twin = messages(folder / "twin", TOPICS)
-    figures = compared(truth, twin, first, names)
+    def __init__(self, number, options):
+        self.rng = random.Random(f"{options.seed} {number}")
+        self.binary, self.folder = options.binary, options.out / f"rig_{number:03}"
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+        yaml = YAML(typ="safe")
+        config = yaml.load(options.config.read_text())
+        self.structures = hidden_rig(config, self.rng)
+        with (self.folder / "hidden.yaml").open("w") as to:
+            yaml.dump(config, to)
+        (self.folder / "plan.yaml").write_text(self.COLUMNS)
+        self.rows = plan(options.seconds, self.rng)
+
+    def drills(self, rows, name):
+        """Runs the rig at speeds and weights that act, second by second, into the bag of this name."""
+        table = self.folder / f"{name}.csv"
+        table.write_text("time_s,rpm,wob\n" + "".join(f"{second},{speed},{weight}\n" for second, (speed, weight) in enumerate(rows)))
+        bag = self.folder / name
+        run(
+            [self.binary, "replay", table, "--mapping", self.folder / "plan.yaml", "--config", self.folder / "hidden.yaml"]
+            + ["--out", bag],
+            self.folder / f"{name}.log",
+        )
+        return bag
+
+    def log(self, truth):
+        """What the rig's sensors show of its plan and of what it did, as a log with its mapping."""
+        rng = self.rng
+        self.speed = Sensor(rng, 0.01, 0.0, 0.2, 0.0, 0.1, 0)
+        self.weight = Sensor(rng, 0.05, 2.0, 0.4, 0.2, 0.1, 0)
+        torque = Sensor(rng, 0.05, 50.0, 15.0, 5.0, 1.0, rng.randrange(0, 3))
+        first = min(truth["transfer"])
+        lines = ["time_s,rpm,wob,torque"]
+        for second, (rpm, kn) in enumerate(self.rows):
+            at_surface = truth["transfer"].get(first + second - torque.delay)
+            shown = torque.shows(at_surface.surface_torque) if at_surface else None
+            # A driller zeroes the weight off bottom, and never puts on less than nothing.
+            shown_weight = self.weight.shows(kn) if kn > 0 else 0.0
+            values = [self.speed.shows(rpm), None if shown_weight is None else max(shown_weight, 0.0), shown]
+            lines.append(",".join([str(second), *("" if value is None else f"{value:.3f}" for value in values)]))
+        (self.folder / "rig.csv").write_text("\n".join(lines) + "\n")
+        (self.folder / "rig.yaml").write_text(self.COLUMNS + "  torque: {column: torque, unit: N.m}\n")
+
+    def twin(self, config, members, *others):
+        """Runs the twin of this configuration on the log, into a bag."""
+        run(
+            [self.binary, "replay", self.folder / "rig.csv", "--mapping", self.folder / "rig.yaml", "--config", config]
+            + ["--members", members, "--out", self.folder / "twin", *others],
+            self.folder / "twin.log",
+        )
+        return self.folder / "twin"
+
+
+def one(number, options):
+    """Runs a hidden rig and the twin on its log; figures by second."""
+    result = options.out / f"rig_{number:03}.json"
+    if result.exists():
+        return json.loads(result.read_text())
+    rig = Hidden(number, options)
+    bag = rig.drills(rig.rows, "truth")
+    truth = messages(bag, TOPICS)
+    rig.log(truth)
+    of_twin = rig.twin(options.config, options.members)
+    twin = messages(of_twin, TOPICS)
+    figures = compared(truth, twin, min(truth["transfer"]), rig.structures)
     result.write_text(json.dumps(figures))
     # Bags of a rig take a hundred megabytes; what is judged is in the figures.
-    shutil.rmtree(folder / "truth")
-    shutil.rmtree(folder / "twin")
+    shutil.rmtree(bag)
+    shutil.rmtree(of_twin)
     return figures
 
 
@@ -281,10 +301,12 @@ def compared(truth, twin, first, names):
         if now + WITHIN <= last:
             came = any(real[later] for later in range(now, now + WITHIN))
             alarms.append([twin["bands"][second].any_alarm, bool(own.get(second)), came])
-    disagrees = sum(
-        any(alarm.id == "rig_disagrees" and alarm.active for alarm in message.alarms) for message in twin["alarms"].values()
-    )
-    return {"structures": names, "bands": bands, "alarms": alarms, "disagrees": disagrees, "seconds": len(seconds)}
+    stands = [
+        any(alarm.id == "rig_disagrees" and alarm.active for alarm in twin["alarms"][second].alarms)
+        for second in sorted(twin["alarms"])
+    ]
+    begins = sum(now and not before for before, now in zip([False, *stands], stands))
+    return {"structures": names, "bands": bands, "alarms": alarms, "disagrees": begins, "seconds": len(seconds)}
 
 
 def wilson(share, count):
@@ -407,7 +429,11 @@ def tables(rigs, options):
             said = f"{tenth / TENTHS:.1f} to {(tenth + 1) / TENTHS:.1f}"
             out.append(f"| {said} | {len(rows)} | {mean(rows):.2f} | {low:.2f} to {high:.2f} |")
     disagreeing = sum(rig["disagrees"] > 0 for rig in rigs)
-    out += ["", f"`rig_disagrees` stood at some time on {disagreeing} of {len(rigs)} rigs."]
+    begins, hours = sum(rig["disagrees"] for rig in rigs), len(rigs) * options.seconds / 3600
+    out += [
+        "",
+        f"`rig_disagrees` came {begins} times in {hours:.1f} h, on {disagreeing} of {len(rigs)} rigs.",
+    ]
     return "\n".join(out) + "\n"
 
 

@@ -20,13 +20,15 @@ use super::measured::{Measured, is_judged_at, least_hold};
 use super::member::{Called, Ended, Horizon, LOOK, Member, Watched};
 use super::start::Start;
 use crate::alarms::{AlarmId, AlarmSet, Change, Knob, Leading, Tested};
+use crate::ensemble::Forks;
 use flexdrill_alarms::Priority;
 use flexdrill_core::twin::SimulationSettings;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
-use searching::{Outcome, Search, Span};
+use flexdrill_text::counted;
+use searching::{LEAST_CONFIRMING, Outcome, Search, Span};
 use trials::{Trial, judged_trials};
 
-pub use searching::{LEAST_CONFIRMING, SearchProgress, Searched};
+pub use searching::{SearchProgress, Searched};
 
 /// Speed (r/min) and weight (kN) after a change from `from`.
 fn point(from: [f64; 2], change: Change) -> [f64; 2] {
@@ -145,6 +147,25 @@ impl Runs<'_> {
         outcome.open = outcome.open.union(standing.iter().filter(open).collect());
         outcome.seconds = way + member.judged;
         Ok(outcome)
+    }
+}
+
+/// Fixed, so that the same state gives the same advice.
+pub const ADVICE_SEED: u64 = 1;
+
+/// Those of some plausible tools that can confirm what ends an alarm: it stands in them.
+///
+/// # Errors
+/// In words, where they are fewer than a first answer needs.
+pub fn tools_in_which(forks: Forks, alarm: AlarmId) -> Result<Forks, String> {
+    let forks = forks.in_which(alarm);
+    match forks.known() {
+        known if known >= LEAST_CONFIRMING as usize => Ok(forks),
+        known => Err(format!(
+            "{} stands in {} only",
+            alarm.name(),
+            counted(known as u64, "plausible tool")
+        )),
     }
 }
 

@@ -21,17 +21,26 @@ use flexdrill_uncertainty::Posterior;
 /// Model time after the last sample (s).
 const TAIL: f64 = 1.0;
 
-/// Runs the model through the samples, which are in the order of their times. Plausible tools are drawn from `posterior`
-/// where the configuration names one, `lives` are those of its joints, where a table has them, and speed and weight are judged
-/// by `window`, where there is a map.
+/// What a replay has next to its inputs.
+#[derive(Default)]
+pub(super) struct Along {
+    /// What plausible tools are drawn from, where the configuration names a posterior.
+    pub posterior: Option<Arc<Posterior>>,
+    /// The lives of the joints, where a table has them.
+    pub lives: Option<LivingJoints>,
+    /// What speed and weight are judged by, where there is a map.
+    pub window: Option<Arc<SafeWindow>>,
+    /// Whether it searches for advice and forecasts.
+    pub looks_ahead: bool,
+}
+
+/// Runs the model through the samples, which are in the order of their times.
 pub(super) fn replay(
     config: Config,
     samples: Samples,
     out: &Path,
     duration: Option<f64>,
-    posterior: Option<Arc<Posterior>>,
-    lives: Option<LivingJoints>,
-    window: Option<Arc<SafeWindow>>,
+    along: Along,
 ) -> anyhow::Result<(Player, Progress)> {
     // The messages are formed before the samples are taken apart: the recording
     // gets them as received, the conditioner gets their values.
@@ -62,7 +71,7 @@ pub(super) fn replay(
             measured,
             surveys,
         },
-        window,
+        along.window,
         out,
         |topic: &TopicInfo| {
             if topic.name.starts_with('/') {
@@ -73,8 +82,11 @@ pub(super) fn replay(
         },
     )?;
     player.end_by_signal()?;
-    player.run_ensemble(Vec::new(), posterior)?;
-    if let Some(lives) = lives {
+    player.run_ensemble(Vec::new(), along.posterior)?;
+    if along.looks_ahead {
+        player.look_ahead()?;
+    }
+    if let Some(lives) = along.lives {
         player.continue_lives(lives);
     }
     // An optional input that is missing everywhere is said once; each sample that lacks it would repeat it.

@@ -4,6 +4,7 @@ mod alarms;
 mod episodes;
 mod inputs;
 mod log;
+mod look_ahead;
 mod player;
 mod recording;
 mod show;
@@ -19,6 +20,7 @@ use std::sync::Arc;
 use anyhow::Context as _;
 use clap::Args;
 
+use self::inputs::Along;
 use self::player::Player;
 pub(super) use self::steady::record_case;
 use super::progress::Progress;
@@ -62,6 +64,10 @@ pub(super) struct ReplayArgs {
     /// run.
     #[arg(long, value_name = "NUMBER")]
     members: Option<u32>,
+    /// Also search for advice on alarms and forecast the next minute, as the configuration asks (look_ahead). The run waits
+    /// for each answer: a search takes about 1000 s of model time, a forecast 60 s for each of its runs.
+    #[arg(long, requires = "out")]
+    look_ahead: bool,
     /// Sample that the plausible tools of a recording were drawn from, where its configuration names one (ensemble.from).
     /// Default: that name, next to the recording.
     #[arg(long, value_name = "FILE")]
@@ -138,9 +144,15 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
                     topics::APPLIED_INPUTS.name
                 )
             })?;
-            inputs::replay(config, samples, out, args.duration, posterior, None, script.window())?
+            let along = Along {
+                posterior,
+                window: script.window(),
+                looks_ahead: args.look_ahead,
+                ..Along::default()
+            };
+            inputs::replay(config, samples, out, args.duration, along)?
         } else {
-            script.replay(out, args.duration, posterior)?
+            script.replay(out, args.duration, posterior, args.look_ahead)?
         };
         finish(done, args.incidents.as_deref())?;
         match exactness.departures.as_slice() {
@@ -173,7 +185,13 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     // A relative path is relative to the folder of the configuration, as for the node.
     let window = SafeWindow::of(&config, args.config.as_deref().unwrap_or(Path::new("")))?.map(Arc::new);
     let lives = lives.transpose()?;
-    let done = inputs::replay(config, samples, out, args.duration, posterior, lives, window)?;
+    let along = Along {
+        posterior,
+        lives,
+        window,
+        looks_ahead: args.look_ahead,
+    };
+    let done = inputs::replay(config, samples, out, args.duration, along)?;
     finish(done, args.incidents.as_deref())
 }
 

@@ -7,25 +7,28 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anyhow::{Context as _, bail};
 
 use super::log::LogPlace;
-use super::sink::BagSink;
+use super::look_ahead::LookAhead;
+use super::sink::{BagSink, WriteError};
 use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{Recorder, Recording, Topic};
+use crate::cli::WrongUse;
 use crate::cli::signals;
 use crate::cli::source::FromRig;
 use crate::ensemble::{Ensemble, Generation, Pace, Running};
 use crate::field_log::LogRows;
+use crate::messages::to_cdr;
 use crate::messages::topics::{self, Cadence, TopicInfo};
 use crate::residuals::{self, Samples};
 use crate::rig_inputs::Surveys;
 use crate::safe_window::SafeWindow;
-use crate::session::Session;
+use crate::session::{Host as _, Session};
 use flexdrill_config::{Config, Members, Rates};
 use flexdrill_core::dynamics::{StepFailure, StepOutcome};
 use flexdrill_core::twin::{Frame, Output, Run, RunInputs, Simulation, SimulationSettings};
 use flexdrill_hole::Survey;
 use flexdrill_life::LivingJoints;
-use flexdrill_outputs::{ParameterChange, schedule};
+use flexdrill_outputs::{Encoded, ParameterChange, schedule};
 use flexdrill_realtime::monotonic;
 use flexdrill_uncertainty::Posterior;
 
@@ -53,8 +56,8 @@ pub(super) struct Player {
     frame: Frame,
     /// When the alarms' worst moments were last taken (ns since 1970).
     listed: Option<i64>,
-    /// A signal sets it.
-    stop: Option<Arc<AtomicBool>>,
+    /// A signal sets it, where signals are caught.
+    stop: Arc<AtomicBool>,
 }
 
 impl Player {
@@ -121,7 +124,7 @@ impl Player {
             start,
             initial_rates,
             listed: None,
-            stop: None,
+            stop: Arc::default(),
         })
     }
 
@@ -144,18 +147,33 @@ impl Player {
         Ok(())
     }
 
+    /// Searches for advice and forecasts as the configuration asks. Call it before the first inputs.
+    ///
+    /// # Errors
+    /// When the configuration asks for neither.
+    pub(super) fn look_ahead(&mut self) -> Result<(), WrongUse> {
+        self.sink.look_ahead = LookAhead::of(self.config());
+        match self.sink.look_ahead {
+            Some(_) => Ok(()),
+            None => Err(WrongUse::new(
+                "--look-ahead: the configuration asks for nothing of the look-ahead; set look_ahead.advice or \
+                 look_ahead.forecast to true in it, or omit the option",
+            )),
+        }
+    }
+
     /// From now on a signal ends the run instead of the process, so that the bag gets its end.
     ///
     /// # Errors
     /// When signals cannot be caught.
     pub(super) fn end_by_signal(&mut self) -> anyhow::Result<()> {
-        self.stop = Some(signals::stop_recording().context("signals cannot be caught")?);
+        self.stop = signals::stop_recording().context("signals cannot be caught")?;
         Ok(())
     }
 
     /// Whether a signal has requested the end.
     pub(super) fn is_stopped(&self) -> bool {
-        self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// Compares the run at these stamps (ns since 1970), the oldest first, with what a recorded run was compared with,
@@ -209,6 +227,9 @@ impl Player {
 
     /// Adopts a configuration that these requests have changed.
     pub(super) fn reconfigure(&mut self, config: Config, changes: &[ParameterChange]) {
+        if let Some(look_ahead) = &mut self.sink.look_ahead {
+            look_ahead.reconfigure(&config);
+        }
         self.session.reconfigure(&Arc::new(config), changes);
     }
 
@@ -224,6 +245,9 @@ impl Player {
     /// Applies new inputs. At the start and after a reset it also records the state.
     pub(super) fn apply(&mut self, inputs: &RunInputs, changes: &[ParameterChange], first: bool) -> anyhow::Result<()> {
         self.run.apply(inputs);
+        if let Some(look_ahead) = &mut self.sink.look_ahead {
+            look_ahead.ask(inputs);
+        }
         let ticks = self.run.ticks();
         self.session.applied(inputs, changes, ticks, &mut self.sink)?;
         if inputs.reset {
@@ -280,6 +304,9 @@ impl Player {
             // A replay has no other clock than the run's, so requests and lists follow it, too.
             self.session.alarms_mut().advance(stamp);
         }
+        if let Some(look_ahead) = &mut self.sink.look_ahead {
+            look_ahead.observe(&self.frame);
+        }
         self.session.frame(&self.frame, &mut self.sink)?;
         if judges {
             // The hole ahead has an alarm, whose event is of this instant.
@@ -288,7 +315,25 @@ impl Player {
             self.session.publish_bands(false, &mut self.sink)?;
         }
         self.sink.tally.publishing(monotonic::now().saturating_sub(began));
+        if judges {
+            self.answer(stamp)?;
+        }
         Ok(())
+    }
+
+    /// Has the look-ahead answer what is due, and records its forecast.
+    fn answer(&mut self, stamp: i64) -> Result<(), WriteError> {
+        let Some(look_ahead) = &mut self.sink.look_ahead else {
+            return Ok(());
+        };
+        let Some(forecast) = look_ahead.answer(&self.run, &self.session, &self.stop) else {
+            return Ok(());
+        };
+        self.sink.send(Encoded {
+            topic: &topics::FORECAST,
+            stamp,
+            cdr: &to_cdr(&forecast)?,
+        })
     }
 
     /// Publishes the alarms at an instant of the run (ns since 1970), and takes them for the summary.

@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::look_ahead::LookAhead;
 use super::summary::Tally;
+use crate::alarms::AlarmBook;
 use crate::bag::{BagError, Recorder};
 use crate::cli::output::tell;
 use crate::cli::source::{FromRig, MeasuredSample, SurveySample};
@@ -12,6 +14,7 @@ use crate::messages::{CdrError, RigInputs, to_cdr};
 use crate::residuals::{Comparison, RigComparison, Samples};
 use crate::rig_inputs::{Measured, SurveyCounts, Surveys};
 use crate::session::Host;
+use flexdrill_core::twin::Snapshot;
 use flexdrill_hole::Survey;
 use flexdrill_outputs::Encoded;
 use flexdrill_text::fixed;
@@ -60,6 +63,8 @@ pub(super) struct BagSink {
     pub(super) moved: Option<[[f64; 2]; 2]>,
     /// The summary that is printed at the end.
     pub(super) tally: Tally,
+    /// Advice and forecasts; none where the replay does not look ahead.
+    pub(super) look_ahead: Option<LookAhead>,
 }
 
 impl BagSink {
@@ -91,6 +96,7 @@ impl BagSink {
             received,
             moved: None,
             tally,
+            look_ahead: None,
         }
     }
 
@@ -215,6 +221,12 @@ impl Host for BagSink {
                 }
                 Arc::clone(known)
             }
+        }
+    }
+
+    fn judged(&mut self, alarms: &mut AlarmBook, _: &Snapshot) {
+        if let Some(look_ahead) = &self.look_ahead {
+            look_ahead.advise(alarms);
         }
     }
 

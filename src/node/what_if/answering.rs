@@ -6,12 +6,14 @@ use std::time::{Duration, Instant};
 
 use super::hole::{holes, with_hole};
 use super::{IDLE, Next, WhatIf};
-use crate::ahead::{Goal, LEAST_CONFIRMING, Start, forecast, look_ahead, search};
+use crate::ahead::{
+    ADVICE_SEED, Advisor, Busy, FORECAST_INTERVAL, FORECAST_SEED, Forecasts, Goal, Issued, Start, forecast, look_ahead,
+    search, tools_in_which,
+};
 use crate::alarms::AlarmId;
 use crate::ensemble::Forking;
-use crate::node::advisor::Advisor;
+use crate::node::clocks::steady;
 use crate::node::control::Control;
-use crate::node::forecast::{Busy, Forecasts, Issued};
 use crate::node::inputs::RigInputs;
 use crate::node::set_point::SharedSetPoint;
 use crate::node::states::SavedRun;
@@ -25,16 +27,10 @@ use flexdrill_messages::{WhatIfGoal, WhatIfResult};
 use flexdrill_realtime::link::{Gauges, RunState};
 use flexdrill_ros2::action::Begun;
 use flexdrill_ros2::goal_book::publish;
-use flexdrill_text::{counted, log_ending};
+use flexdrill_text::log_ending;
 
 /// Least time between two feedbacks.
 const FEEDBACK_INTERVAL: Duration = Duration::from_millis(100);
-/// Fixed, so that the same state gives the same advice.
-const ADVICE_SEED: u64 = 1;
-/// Fixed, so that the same state gives the same forecast.
-const FORECAST_SEED: u64 = 1;
-/// From the beginning of a forecast to that of the next.
-const FORECAST_INTERVAL: Duration = Duration::from_secs(30);
 /// Factors on the friction of both layers in the extra rows of an answer: a fifth lower and higher. A calibration knows
 /// friction to a fifth.
 const FRICTION: [f64; 2] = [0.8, 1.2];
@@ -210,19 +206,11 @@ impl Answering {
     /// named. They may be a little older than the twin's own state.
     fn among_tools(&self, twin: Begins, seed: u64, in_which: Option<AlarmId>) -> Begins {
         let Some(forking) = &self.tools else { return twin };
-        let forks = forking.ask().and_then(|forks| {
-            let Some(alarm) = in_which else { return Ok(forks) };
-            let forks = forks.in_which(alarm);
-            // As many as a first answer needs.
-            match forks.known() {
-                known if known >= LEAST_CONFIRMING as usize => Ok(forks),
-                known => Err(format!(
-                    "{} stands in {} only",
-                    alarm.name(),
-                    counted(known as u64, "plausible tool")
-                )),
-            }
-        });
+        let forks = forking.ask();
+        let forks = match in_which {
+            Some(alarm) => forks.and_then(|forks| tools_in_which(forks, alarm)),
+            None => forks,
+        };
         match forks {
             Ok(forks) => {
                 let ticks = (forks.time / twin.start.config().solver.time_step).round() as u64;
@@ -277,7 +265,7 @@ impl Answering {
 
     /// Looks for the smallest change that ends the alarms that stand, if that is asked for.
     fn advise(&self, tool: &mut Option<Simulation>) {
-        let Some((asked, stop)) = self.advisor.due() else {
+        let Some((asked, stop)) = self.advisor.due(steady()) else {
             return;
         };
         self.note(Busy::Advice);
@@ -306,7 +294,7 @@ impl Answering {
             if stop.load(Ordering::Relaxed) {
                 return;
             }
-            self.advisor.hear(&asked, &progress);
+            self.advisor.hear(&asked, &progress, steady());
             if let (None, Some(tested)) = (first, progress.first) {
                 first = Some(tested);
                 if let Some(more) = log_ending(format!("first advice on {alarm}")) {
@@ -322,17 +310,8 @@ impl Answering {
             return;
         };
         if let Some(more) = log_ending(format!("advice on {alarm}")) {
-            tracing::info!(
-                "advice on {alarm} after {:.1} s, {} and {:.0} s of model time: {}{more}",
-                began.elapsed().as_secs_f64(),
-                counted(searched.changes as u64, "change"),
-                searched.seconds,
-                searched.tested.map_or_else(
-                    || "nothing from 0.3 to 2 times the speed, or 0.3 to 1.5 times the weight, ends it in 9 of 10 runs"
-                        .to_owned(),
-                    |tested| tested.to_string()
-                )
-            );
+            let seconds = began.elapsed().as_secs_f64();
+            tracing::info!("advice on {alarm} after {seconds:.1} s, {searched}{more}");
         }
         self.advisor.answer(asked, searched.tested);
     }
@@ -395,7 +374,7 @@ impl Answering {
         tracing::debug!("forecast after {:.1} s", began.elapsed().as_secs_f64());
         forecasts.put(issued);
         // The interval counts from the beginning, so that the computing time is part of it.
-        *at = began + FORECAST_INTERVAL;
+        *at = began + Duration::from_secs_f64(FORECAST_INTERVAL);
     }
 
     /// The instant after so many ticks on the rig's clock.

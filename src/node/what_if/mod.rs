@@ -12,10 +12,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::NodeError;
-use super::advisor::Advisor;
 use super::clocks::Clocks;
 use super::control::Control;
 use super::what_if_messages::goal;
+use crate::ahead::Advisor;
 use flexdrill_messages::action_msgs::CancelGoalRequest;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::{

@@ -127,6 +127,18 @@ impl Running {
         Forking(Arc::clone(&self.shared))
     }
 
+    /// The members of now. A run that waits has them in their state at the end of the last slice that it has come to, so that
+    /// they are the same each time.
+    ///
+    /// # Errors
+    /// Why there are none to look ahead from, in words.
+    pub fn forks(&self) -> Result<Forks, String> {
+        if self.waits {
+            self.wait_for(self.told_until);
+        }
+        self.forking().ask()
+    }
+
     /// Tells the ensemble what acts or what was compared.
     pub fn tell(&self, told: Told) {
         if let Some(sender) = &self.told {

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
 use crate::drilling::live::{Appended, DrilledHole, LiveHole, Point, Ready};
-use crate::ensemble::{self, Found, Running, Told};
+use crate::ensemble::{self, Forks, Found, Running, Told};
 use crate::residuals::{Comparison, RigComparison, Samples, predicted};
 use crate::safe_window::SafeWindow;
 use flexdrill_config::Config;
@@ -333,6 +333,12 @@ impl Session {
             })?;
         }
         Ok(())
+    }
+
+    /// The plausible tools of now, to look ahead from, or in words why there are none; `None` where none run with it. A run
+    /// that waits for them waits here, too.
+    pub fn plausible_tools(&self) -> Option<Result<Forks, String>> {
+        self.ensemble.as_ref().map(Running::forks)
     }
 
     /// Publishes where the tool drills next, and judges the alarm on the plan, up to the first message whose answer is not

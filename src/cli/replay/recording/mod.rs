@@ -367,6 +367,7 @@ impl Script {
         out: &Path,
         duration: Option<f64>,
         posterior: Option<Arc<Posterior>>,
+        looks_ahead: bool,
     ) -> anyhow::Result<(Player, Progress)> {
         let config = self.config()?;
         let time_step = config.solver.time_step;
@@ -393,6 +394,9 @@ impl Script {
             ..generation.clone()
         });
         player.run_ensemble(ensembles.collect(), posterior)?;
+        if looks_ahead {
+            player.look_ahead()?;
+        }
         let mut pace = Pace {
             taken: 0,
             most: duration.map_or(u64::MAX, |duration| (duration / time_step).round() as u64),

@@ -5,6 +5,8 @@ use crate::alarms::{AlarmId, AlarmSet, Change, Knob};
 use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
 const AT: [f64; 2] = [120.0, 10.0];
+/// Time on the clock of the host (s).
+const NOW: f64 = 1000.0;
 
 fn config() -> Config {
     Config::from_text("default.yaml", include_str!("../../../config/default.yaml")).unwrap()
@@ -68,14 +70,14 @@ fn tested() -> Tested {
 }
 
 /// An advisor that was asked `ago`.
-fn asked(ago: Duration) -> Advisor {
+fn asked(ago: f64) -> Advisor {
     let advisor = Advisor::default();
-    assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), None);
     wait(&advisor, ago);
     advisor
 }
 
-fn wait(advisor: &Advisor, ago: Duration) {
+fn wait(advisor: &Advisor, ago: f64) {
     if let Some(asked) = &mut advisor.lock().asked {
         asked.since -= ago;
     }
@@ -84,26 +86,26 @@ fn wait(advisor: &Advisor, ago: Duration) {
 /// One that has its answer.
 fn answered() -> Advisor {
     let advisor = asked(SETTLED);
-    let (what, _) = advisor.due().unwrap();
+    let (what, _) = advisor.due(NOW).unwrap();
     advisor.answer(what, Some(tested()));
     advisor
 }
 
 #[test]
 fn a_search_waits_for_a_settled_alarm_and_holds_where_it_was_made() {
-    assert!(asked(Duration::ZERO).due().is_none());
+    assert!(asked(0.0).due(NOW).is_none());
     let advisor = answered();
-    assert!(advisor.due().is_none(), "one search is enough");
-    assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
-    assert_eq!(advisor.follow(leads(), &acting([119.0, 10.1])), Some(tested()));
+    assert!(advisor.due(NOW).is_none(), "one search is enough");
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), Some(tested()));
+    assert_eq!(advisor.follow(leads(), &acting([119.0, 10.1]), NOW), Some(tested()));
     // A rig wavers by more than a drive does.
-    assert_eq!(advisor.follow(leads(), &acting([117.0, 9.0])), Some(tested()));
+    assert_eq!(advisor.follow(leads(), &acting([117.0, 9.0]), NOW), Some(tested()));
     // Somewhere else, or for another alarm, it says nothing.
-    assert_eq!(advisor.follow(leads(), &acting([100.0, 10.0])), None);
-    assert_eq!(advisor.follow(shock(), &acting(AT)), None);
+    assert_eq!(advisor.follow(leads(), &acting([100.0, 10.0]), NOW), None);
+    assert_eq!(advisor.follow(shock(), &acting(AT), NOW), None);
     // Once nothing stands it is forgotten.
-    assert_eq!(advisor.follow(None, &acting(AT)), None);
-    assert_eq!(advisor.follow(leads(), &acting(AT)), None);
+    assert_eq!(advisor.follow(None, &acting(AT), NOW), None);
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), None);
 }
 
 /// What a change of each value within its tolerance does, and of one beyond.
@@ -167,21 +169,21 @@ fn advice_ends_with_the_tool_that_it_was_tested_on_and_is_asked_for_anew() {
         let advisor = answered();
         let mut now = acting(AT);
         change(&mut now, small);
-        assert_eq!(advisor.follow(leads(), &now), Some(tested()), "{what}");
+        assert_eq!(advisor.follow(leads(), &now, NOW), Some(tested()), "{what}");
         let mut now = acting(AT);
         change(&mut now, large);
-        assert_eq!(advisor.follow(leads(), &now), None, "{what}");
-        assert!(advisor.due().is_none(), "{what} has not settled");
+        assert_eq!(advisor.follow(leads(), &now, NOW), None, "{what}");
+        assert!(advisor.due(NOW).is_none(), "{what} has not settled");
         wait(&advisor, SETTLED);
-        assert!(advisor.due().is_some(), "{what} is not asked anew");
-        assert_eq!(advisor.follow(leads(), &now), None, "{what}");
+        assert!(advisor.due(NOW).is_some(), "{what} is not asked anew");
+        assert_eq!(advisor.follow(leads(), &now, NOW), None, "{what}");
     }
     // Small changes that add up.
     let advisor = answered();
     let mut now = acting(AT);
     let followed = (0..10).map(|_| {
         now.parameters.live.inner_friction[0] *= 1.02;
-        advisor.follow(leads(), &now).is_some()
+        advisor.follow(leads(), &now, NOW).is_some()
     });
     assert_eq!(
         followed.take_while(|holds| *holds).count(),
@@ -207,23 +209,23 @@ fn an_alarm_that_comes_is_asked_for_too_and_one_that_goes_is_not_asked_for_anew(
     let advisor = answered();
     let both = leads_with(AlarmId::BackwardWhirl, &[AlarmId::BackwardWhirl, AlarmId::Shock]);
     assert_eq!(
-        advisor.follow(both, &acting(AT)),
+        advisor.follow(both, &acting(AT), NOW),
         None,
         "nothing has tested that shock ends"
     );
     wait(&advisor, SETTLED);
-    let (what, stop) = advisor.due().unwrap();
+    let (what, stop) = advisor.due(NOW).unwrap();
     assert_eq!(Some(what.leading), both);
     // It goes, and returns: the search goes on. What was found before it came holds without it.
     for (leading, expected) in [(leads(), Some(tested())), (both, None)] {
-        assert_eq!(advisor.follow(leading, &acting(AT)), expected);
+        assert_eq!(advisor.follow(leading, &acting(AT), NOW), expected);
         assert!(!stop.load(Ordering::Relaxed));
     }
     advisor.answer(what, Some(tested()));
     for leading in [both, leads()] {
-        assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
+        assert_eq!(advisor.follow(leading, &acting(AT), NOW), Some(tested()));
     }
-    assert!(advisor.due().is_none());
+    assert!(advisor.due(NOW).is_none());
 }
 
 /// All alarms that stand are to end, so that nothing depends on which of them leads.
@@ -231,16 +233,16 @@ fn an_alarm_that_comes_is_asked_for_too_and_one_that_goes_is_not_asked_for_anew(
 fn another_alarm_that_leads_ends_neither_search_nor_advice() {
     let standing = [AlarmId::BackwardWhirl, AlarmId::Shock];
     let advisor = Advisor::default();
-    let _ = advisor.follow(leads_with(AlarmId::BackwardWhirl, &standing), &acting(AT));
+    let _ = advisor.follow(leads_with(AlarmId::BackwardWhirl, &standing), &acting(AT), NOW);
     wait(&advisor, SETTLED);
-    let (what, stop) = advisor.due().unwrap();
+    let (what, stop) = advisor.due(NOW).unwrap();
     let by_shock = leads_with(AlarmId::Shock, &standing);
-    assert_eq!(advisor.follow(by_shock, &acting(AT)), None);
-    assert_eq!(advisor.follow(shock(), &acting(AT)), None);
+    assert_eq!(advisor.follow(by_shock, &acting(AT), NOW), None);
+    assert_eq!(advisor.follow(shock(), &acting(AT), NOW), None);
     assert!(!stop.load(Ordering::Relaxed));
     advisor.answer(what, Some(tested()));
     for leading in [by_shock, shock(), leads()] {
-        assert_eq!(advisor.follow(leading, &acting(AT)), Some(tested()));
+        assert_eq!(advisor.follow(leading, &acting(AT), NOW), Some(tested()));
     }
 }
 
@@ -248,11 +250,11 @@ fn another_alarm_that_leads_ends_neither_search_nor_advice() {
 #[test]
 fn a_turn_that_is_kept_does_not_give_way_to_goals_and_ends_with_the_node() {
     let advisor = asked(SETTLED);
-    let (_, search) = advisor.due().unwrap();
+    let (_, search) = advisor.due(NOW).unwrap();
     advisor.yield_to_goal();
     assert!(search.load(Ordering::Relaxed));
     advisor.keep(true);
-    let (_, search) = advisor.due().unwrap();
+    let (_, search) = advisor.due(NOW).unwrap();
     let forecast = advisor.forecasts();
     advisor.yield_to_goal();
     assert!(!search.load(Ordering::Relaxed) && !forecast.load(Ordering::Relaxed));
@@ -261,7 +263,7 @@ fn a_turn_that_is_kept_does_not_give_way_to_goals_and_ends_with_the_node() {
 }
 
 /// Moves the beginning of the search that runs back.
-fn ran_for(advisor: &Advisor, ago: Duration) {
+fn ran_for(advisor: &Advisor, ago: f64) {
     if let Some(course) = &mut advisor.lock().course {
         course.began -= ago;
     }
@@ -269,39 +271,39 @@ fn ran_for(advisor: &Advisor, ago: Duration) {
 
 #[test]
 fn what_is_done_is_said_from_the_first_alarm_to_the_answer() {
-    let advisor = asked(Duration::ZERO);
-    assert_eq!(advisor.trial(), Trial::Waits);
+    let advisor = asked(0.0);
+    assert_eq!(advisor.trial(NOW), Trial::Waits);
     wait(&advisor, SETTLED);
-    let (what, _) = advisor.due().unwrap();
-    assert_eq!(advisor.trial(), Trial::Runs { seconds: None });
+    let (what, _) = advisor.due(NOW).unwrap();
+    assert_eq!(advisor.trial(NOW), Trial::Runs { seconds: None });
     // A quarter of what a search usually takes, in 14.5 s: three quarters in 43.5 s, which are 50 s in tens.
-    ran_for(&advisor, Duration::from_millis(14_500));
+    ran_for(&advisor, 14.5);
     let quarter = SearchProgress {
         seconds: 0.25 * USUAL,
         first: None,
     };
-    advisor.hear(&what, &quarter);
-    assert_eq!(advisor.trial(), Trial::Runs { seconds: Some(50) });
+    advisor.hear(&what, &quarter, NOW);
+    assert_eq!(advisor.trial(NOW), Trial::Runs { seconds: Some(50) });
     // One that takes longer has no number.
-    ran_for(&advisor, Duration::from_secs(60));
-    assert_eq!(advisor.trial(), Trial::Runs { seconds: None });
+    ran_for(&advisor, 60.0);
+    assert_eq!(advisor.trial(NOW), Trial::Runs { seconds: None });
     advisor.answer(what, None);
-    assert_eq!(advisor.trial(), Trial::NothingFound);
+    assert_eq!(advisor.trial(NOW), Trial::NothingFound);
     // At another speed the next search is as fast: 58 s.
-    let _ = advisor.follow(leads(), &acting([90.0, 10.0]));
-    assert_eq!(advisor.trial(), Trial::Waits);
+    let _ = advisor.follow(leads(), &acting([90.0, 10.0]), NOW);
+    assert_eq!(advisor.trial(NOW), Trial::Waits);
     wait(&advisor, SETTLED);
-    let (what, _) = advisor.due().unwrap();
-    assert_eq!(advisor.trial(), Trial::Runs { seconds: Some(60) });
+    let (what, _) = advisor.due(NOW).unwrap();
+    assert_eq!(advisor.trial(NOW), Trial::Runs { seconds: Some(60) });
     // Nothing was tried where the state of the run could not be had.
     advisor.give_up(what);
-    assert_eq!(advisor.trial(), Trial::Waits);
+    assert_eq!(advisor.trial(NOW), Trial::Waits);
 }
 
 #[test]
 fn a_first_answer_holds_until_more_members_refute_it() {
     let advisor = asked(SETTLED);
-    let (what, stop) = advisor.due().unwrap();
+    let (what, stop) = advisor.due(NOW).unwrap();
     let progress = |first| SearchProgress { seconds: 200.0, first };
     let four = Tested {
         ended: 4,
@@ -309,64 +311,64 @@ fn a_first_answer_holds_until_more_members_refute_it() {
         tools: 0,
         ..tested()
     };
-    advisor.hear(&what, &progress(None));
-    assert_eq!(advisor.follow(leads(), &acting(AT)), None);
-    advisor.hear(&what, &progress(Some(four)));
-    assert_eq!(advisor.follow(leads(), &acting(AT)), Some(four));
+    advisor.hear(&what, &progress(None), NOW);
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), None);
+    advisor.hear(&what, &progress(Some(four)), NOW);
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), Some(four));
     assert!(!stop.load(Ordering::Relaxed), "more members confirm it");
     // It is held against the set point as the last answer is.
-    assert_eq!(advisor.follow(leads(), &acting([90.0, 10.0])), None);
+    assert_eq!(advisor.follow(leads(), &acting([90.0, 10.0]), NOW), None);
     assert!(stop.load(Ordering::Relaxed));
     let (what, _) = {
-        let _ = advisor.follow(leads(), &acting(AT));
+        let _ = advisor.follow(leads(), &acting(AT), NOW);
         wait(&advisor, SETTLED);
-        advisor.due().unwrap()
+        advisor.due(NOW).unwrap()
     };
-    advisor.hear(&what, &progress(Some(four)));
-    advisor.hear(&what, &progress(None));
-    assert_eq!(advisor.follow(leads(), &acting(AT)), None, "it is refuted");
+    advisor.hear(&what, &progress(Some(four)), NOW);
+    advisor.hear(&what, &progress(None), NOW);
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), None, "it is refuted");
     advisor.answer(what, Some(tested()));
-    assert_eq!(advisor.follow(leads(), &acting(AT)), Some(tested()));
+    assert_eq!(advisor.follow(leads(), &acting(AT), NOW), Some(tested()));
 }
 
 /// The fluctuation counts 5 % and 2.5 % of the range as the same: 6 r/min of 120, and 1.5 kN of a range of 60.
 #[test]
 fn what_a_rig_that_wavers_seems_to_have_set_for_a_moment_ends_no_search() {
     let advisor = asked(SETTLED);
-    let (_, stop) = advisor.due().unwrap();
+    let (_, stop) = advisor.due(NOW).unwrap();
     for _ in 0..3 {
-        let _ = advisor.follow(leads(), &acting([120.0, 12.0]));
-        let _ = advisor.follow(leads(), &acting(AT));
+        let _ = advisor.follow(leads(), &acting([120.0, 12.0]), NOW);
+        let _ = advisor.follow(leads(), &acting(AT), NOW);
     }
     assert!(!stop.load(Ordering::Relaxed));
     // It stays there.
-    let _ = advisor.follow(leads(), &acting([120.0, 12.0]));
+    let _ = advisor.follow(leads(), &acting([120.0, 12.0]), NOW);
     if let Some(away) = &mut advisor.lock().away {
         *away -= AWAY;
     }
-    let _ = advisor.follow(leads(), &acting([120.0, 12.0]));
+    let _ = advisor.follow(leads(), &acting([120.0, 12.0]), NOW);
     assert!(stop.load(Ordering::Relaxed));
     // A change of twice as much is one at once.
     let advisor = asked(SETTLED);
-    let (_, stop) = advisor.due().unwrap();
-    let _ = advisor.follow(leads(), &acting([120.0, 13.5]));
+    let (_, stop) = advisor.due(NOW).unwrap();
+    let _ = advisor.follow(leads(), &acting([120.0, 13.5]), NOW);
     assert!(stop.load(Ordering::Relaxed));
 }
 
 #[test]
 fn a_forecast_gives_way_to_goals_and_searches() {
-    let advisor = asked(Duration::ZERO);
+    let advisor = asked(0.0);
     let forecast = advisor.forecasts();
-    let _ = advisor.follow(leads(), &acting(AT));
+    let _ = advisor.follow(leads(), &acting(AT), NOW);
     assert!(!forecast.load(Ordering::Relaxed), "the alarm has not settled");
     let advisor = asked(SETTLED);
     let forecast = advisor.forecasts();
-    let _ = advisor.follow(leads(), &acting(AT));
+    let _ = advisor.follow(leads(), &acting(AT), NOW);
     assert!(forecast.load(Ordering::Relaxed));
-    let (asked, _) = advisor.due().unwrap();
+    let (asked, _) = advisor.due(NOW).unwrap();
     advisor.answer(asked, Some(tested()));
     let forecast = advisor.forecasts();
-    let _ = advisor.follow(leads(), &acting(AT));
+    let _ = advisor.follow(leads(), &acting(AT), NOW);
     assert!(!forecast.load(Ordering::Relaxed), "the search has its answer");
     advisor.interrupt();
     assert!(forecast.load(Ordering::Relaxed));
@@ -376,22 +378,22 @@ fn a_forecast_gives_way_to_goals_and_searches() {
 fn what_changes_stops_the_search() {
     for change in [0, 1, 2, 3, 4] {
         let advisor = asked(SETTLED);
-        let (_, stop) = advisor.due().unwrap();
+        let (_, stop) = advisor.due(NOW).unwrap();
         match change {
-            0 => drop(advisor.follow(None, &acting(AT))),
-            1 => drop(advisor.follow(leads(), &acting([90.0, 10.0]))),
-            2 => drop(advisor.follow(shock(), &acting(AT))),
+            0 => drop(advisor.follow(None, &acting(AT), NOW)),
+            1 => drop(advisor.follow(leads(), &acting([90.0, 10.0]), NOW)),
+            2 => drop(advisor.follow(shock(), &acting(AT), NOW)),
             3 => {
                 let mut now = acting(AT);
                 now.parameters.live.inner_friction = [1.0; 2];
-                let _ = advisor.follow(leads(), &now);
+                let _ = advisor.follow(leads(), &now, NOW);
             }
             _ => advisor.interrupt(),
         }
         assert!(stop.load(Ordering::Relaxed), "{change}");
     }
     let advisor = asked(SETTLED);
-    let (_, stop) = advisor.due().unwrap();
-    let _ = advisor.follow(leads(), &acting(AT));
+    let (_, stop) = advisor.due(NOW).unwrap();
+    let _ = advisor.follow(leads(), &acting(AT), NOW);
     assert!(!stop.load(Ordering::Relaxed));
 }

@@ -1,11 +1,14 @@
-//! The standing forecast, between the thread that looks ahead and the publisher's thread, which knows what came.
+//! The standing forecast, between who looks ahead and who knows what came, which a node has on different threads.
+//!
+//! Time is that of a clock of the host (s), where it is not said to be of the run.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
 
-use super::what_if_messages::of_alarm;
-use crate::ahead::{Compared, Forecast, HORIZON, Held, LEADS, Signal, lead, widened};
+use super::answer::AlarmChance;
+use super::forecast::{Compared, Forecast, HORIZON, LEADS, lead, widened};
+use super::held::Held;
+use super::trace::Signal;
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
@@ -27,8 +30,12 @@ pub struct Issued {
     pub forecast: Result<Forecast, String>,
 }
 
-/// A forecast is late after so long without one: three times the interval of forecasts.
-const LATE: Duration = Duration::from_secs(90);
+/// From the beginning of a forecast to that of the next (s).
+pub const FORECAST_INTERVAL: f64 = 30.0;
+/// Fixed, so that the same state gives the same forecast.
+pub const FORECAST_SEED: u64 = 1;
+/// A forecast is late after so long without one (s).
+const LATE: f64 = 3.0 * FORECAST_INTERVAL;
 /// Time over which what is asked for is compared with what a forecast assumes (s): some samples of a rig, whose weight wavers.
 const WAVERS: f64 = 5.0;
 
@@ -85,20 +92,20 @@ impl Forecasts {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    fn why_none(&self, since: Duration) -> String {
+    fn why_none(&self, since: f64) -> String {
         let busy = *self.busy.lock().unwrap_or_else(PoisonError::into_inner);
-        format!("no forecast for {} s: {}", since.as_secs(), busy.words())
+        format!("no forecast for {} s: {}", since as u64, busy.words())
     }
 }
 
-/// What came and the forecasts that it is compared with, on the publisher's thread.
+/// What came and the forecasts that it is compared with.
 pub struct ForecastDesk {
     forecasts: Arc<Forecasts>,
     time_step: f64,
     held: Held,
     /// When the newest forecast came, and when its absence was last reported.
-    came: Instant,
-    missed: Instant,
+    came: f64,
+    missed: f64,
     /// Ticks and step of the newest frame.
     newest: [u64; 2],
     /// Speeds (rad/s) and weights (N) that were asked for within the last [`WAVERS`], the newest last, each with its time (s of
@@ -120,9 +127,8 @@ struct Minute {
 }
 
 impl ForecastDesk {
-    /// A desk that takes `forecasts`.
-    pub fn new(forecasts: Arc<Forecasts>, config: &Config) -> Self {
-        let now = Instant::now();
+    /// A desk that takes `forecasts` from `now` on.
+    pub fn new(forecasts: Arc<Forecasts>, config: &Config, now: f64) -> Self {
         Self {
             forecasts,
             time_step: config.solver.time_step,
@@ -163,10 +169,10 @@ impl ForecastDesk {
         }
     }
 
-    /// What is to be published, as a message: the forecast that has arrived, why the published one is given up, or after
+    /// What is to be published `now`, as a message: the forecast that has arrived, why the published one is given up, or after
     /// [`LATE`] why none has arrived. `instant` gives the time of a tick (ns).
-    pub fn take(&mut self, frame_id: &str, instant: impl Fn(u64) -> i64) -> Option<messages::Forecast> {
-        let Some(issued) = self.issued(Instant::now()) else {
+    pub fn take(&mut self, now: f64, frame_id: &str, instant: impl Fn(u64) -> i64) -> Option<messages::Forecast> {
+        let Some(issued) = self.issued(now) else {
             let minute = self.standing?;
             let why = self.gone(&minute)?;
             self.standing = None;
@@ -198,7 +204,7 @@ impl ForecastDesk {
                 message.tools = forecast.tools;
                 message.failure.clone_from(&forecast.failure);
                 message.bands = Signal::ALL.map(|signal| self.band(signal, &forecast)).into();
-                message.alarms = forecast.alarms.iter().map(of_alarm).collect();
+                message.alarms = forecast.alarms.iter().map(AlarmChance::message).collect();
                 message.any_alarm = forecast.any_alarm.probability;
                 [message.any_alarm_lower, message.any_alarm_upper] = forecast.any_alarm.interval;
                 self.held.hold(forecast, issued.targets);
@@ -239,12 +245,12 @@ impl ForecastDesk {
     }
 
     /// What is to be published at `now`.
-    fn issued(&mut self, now: Instant) -> Option<Issued> {
+    fn issued(&mut self, now: f64) -> Option<Issued> {
         if let Some(issued) = self.forecasts.take() {
             (self.came, self.missed) = (now, now);
             return Some(issued);
         }
-        if now.duration_since(self.missed) < LATE {
+        if now - self.missed < LATE {
             return None;
         }
         self.missed = now;
@@ -253,18 +259,18 @@ impl ForecastDesk {
             ticks,
             step,
             targets: [f64::NAN; 2],
-            forecast: Err(self.forecasts.why_none(now.duration_since(self.came))),
+            forecast: Err(self.forecasts.why_none(now - self.came)),
         })
     }
 
     /// The item of `/diagnostics` on the look-ahead of the node with this name. The alarms alone decide levels.
-    pub fn item(&self, node: &str, now: Instant) -> DiagnosticStatus {
-        let since = now.duration_since(self.came);
+    pub fn item(&self, node: &str, now: f64) -> DiagnosticStatus {
+        let since = now - self.came;
         DiagnosticStatus {
             level: DiagnosticStatus::OK,
             name: format!("{node}: look_ahead"),
             message: if since < LATE {
-                format!("the newest forecast came {} s ago", since.as_secs())
+                format!("the newest forecast came {} s ago", since as u64)
             } else {
                 self.forecasts.why_none(since)
             },
@@ -328,7 +334,7 @@ fn unknown(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ahead::Chance;
+    use crate::ahead::chance::Chance;
     use flexdrill_core::units::{kn_to_n, rpm_to_rad_per_s};
 
     const TARGETS: (f64, f64) = (40.0, 8.0);
@@ -341,7 +347,7 @@ mod tests {
         let forecasts = Arc::<Forecasts>::default();
         let text = include_str!("../../config/default.yaml");
         let config = Config::from_text("default.yaml", text).unwrap();
-        let mut desk = ForecastDesk::new(Arc::clone(&forecasts), &config);
+        let mut desk = ForecastDesk::new(Arc::clone(&forecasts), &config, 0.0);
         desk.asked.push_back((0.0, targets(TARGETS)));
         (desk, forecasts)
     }
@@ -377,7 +383,7 @@ mod tests {
     }
 
     fn taken(desk: &mut ForecastDesk) -> Option<(u32, String)> {
-        let message = desk.take("tool", |ticks| ticks as i64)?;
+        let message = desk.take(0.0, "tool", |ticks| ticks as i64)?;
         Some((message.members, message.failure))
     }
 
@@ -450,29 +456,24 @@ mod tests {
     #[test]
     fn a_forecast_that_stays_away_is_reported_with_its_reason() {
         let (mut desk, forecasts) = desk();
-        let begin = desk.came;
-        let after = |seconds: u64| begin + Duration::from_secs(seconds);
         forecasts.note(Busy::Goals);
-        assert!(desk.issued(after(89)).is_none());
-        let why = desk.issued(after(90)).unwrap().forecast.unwrap_err();
+        assert!(desk.issued(89.0).is_none());
+        let why = desk.issued(90.0).unwrap().forecast.unwrap_err();
         assert!(
             why.starts_with("no forecast for 90 s") && why.contains("~/what_if"),
             "{why}"
         );
-        assert_eq!(desk.item("/twin", after(95)).message, why.replace("90 s", "95 s"));
+        assert_eq!(desk.item("/twin", 95.0).message, why.replace("90 s", "95 s"));
         // It is reported again, and one that comes ends it.
-        assert!(desk.issued(after(100)).is_none() && desk.issued(after(180)).is_some());
+        assert!(desk.issued(100.0).is_none() && desk.issued(180.0).is_some());
         forecasts.put(Issued {
             ticks: 1,
             step: 1,
             targets: [0.0; 2],
             forecast: Err("the model failed".to_owned()),
         });
-        assert_eq!(desk.issued(after(190)).unwrap().ticks, 1);
-        assert!(desk.issued(after(279)).is_none());
-        assert_eq!(
-            desk.item("/twin", after(191)).message,
-            "the newest forecast came 1 s ago"
-        );
+        assert_eq!(desk.issued(190.0).unwrap().ticks, 1);
+        assert!(desk.issued(279.0).is_none());
+        assert_eq!(desk.item("/twin", 191.0).message, "the newest forecast came 1 s ago");
     }
 }

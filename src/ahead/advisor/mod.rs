@@ -1,11 +1,12 @@
-//! Advice from look-aheads, between the publisher's thread, which owns the alarms, and the thread that looks ahead.
+//! Advice from look-aheads, between the alarms, which a node has on another thread, and who looks ahead.
+//!
+//! Time is that of a clock of the host (s): a node's steady clock, a replay's model time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
-use crate::ahead::SearchProgress;
-use crate::alarms::{Leading, Tested, Trial};
+use super::advice::SearchProgress;
+use crate::alarms::{AlarmBook, Leading, Tested, Trial};
 use crate::rig_inputs::Fluctuation;
 use flexdrill_config::Config;
 use flexdrill_core::inputs::Inputs;
@@ -13,12 +14,12 @@ use flexdrill_core::tool::LiveParameters;
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
 use flexdrill_motion::WhirlSettings;
 
-/// Time for which the same alarm leads at the same speed and weight before a search begins.
-const SETTLED: Duration = Duration::from_secs(2);
-/// Time for which what is set must count as another, where it is near. Of a weight of 18 kN that scatters by 1.2 kN, medians
+/// Time for which the same alarm leads at the same speed and weight before a search begins (s).
+const SETTLED: f64 = 2.0;
+/// Time (s) for which what is set must count as another, where it is near. Of a weight of 18 kN that scatters by 1.2 kN, medians
 /// of ten seconds differ by a deviation of 0.7 kN: one pair in forty by the 1.5 kN that count as another weight, and a
 /// search that ends with each of them has no answer for minutes. Ten seconds later none of the samples is the same.
-const AWAY: Duration = Duration::from_secs(10);
+const AWAY: f64 = 10.0;
 /// Model time (s) that a search takes until its first answer, where one direction of change helps: two changes that show
 /// which, two that show how much, and four members that confirm it.
 const USUAL: f64 = 180.0;
@@ -139,7 +140,7 @@ pub struct Asked {
     pub leading: Leading,
     /// What acts.
     acting: Acting,
-    since: Instant,
+    since: f64,
 }
 
 impl Asked {
@@ -158,7 +159,7 @@ impl Asked {
 /// How far a search is.
 #[derive(Debug, Clone, Copy)]
 struct Course {
-    began: Instant,
+    began: f64,
     /// Model time of its members (s).
     seconds: f64,
     /// Model time of members per second, of this search or of the one before; none before the first members.
@@ -169,8 +170,8 @@ struct Course {
 
 impl Course {
     /// Seconds until an answer, in tens; none before that is known, and once the search takes longer than others.
-    fn remaining(&self) -> Option<u64> {
-        let since = self.began.elapsed().as_secs_f64();
+    fn remaining(&self, now: f64) -> Option<u64> {
+        let since = now - self.began;
         let whole = USUAL / self.speed.filter(|speed| *speed > 0.0)?;
         (whole > since).then(|| 10 * ((whole - since) / 10.0).ceil() as u64)
     }
@@ -188,7 +189,7 @@ struct Exchange {
     /// When the last search began, how much model time its members have taken (s), and whether it has said something.
     course: Option<Course>,
     /// Since when what is set counts as another one that is near.
-    away: Option<Instant>,
+    away: Option<f64>,
     /// Ends the running search.
     stop: Option<Arc<AtomicBool>>,
     /// Ends the running forecast, which yields to goals and searches.
@@ -206,9 +207,9 @@ impl Advisor {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes the alarm that leads, with those that stand, and what acts. Returns what was found for it. A search for
+    /// Takes the alarm that leads, with those that stand, and what acts `now`. Returns what was found for it. A search for
     /// anything else stops.
-    pub fn follow(&self, leading: Option<Leading>, acting: &Acting) -> Option<Tested> {
+    fn follow(&self, leading: Option<Leading>, acting: &Acting, now: f64) -> Option<Tested> {
         let mut exchange = self.lock();
         let Some(leading) = leading else {
             exchange.interrupt();
@@ -219,7 +220,7 @@ impl Advisor {
             rad_per_s_to_rpm(acting.set.rotary_speed),
             n_to_kn(acting.set.weight_on_bit),
         ];
-        let acting = &exchange.settled(acting);
+        let acting = &exchange.settled(acting, now);
         if !exchange
             .asked
             .as_ref()
@@ -236,10 +237,10 @@ impl Advisor {
             exchange.asked = Some(Asked {
                 leading: Leading { standing, ..leading },
                 acting: *acting,
-                since: Instant::now(),
+                since: now,
             });
         }
-        if exchange.stop.is_none() && exchange.search().is_some() {
+        if exchange.stop.is_none() && exchange.search(now).is_some() {
             stop(&mut exchange.forecast);
         }
         let answered = exchange
@@ -252,14 +253,20 @@ impl Advisor {
         holds.map(|(_, tested)| tested)
     }
 
-    /// What is to be searched now, with the flag that stops the search.
-    pub fn due(&self) -> Option<(Asked, Arc<AtomicBool>)> {
+    /// Gives the alarms that stand what look-aheads have found for them, under what acts `now`.
+    pub fn advise(&self, book: &mut AlarmBook, acting: &Acting, now: f64) {
+        let tested = self.follow(book.leading(), acting, now);
+        book.set_tested(tested, self.trial(now));
+    }
+
+    /// What is to be searched `now`, with the flag that stops the search.
+    pub fn due(&self, now: f64) -> Option<(Asked, Arc<AtomicBool>)> {
         let mut exchange = self.lock();
-        let asked = exchange.search()?.clone();
+        let asked = exchange.search(now)?.clone();
         let stop = Arc::new(AtomicBool::new(false));
         exchange.stop = Some(Arc::clone(&stop));
         exchange.course = Some(Course {
-            began: Instant::now(),
+            began: now,
             seconds: 0.0,
             speed: exchange.course.and_then(|before| before.speed),
             has_said: false,
@@ -267,12 +274,12 @@ impl Advisor {
         Some((asked, stop))
     }
 
-    /// Takes how far a search is that was not stopped. Its first answer holds until its last one is there, unless more of
+    /// Takes how far a search is `now` that was not stopped. Its first answer holds until its last one is there, unless more of
     /// its members refute it.
-    pub fn hear(&self, asked: &Asked, progress: &SearchProgress) {
+    pub fn hear(&self, asked: &Asked, progress: &SearchProgress, now: f64) {
         let mut exchange = self.lock();
         let Some(course) = &mut exchange.course else { return };
-        let took = course.began.elapsed().as_secs_f64();
+        let took = now - course.began;
         course.seconds = progress.seconds;
         course.speed = (took > 0.0).then(|| progress.seconds / took);
         let is_refuted = course.has_said && progress.first.is_none();
@@ -301,8 +308,8 @@ impl Advisor {
         exchange.tried = false;
     }
 
-    /// What is done for the alarms of the last [`Advisor::follow`].
-    pub fn trial(&self) -> Trial {
+    /// What is done `now` for the alarms of the last [`Advisor::follow`].
+    fn trial(&self, now: f64) -> Trial {
         let exchange = self.lock();
         let is_answered = || {
             let (asked, answered) = (exchange.asked.as_ref()?, exchange.answered.as_ref()?);
@@ -310,7 +317,7 @@ impl Advisor {
         };
         match (&exchange.stop, is_answered()) {
             (Some(_), _) => Trial::Runs {
-                seconds: exchange.course.and_then(|course| course.remaining()),
+                seconds: exchange.course.and_then(|course| course.remaining(now)),
             },
             (None, Some(None)) if exchange.tried => Trial::NothingFound,
             (None, _) => Trial::Waits,
@@ -343,14 +350,6 @@ impl Advisor {
         self.lock().kept
     }
 
-    /// Lets what is asked count as settled.
-    #[cfg(test)]
-    pub fn settle(&self) {
-        if let Some(asked) = &mut self.lock().asked {
-            asked.since -= SETTLED;
-        }
-    }
-
     /// The flag that stops a forecast that begins now.
     pub fn forecasts(&self) -> Arc<AtomicBool> {
         let stop = Arc::new(AtomicBool::new(false));
@@ -360,24 +359,24 @@ impl Advisor {
 }
 
 impl Exchange {
-    /// What is to be searched now.
-    fn search(&self) -> Option<&Asked> {
+    /// What is to be searched `now`.
+    fn search(&self, now: f64) -> Option<&Asked> {
         let asked = self.asked.as_ref()?;
         let known = |(answered, _): &(Asked, _)| answered.is_for(&asked.leading, &asked.acting);
         let is_known = self.answered.as_ref().is_some_and(known);
-        (!is_known && asked.since.elapsed() >= SETTLED).then_some(asked)
+        (!is_known && now - asked.since >= SETTLED).then_some(asked)
     }
 
     /// What acts, where a rig that wavers makes it seem another for a moment: what the search is for.
-    fn settled(&mut self, acting: &Acting) -> Acting {
+    fn settled(&mut self, acting: &Acting, now: f64) -> Acting {
         let near = self.asked.as_ref().map(|asked| asked.acting);
         let near = near.filter(|asked| !asked.is(acting) && asked.may_be(acting));
         let Some(asked) = near else {
             self.away = None;
             return *acting;
         };
-        let since = *self.away.get_or_insert_with(Instant::now);
-        if since.elapsed() < AWAY { asked } else { *acting }
+        let since = *self.away.get_or_insert(now);
+        if now - since < AWAY { asked } else { *acting }
     }
 
     fn interrupt(&mut self) {
