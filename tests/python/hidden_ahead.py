@@ -1,7 +1,7 @@
 """Advice and forecasts on rigs that the twin has not seen.
 
 hidden_ahead.py --out DIR [--rigs 60] [--seconds 240] [--members 12] [--forecast-members 4] [--seed 3] [--jobs 2]
-                [--binary FILE] [--config FILE]
+                [--binary FILE] [--config FILE] [--twin FILE]
 
 The rigs are those of hidden_rigs.py: another structure than the twin's, other parameters, sensors that err. The twin runs
 on the log of such a rig with its plausible tools and looks ahead (`flexdrill replay LOG --look-ahead`). It knows nothing
@@ -132,7 +132,7 @@ def one(number, options):
     truth = hidden_rigs.messages(bag, hidden_rigs.TOPICS)
     rig.log(truth)
     yaml = YAML(typ="safe")
-    config = yaml.load(options.config.read_text())
+    config = yaml.load((options.twin or options.config).read_text())
     ahead = {"advice": True, "forecast": options.forecast_members > 0, "threads": 1}
     if options.forecast_members > 0:
         ahead["forecast_members"] = options.forecast_members
@@ -211,6 +211,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--binary", type=Path, default=root / "target/release/flexdrill")
     parser.add_argument("--config", type=Path, default=root / "config/rig.yaml")
+    parser.add_argument("--twin", type=Path)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
 

@@ -19,6 +19,7 @@ mod growing_hole;
 mod hidden_rigs;
 mod hole_ahead;
 mod logs;
+mod look_ahead;
 mod measured;
 mod posterior;
 mod report;

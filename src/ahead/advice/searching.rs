@@ -286,7 +286,7 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
         let span = Span::choosing(within);
         let firsts = on_threads(which, self.threads, |index| {
             let Tried { trial, number, .. } = &tried[*index];
-            counted((self.member)(trial, self.seed, *number, 0, span), spent)
+            timed((self.member)(trial, self.seed, *number, 0, span), spent)
         });
         for (index, first) in which.iter().zip(firsts) {
             let tried = &mut course.tried[*index];
@@ -359,7 +359,7 @@ impl<M: Fn(&Trial, u64, usize, u32, Span) -> Option<Outcome> + Sync> Search<M> {
                 }
                 let span = Span::confirming(this.within, *number);
                 let outcome = (self.member)(&this.trial, self.seed ^ FRESH, this.number, *number, span);
-                let outcome = counted(outcome, spent)?;
+                let outcome = timed(outcome, spent)?;
                 against.fetch_add(outcome.weight(goal), Ordering::Relaxed);
                 Some(Some(outcome))
             });
@@ -438,7 +438,7 @@ fn between(least: usize, top: usize) -> Vec<usize> {
 }
 
 /// Adds the time of a member to that of its search.
-fn counted(outcome: Option<Outcome>, spent: &AtomicU64) -> Option<Outcome> {
+fn timed(outcome: Option<Outcome>, spent: &AtomicU64) -> Option<Outcome> {
     if let Some(outcome) = &outcome {
         spent.fetch_add((1e3 * outcome.seconds).round() as u64, Ordering::Relaxed);
     }

@@ -84,7 +84,7 @@ pub(super) fn replay(
     player.end_by_signal()?;
     player.run_ensemble(Vec::new(), along.posterior)?;
     if along.looks_ahead {
-        player.look_ahead()?;
+        player.look_ahead();
     }
     if let Some(lives) = along.lives {
         player.continue_lives(lives);

@@ -115,6 +115,10 @@ impl LookAhead {
     }
 
     fn search(&self, run: &Run, session: &Session, stop: &AtomicBool) {
+        // Within seconds of a change what counts as set is what was set before: a node ends such a search with the change.
+        if !self.set_point.is_settled() {
+            return;
+        }
         // A flag of the advisor's ends a search in a node whose alarms change meanwhile. Here they wait.
         let due = self
             .advisor
@@ -152,7 +156,6 @@ impl LookAhead {
     fn forecast(&mut self, run: &Run, session: &Session, stop: &AtomicBool) {
         let now = self.now;
         let is_due = self.forecasts.as_ref().is_some_and(|forecasts| now >= forecasts.due);
-        // Within seconds of a change what counts as set is what was set before.
         if !is_due || !self.set_point.is_settled() {
             return;
         }

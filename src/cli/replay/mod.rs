@@ -31,6 +31,7 @@ use crate::cli::output::{say, say_text, tell};
 use crate::life_table::{self, TableError};
 use crate::messages::topics;
 use crate::safe_window::SafeWindow;
+use flexdrill_config::Config;
 use flexdrill_life::LivingJoints;
 use flexdrill_text::{counted, printable};
 
@@ -85,6 +86,20 @@ pub(super) struct ReplayArgs {
     source: source::SourceArgs,
 }
 
+impl ReplayArgs {
+    /// Refuses to look ahead where the configuration asks for nothing of it.
+    fn may_look_ahead(&self, config: &Config) -> Result<(), WrongUse> {
+        let asked = &config.look_ahead;
+        if !self.look_ahead || asked.advice || asked.forecast {
+            return Ok(());
+        }
+        Err(WrongUse::new(
+            "--look-ahead: the configuration asks for nothing of the look-ahead; set look_ahead.advice or \
+             look_ahead.forecast to true in it, or omit the option",
+        ))
+    }
+}
+
 /// # Errors
 /// When the input cannot be used, a step fails, or the bag cannot be written.
 pub(super) fn run(args: &ReplayArgs) -> anyhow::Result<()> {
@@ -135,6 +150,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
         // Without applied inputs the samples of the rig are the next best source;
         // they are conditioned again, so the replay is not exact.
         let config = script.config()?;
+        args.may_look_ahead(&config)?;
         let posterior = script.posterior(&config, args.posterior.as_deref(), &args.input)?;
         let done = if script.is_empty() {
             let samples = args.source.read(&args.input).with_context(|| {
@@ -168,6 +184,7 @@ fn replay(args: &ReplayArgs, out: &Path) -> anyhow::Result<()> {
     if let Some(members) = args.members {
         config = config.with_members("--members", members)?;
     }
+    args.may_look_ahead(&config)?;
     let mut posterior = None;
     if player::asks_for_members(&config) {
         let file = args.config.as_deref().unwrap_or(Path::new(""));

@@ -12,7 +12,6 @@ use super::sink::{BagSink, WriteError};
 use super::summary::Tally;
 use crate::alarms::{AlarmBook, Unknown};
 use crate::bag::{Recorder, Recording, Topic};
-use crate::cli::WrongUse;
 use crate::cli::signals;
 use crate::cli::source::FromRig;
 use crate::ensemble::{Ensemble, Generation, Pace, Running};
@@ -148,18 +147,8 @@ impl Player {
     }
 
     /// Searches for advice and forecasts as the configuration asks. Call it before the first inputs.
-    ///
-    /// # Errors
-    /// When the configuration asks for neither.
-    pub(super) fn look_ahead(&mut self) -> Result<(), WrongUse> {
+    pub(super) fn look_ahead(&mut self) {
         self.sink.look_ahead = LookAhead::of(self.config());
-        match self.sink.look_ahead {
-            Some(_) => Ok(()),
-            None => Err(WrongUse::new(
-                "--look-ahead: the configuration asks for nothing of the look-ahead; set look_ahead.advice or \
-                 look_ahead.forecast to true in it, or omit the option",
-            )),
-        }
     }
 
     /// From now on a signal ends the run instead of the process, so that the bag gets its end.

@@ -395,7 +395,7 @@ impl Script {
         });
         player.run_ensemble(ensembles.collect(), posterior)?;
         if looks_ahead {
-            player.look_ahead()?;
+            player.look_ahead();
         }
         let mut pace = Pace {
             taken: 0,
