@@ -170,6 +170,7 @@ fn a_look_ahead_that_the_configuration_does_not_ask_for_is_refused() {
     let output = replayed(folder.path(), "none", "threads: 1", &["--look-ahead"]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(!folder.path().join("none").exists());
     assert!(
         said.contains("set look_ahead.advice or look_ahead.forecast to true"),
         "{said}"

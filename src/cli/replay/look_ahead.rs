@@ -18,6 +18,10 @@ use flexdrill_core::twin::{Frame, Output, Run, RunInputs};
 use flexdrill_messages as messages;
 use flexdrill_text::fixed;
 
+/// When the first forecast is due (s of the run): what is set is the median of ten seconds, and nothing is at their
+/// beginning.
+const BEGINS: f64 = 10.0;
+
 /// The look-ahead of a replay.
 pub(super) struct LookAhead {
     /// None where the configuration asks for no advice.
@@ -57,7 +61,7 @@ impl LookAhead {
                 Forecasting {
                     desk: ForecastDesk::new(Arc::clone(&issued), config, 0.0),
                     issued,
-                    due: 0.0,
+                    due: BEGINS,
                 }
             }),
             parameters: InForce::of(config),
