@@ -108,6 +108,10 @@ pub fn lead(second: u64) -> usize {
         .unwrap_or(LEADS.len() - 1)
 }
 
+/// Least half of a published band below and above its median, by [`Signal::ALL`]: by how much plausible tools differ. 0 where
+/// that is not known.
+pub type Least = [[f64; 2]; SIGNALS];
+
 /// Factors on the members' bands, by [`Signal::ALL`] and [`LEADS`].
 pub type Widths = [[f64; LEADS.len()]; SIGNALS];
 
@@ -166,10 +170,10 @@ impl Calibration {
         Signal::ALL.map(|signal| self.of(signal).each_ref().map(Compared::width))
     }
 
-    /// Compares what came in a second with the members' bands, which were published with `widths`. `second` counts from
-    /// the first second of the forecast, whose number is `forecast`. Signals without a number on either side are not
+    /// Compares what came in a second with the members' bands, which were published as `widening` says. `second` counts
+    /// from the first second of the forecast, whose number is `forecast`. Signals without a number on either side are not
     /// compared.
-    pub fn compare(&mut self, forecast: u64, second: u64, bands: &Bands, widths: &Widths, came: &[f64; SIGNALS]) {
+    pub fn compare(&mut self, forecast: u64, second: u64, bands: &Bands, widening: &Widening, came: &[f64; SIGNALS]) {
         let lead = lead(second);
         let seconds = LEADS[lead] - lead.checked_sub(1).map_or(0, |before| LEADS[before]);
         for signal in Signal::ALL {
@@ -184,9 +188,10 @@ impl Calibration {
             } else {
                 (value - median) / above
             };
+            let [low_published, _, high_published] = widening.band(signal, second, band);
             let of = &mut self.signals[signal as usize][lead];
             of.compared += 1;
-            of.inside += u32::from(needed <= widths[signal as usize][lead]);
+            of.inside += u32::from((low_published..=high_published).contains(&value));
             of.inside_members += u32::from((low..=high).contains(&value));
             of.needed.push_back((forecast, needed));
             if of.needed.len() as u64 > REMEMBERED * seconds {
@@ -203,13 +208,25 @@ fn halves(signal: Signal, band: &Band) -> [f64; 2] {
     [(median - low).max(least), (high - median).max(least)]
 }
 
-/// The band that is published: the members' with a factor.
-pub fn widened(signal: Signal, band: &Band, width: f64) -> [f64; 3] {
-    let [below, above] = halves(signal, band);
-    let median = band.quantiles[1];
-    let low = median - width * below;
-    let low = if signal.is_force() { low.max(0.0) } else { low };
-    [low, median, median + width * above]
+/// How the members' bands become those that are published.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Widening {
+    /// Factors on the members' bands, by what came of earlier forecasts.
+    pub factors: Widths,
+    /// What a band is never narrower than. What came is what the twin did: what plausible tools differ by is not in it.
+    pub least: Least,
+}
+
+impl Widening {
+    /// The published band of a second, which counts from the first of the forecast.
+    pub fn band(&self, signal: Signal, second: u64, band: &Band) -> [f64; 3] {
+        let factor = self.factors[signal as usize][lead(second)];
+        let median = band.quantiles[1];
+        let ([below, above], [least_below, least_above]) = (halves(signal, band), self.least[signal as usize]);
+        let low = median - (factor * below).max(least_below);
+        let low = if signal.is_force() { low.max(0.0) } else { low };
+        [low, median, median + (factor * above).max(least_above)]
+    }
 }
 
 #[cfg(test)]
@@ -222,6 +239,16 @@ mod tests {
         }; SIGNALS]
     }
 
+    /// Plausible tools that do not differ.
+    const ALIKE: Least = [[0.0; 2]; SIGNALS];
+
+    fn widening(calibration: &Calibration, least: Least) -> Widening {
+        Widening {
+            factors: calibration.widths(),
+            least,
+        }
+    }
+
     #[test]
     fn a_band_that_is_too_narrow_is_widened_until_it_holds_nine_of_ten() {
         let mut calibration = Calibration::default();
@@ -229,9 +256,9 @@ mod tests {
         // The members say 450 to 550; what comes is uniform in 0..1000.
         let bands = band(450.0, 500.0, 550.0);
         for forecast in 0..120 {
-            let widths = calibration.widths();
+            let as_now = widening(&calibration, ALIKE);
             for second in 30..60 {
-                calibration.compare(forecast, second, &bands, &widths, &[1000.0 * random.f64(); SIGNALS]);
+                calibration.compare(forecast, second, &bands, &as_now, &[1000.0 * random.f64(); SIGNALS]);
             }
         }
         let of = &calibration.of(Signal::BitTorque)[2];
@@ -244,7 +271,7 @@ mod tests {
         assert!((members - 0.1).abs() < 0.02, "{members}");
         // 0.9 of the range around the middle is 9 times the band; of 600 values the quantile has a deviation of 0.12.
         assert!((of.width() - 9.0).abs() < 0.4, "{}", of.width());
-        let [low, _, high] = widened(Signal::BitTorque, &bands[0], of.width());
+        let [low, _, high] = widening(&calibration, ALIKE).band(Signal::BitTorque, 59, &bands[0]);
         assert!(low < 60.0 && high > 940.0);
     }
 
@@ -258,12 +285,12 @@ mod tests {
         let spreads = [10.0, 40.0, 90.0];
         let mut later = [[0_u32; 2]; 3];
         for forecast in 0..200 {
-            let widths = calibration.widths();
+            let as_now = widening(&calibration, ALIKE);
             for second in 0..HORIZON {
                 let lead = lead(second);
                 let value = 500.0 + spreads[lead] * (2.0 * random.f64() - 1.0);
                 let before = calibration.of(Signal::BitSpeed)[lead].inside;
-                calibration.compare(forecast, second, &bands, &widths, &[value; SIGNALS]);
+                calibration.compare(forecast, second, &bands, &as_now, &[value; SIGNALS]);
                 if forecast >= LEAST as u64 {
                     later[lead][0] += calibration.of(Signal::BitSpeed)[lead].inside - before;
                     later[lead][1] += 1;
@@ -292,7 +319,8 @@ mod tests {
             let of = &calibration.of(Signal::BitTorque)[1];
             assert!(!of.is_calibrated() && of.width() == 1.0, "{forecast}");
             for second in 10..30 {
-                calibration.compare(forecast, second, &bands, &calibration.widths(), &[700.0; SIGNALS]);
+                let as_now = widening(&calibration, ALIKE);
+                calibration.compare(forecast, second, &bands, &as_now, &[700.0; SIGNALS]);
             }
         }
         // What came needed four times the band.
@@ -305,13 +333,38 @@ mod tests {
         );
     }
 
+    /// The members are runs of one tool and say 490 to 510. Plausible tools differ by 60 below and 30 above.
+    #[test]
+    fn a_band_is_never_narrower_than_plausible_tools_differ() {
+        let mut calibration = Calibration::default();
+        let bands = band(490.0, 500.0, 510.0);
+        let mut least = ALIKE;
+        least[Signal::BitTorque as usize] = [60.0, 30.0];
+        let torque = |calibration: &Calibration| widening(calibration, least).band(Signal::BitTorque, 5, &bands[0]);
+        assert_eq!(torque(&calibration), [440.0, 500.0, 530.0]);
+        let speed = widening(&calibration, least).band(Signal::BitSpeed, 5, &bands[0]);
+        assert_eq!(speed, [490.0, 500.0, 510.0]);
+        // What comes is inside the published band, outside that of the members, and the factor is that on the members'.
+        for forecast in 0..20 {
+            let as_now = widening(&calibration, least);
+            calibration.compare(forecast, 5, &bands, &as_now, &[460.0; SIGNALS]);
+        }
+        let of = &calibration.of(Signal::BitTorque)[0];
+        assert_eq!([of.compared, of.inside, of.inside_members], [20, 20, 0]);
+        assert_eq!(of.width(), 4.0);
+        // Of the speed the first nine were outside.
+        assert_eq!(calibration.of(Signal::BitSpeed)[0].inside, 11);
+        // A factor that asks for more than the tools differ by is taken.
+        assert_eq!(torque(&calibration), [440.0, 500.0, 540.0]);
+    }
+
     #[test]
     fn unknown_seconds_are_not_compared() {
         let mut calibration = Calibration::default();
         let unknown = band(f64::NAN, f64::NAN, f64::NAN);
-        let widths = calibration.widths();
-        calibration.compare(1, 0, &unknown, &widths, &[1.0; SIGNALS]);
-        calibration.compare(1, 0, &band(0.0, 1.0, 2.0), &widths, &[f64::NAN; SIGNALS]);
+        let as_now = widening(&calibration, ALIKE);
+        calibration.compare(1, 0, &unknown, &as_now, &[1.0; SIGNALS]);
+        calibration.compare(1, 0, &band(0.0, 1.0, 2.0), &as_now, &[f64::NAN; SIGNALS]);
         assert_eq!(calibration.of(Signal::BitSpeed)[0].compared, 0);
         assert_eq!(calibration.of(Signal::BitSpeed)[0].width(), 1.0);
     }

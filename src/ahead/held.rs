@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::forecast::{Calibration, Forecast, HORIZON, Widths};
+use super::forecast::{Calibration, Forecast, HORIZON, Least, Widening};
 use super::set_point::{LAG, SetPoint};
 use super::trace::Trace;
 use crate::rig_inputs::Fluctuation;
@@ -19,8 +19,8 @@ struct Open {
     forecast: Forecast,
     /// Speed (rad/s) and weight (N) that it assumes.
     targets: [f64; 2],
-    /// Factors that its bands were published with.
-    widths: Widths,
+    /// How its bands were published.
+    widening: Widening,
     /// Second that is compared next.
     next: u64,
 }
@@ -78,12 +78,20 @@ impl Held {
         self.compare();
     }
 
-    /// Holds a forecast at speed (rad/s) and weight (N) against what comes and what came since its start. Its bands are those
-    /// of the present widths.
-    pub fn hold(&mut self, forecast: Forecast, targets: [f64; 2]) {
+    /// How bands of now are to be published, while plausible tools differ by `least`.
+    pub fn widening(&self, least: Least) -> Widening {
+        Widening {
+            factors: self.calibration.widths(),
+            least,
+        }
+    }
+
+    /// Holds a forecast at speed (rad/s) and weight (N), published with this `widening`, against what comes and what came since
+    /// its start.
+    pub fn hold(&mut self, forecast: Forecast, targets: [f64; 2], widening: Widening) {
         self.open.push(Open {
             next: forecast.first,
-            widths: self.calibration.widths(),
+            widening,
             targets,
             forecast,
         });
@@ -148,7 +156,7 @@ impl Held {
                 let second = self.trace.seconds().iter().find(|second| second.number == number);
                 if let (Some(bands), Some(second)) = (bands, second) {
                     self.calibration
-                        .compare(first, ahead, bands, &open.widths, &second.values());
+                        .compare(first, ahead, bands, &open.widening, &second.values());
                 }
             }
         }

@@ -48,7 +48,7 @@ pub use advisor::{Acting, Advisor, Asked, InForce};
 pub use answer::{AlarmChance, Answer, CandidateAnswer, Progress};
 pub use chance::{Band, Chance};
 pub use engine::{Members, keep_priority, look_ahead, look_further};
-pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, LEADS, Widths, forecast, lead, widened};
+pub use forecast::{Bands, Calibration, Compared, Forecast, HORIZON, LEADS, Least, Widening, Widths, forecast, lead};
 pub use goal::{Candidate, Ends, Goal, GoalError, MOST_CANDIDATES, MOST_HORIZON, MOST_MEMBERS};
 pub use held::Held;
 pub use member::{DISTURBANCE, Figure};

@@ -6,9 +6,9 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::answer::AlarmChance;
-use super::forecast::{Compared, Forecast, HORIZON, LEADS, lead, widened};
+use super::forecast::{Compared, Forecast, HORIZON, LEADS, Least, Widening};
 use super::held::Held;
-use super::trace::Signal;
+use super::trace::{SIGNALS, Signal};
 use flexdrill_config::Config;
 use flexdrill_core::twin::{Frame, Output, RunInputs};
 use flexdrill_core::units::{n_to_kn, rad_per_s_to_rpm};
@@ -170,8 +170,15 @@ impl ForecastDesk {
     }
 
     /// What is to be published `now`, as a message: the forecast that has arrived, why the published one is given up, or after
-    /// [`LATE`] why none has arrived. `instant` gives the time of a tick (ns).
-    pub fn take(&mut self, now: f64, frame_id: &str, instant: impl Fn(u64) -> i64) -> Option<messages::Forecast> {
+    /// [`LATE`] why none has arrived. `tools` are the newest seconds of plausible tools, and `instant` gives the time of a tick
+    /// (ns).
+    pub fn take<'a>(
+        &mut self,
+        now: f64,
+        frame_id: &str,
+        tools: impl Iterator<Item = &'a messages::Bands>,
+        instant: impl Fn(u64) -> i64,
+    ) -> Option<messages::Forecast> {
         let Some(issued) = self.issued(now) else {
             let minute = self.standing?;
             let why = self.gone(&minute)?;
@@ -203,11 +210,12 @@ impl ForecastDesk {
                 (message.members, message.failed) = (forecast.members, forecast.failed);
                 message.tools = forecast.tools;
                 message.failure.clone_from(&forecast.failure);
-                message.bands = Signal::ALL.map(|signal| self.band(signal, &forecast)).into();
+                let widening = self.held.widening(spread(tools));
+                message.bands = Signal::ALL.map(|signal| self.band(signal, &forecast, &widening)).into();
                 message.alarms = forecast.alarms.iter().map(AlarmChance::message).collect();
                 message.any_alarm = forecast.any_alarm.probability;
                 [message.any_alarm_lower, message.any_alarm_upper] = forecast.any_alarm.interval;
-                self.held.hold(forecast, issued.targets);
+                self.held.hold(forecast, issued.targets, widening);
             }
         }
         Some(message)
@@ -279,13 +287,13 @@ impl ForecastDesk {
         }
     }
 
-    fn band(&self, signal: Signal, forecast: &Forecast) -> ForecastBand {
+    fn band(&self, signal: Signal, forecast: &Forecast, widening: &Widening) -> ForecastBand {
         let (name, unit) = signal.name_and_unit();
         let of = self.held.calibration().of(signal);
-        let widths = of.each_ref().map(Compared::width);
+        let widths = widening.factors[signal as usize];
         let bands: Vec<[f64; 3]> = (0..)
             .zip(&forecast.seconds)
-            .map(|(second, bands)| widened(signal, &bands[signal as usize], widths[lead(second)]))
+            .map(|(second, bands)| widening.band(signal, second, &bands[signal as usize]))
             .collect();
         let sum = |count: fn(&Compared) -> u32| of.iter().map(count).sum();
         let quantile = |index: usize| bands.iter().map(|band| band[index]).collect();
@@ -306,6 +314,22 @@ impl ForecastDesk {
             lead_inside: of.each_ref().map(|of| of.inside).into(),
         }
     }
+}
+
+/// By how much plausible tools differ, in the mean over some seconds of theirs: that of one second is chance. A second without
+/// bands, and a figure that no tool has, say nothing.
+fn spread<'a>(tools: impl Iterator<Item = &'a messages::Bands>) -> Least {
+    let (mut sums, mut count) = ([[0.0; 2]; SIGNALS], 0.0);
+    for second in tools.filter(|second| !second.bands.is_empty()) {
+        count += 1.0;
+        for (signal, sum) in Signal::ALL.into_iter().zip(&mut sums) {
+            let of_tools = second.bands.iter().find(|band| band.name == signal.of_tools());
+            let [below, above] = of_tools.map_or([0.0; 2], |band| [band.p50 - band.p5, band.p95 - band.p50]);
+            sum[0] += below.max(0.0);
+            sum[1] += above.max(0.0);
+        }
+    }
+    sums.map(|sum| sum.map(|sum| sum / f64::max(count, 1.0)))
 }
 
 /// A forecast that says nothing yet, from the state at these ticks and this step.
@@ -383,7 +407,7 @@ mod tests {
     }
 
     fn taken(desk: &mut ForecastDesk) -> Option<(u32, String)> {
-        let message = desk.take(0.0, "tool", |ticks| ticks as i64)?;
+        let message = desk.take(0.0, "tool", std::iter::empty(), |ticks| ticks as i64)?;
         Some((message.members, message.failure))
     }
 
@@ -441,6 +465,46 @@ mod tests {
         forecasts.put(issued(&desk, 103));
         let (members, why) = taken(&mut desk).unwrap();
         assert!(members == 0 && why.contains("are asked for now"), "{why}");
+    }
+
+    /// A second of plausible tools, whose torque lies 60 below and so much above the median; without a number for the weight.
+    fn tools(above: f64) -> messages::Bands {
+        let figure = |signal: Signal, [p5, p50, p95]: [f64; 3]| messages::FigureBand {
+            name: signal.of_tools().to_owned(),
+            unit: String::new(),
+            p5,
+            p50,
+            p95,
+        };
+        messages::Bands {
+            bands: vec![
+                figure(Signal::BitTorque, [140.0, 200.0, 200.0 + above]),
+                figure(Signal::WeightOnBit, [f64::NAN; 3]),
+            ],
+            ..messages::Bands::default()
+        }
+    }
+
+    #[test]
+    fn plausible_tools_differ_by_the_mean_of_their_seconds() {
+        let seconds = [tools(20.0), messages::Bands::default(), tools(40.0)];
+        let least = spread(seconds.iter());
+        assert_eq!(least[Signal::BitTorque as usize], [60.0, 30.0]);
+        for signal in [Signal::WeightOnBit, Signal::BitSpeed] {
+            assert_eq!(least[signal as usize], [0.0; 2], "{signal:?}");
+        }
+        assert_eq!(spread([messages::Bands::default()].iter()), [[0.0; 2]; SIGNALS]);
+    }
+
+    #[test]
+    fn every_figure_of_a_forecast_is_one_of_plausible_tools() {
+        let known = flexdrill_outputs::figures::OverTools::known();
+        for signal in Signal::ALL {
+            assert!(
+                known.iter().any(|figure| figure.name == signal.of_tools()),
+                "{signal:?}"
+            );
+        }
     }
 
     #[test]

@@ -32,6 +32,17 @@ impl Signal {
         (name, unit)
     }
 
+    /// Its name among the figures of `twin/bands`.
+    pub const fn of_tools(self) -> &'static str {
+        match self {
+            Self::BitSpeed => "bit_state/rotary_speed",
+            Self::BitTorque => "bit_state/torque",
+            Self::WeightOnBit => "bit_state/weight_on_bit",
+            Self::PipeGuideForce => "contact_forces/max_pipe_guide_force",
+            Self::GuideWallForce => "contact_forces/max_guide_wall_force",
+        }
+    }
+
     /// Whether it is the largest contact force, which is never negative.
     pub const fn is_force(self) -> bool {
         matches!(self, Self::PipeGuideForce | Self::GuideWallForce)

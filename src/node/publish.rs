@@ -421,7 +421,9 @@ impl Publisher {
             return;
         };
         let frame_id = &session.config().outputs.frame_id;
-        if let Some(forecast) = desk.take(steady(), frame_id, |ticks| session.instant(ticks).unwrap_or_default()) {
+        if let Some(forecast) = desk.take(steady(), frame_id, session.seconds_of_tools(), |ticks| {
+            session.instant(ticks).unwrap_or_default()
+        }) {
             self.parts.send_message(&topics::FORECAST, &forecast, self.instant());
         }
     }

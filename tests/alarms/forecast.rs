@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use flexdrill::ahead::{Compared, Held, Signal, Start, forecast, keep_priority};
+use flexdrill::ahead::{Compared, Held, Least, Signal, Start, forecast, keep_priority};
 use flexdrill_config::Config;
 use flexdrill_core::dynamics::StepOutcome;
 use flexdrill_core::inputs::{InputKind, Inputs};
@@ -75,7 +75,8 @@ fn held(config: &Arc<Config>, from: f64, seconds: u64, members: u32) -> Held {
             let start = Start::new(Arc::clone(config), run.simulation().fork(), &applied);
             let found = forecast(&start, members, 1, 2, &AtomicBool::new(false)).unwrap();
             assert_eq!((found.members, found.failed), (members, 0), "{}", found.failure);
-            held.hold(found, [applied.inputs.rotary_speed, applied.inputs.weight_on_bit]);
+            let targets = [applied.inputs.rotary_speed, applied.inputs.weight_on_bit];
+            held.hold(found, targets, held.widening(Least::default()));
         }
     }
     held

@@ -1268,7 +1268,8 @@ pub mod flexdrill {
         /// Unit: rad/s, N m or N.
         pub unit: std::string::String,
         /// The 90 % band and the median, one value per second of the horizon; NaN where no member ended. The band has been widened
-        /// or narrowed to the share of earlier seconds that it is to hold (see width).
+        /// or narrowed to the share of earlier seconds that it is to hold (see width), and is never narrower than the band of
+        /// plausible tools at present (twin/bands).
         pub p5: Vec<f64>,
         pub p50: Vec<f64>,
         pub p95: Vec<f64>,

@@ -101,15 +101,20 @@ impl LookAhead {
         }
     }
 
-    /// Searches for advice and makes the forecast, as far as they are due, from the present state of a run. Returns the forecast
-    /// that is to be published. A search that `stop` ends has no answer.
-    pub(super) fn answer(&mut self, run: &Run, session: &Session, stop: &AtomicBool) -> Option<messages::Forecast> {
+    /// Searches for advice and makes the forecast, as far as they are due, from the present state of a run. What `stop` ends has no
+    /// answer.
+    pub(super) fn answer(&mut self, run: &Run, session: &Session, stop: &AtomicBool) {
         self.search(run, session, stop);
         self.forecast(run, session, stop);
+    }
+
+    /// The forecast that is to be published, once the session has published what plausible tools have come to.
+    pub(super) fn take(&mut self, session: &Session) -> Option<messages::Forecast> {
         let forecasts = self.forecasts.as_mut()?;
         let frame_id = &session.config().outputs.frame_id;
         let instant = |ticks| session.instant(ticks).unwrap_or_default();
-        forecasts.desk.take(self.now, frame_id, instant)
+        let tools = session.seconds_of_tools();
+        forecasts.desk.take(self.now, frame_id, tools, instant)
     }
 
     /// The state of a run under what the driller has set.

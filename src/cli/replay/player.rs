@@ -315,7 +315,11 @@ impl Player {
         let Some(look_ahead) = &mut self.sink.look_ahead else {
             return Ok(());
         };
-        let Some(forecast) = look_ahead.answer(&self.run, &self.session, &self.stop) else {
+        look_ahead.answer(&self.run, &self.session, &self.stop);
+        // The answer has waited for plausible tools: what they have come to by now is the same in each replay.
+        self.session.publish_bands(false, &mut self.sink)?;
+        let look_ahead = self.sink.look_ahead.as_mut();
+        let Some(forecast) = look_ahead.and_then(|look_ahead| look_ahead.take(&self.session)) else {
             return Ok(());
         };
         self.sink.send(Encoded {

@@ -866,7 +866,8 @@ export interface ForecastBand {
   unit: string;
   /**
    * The 90 % band and the median, one value per second of the horizon; NaN where no member ended. The band has been widened
-   * or narrowed to the share of earlier seconds that it is to hold (see width).
+   * or narrowed to the share of earlier seconds that it is to hold (see width), and is never narrower than the band of
+   * plausible tools at present (twin/bands).
    */
   p5: Float64Array;
   p50: Float64Array;

@@ -9,6 +9,7 @@
 #[cfg(test)]
 mod tests;
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::alarms::AlarmBook;
@@ -22,7 +23,7 @@ use flexdrill_hole::Survey;
 use flexdrill_life::LivingJoints;
 use flexdrill_messages::builtin_interfaces::Time;
 use flexdrill_messages::std_msgs::Header;
-use flexdrill_messages::{Ageing, AlarmEvent, CdrError, Residuals, to_cdr, topics};
+use flexdrill_messages::{Ageing, AlarmEvent, Bands, CdrError, Residuals, to_cdr, topics};
 use flexdrill_outputs::{Encoded, Outputs, ParameterChange};
 
 /// What a session takes from the program that hosts it.
@@ -52,6 +53,10 @@ pub trait Host {
     fn compared(&mut self, comparison: &Comparison);
 }
 
+/// Seconds of plausible tools that are kept for those who look ahead: a forecast begins five seconds after a change at the
+/// earliest, and what they did before it says nothing of how they differ now.
+const SECONDS_OF_TOOLS: usize = 5;
+
 /// What a run becomes.
 pub struct Session {
     config: Arc<Config>,
@@ -62,6 +67,8 @@ pub struct Session {
     window: Option<Arc<SafeWindow>>,
     /// Plausible tools under the same inputs.
     ensemble: Option<Running>,
+    /// What plausible tools did in their newest seconds, [`SECONDS_OF_TOOLS`] at most, the newest last.
+    bands: VecDeque<Bands>,
     /// Ticks and instant at which those of the newest bands began: a clock that is set must not give them another one.
     begun: Option<(u64, i64)>,
     /// Where the tool drills next.
@@ -88,6 +95,7 @@ impl Session {
             residuals: None,
             window: None,
             ensemble: None,
+            bands: VecDeque::new(),
             begun: None,
             outputs: None,
         }
@@ -331,6 +339,10 @@ impl Session {
                 stamp,
                 cdr: &to_cdr(&bands)?,
             })?;
+            if self.bands.len() == SECONDS_OF_TOOLS {
+                self.bands.pop_front();
+            }
+            self.bands.push_back(bands);
         }
         Ok(())
     }
@@ -339,6 +351,11 @@ impl Session {
     /// that waits for them waits here, too.
     pub fn plausible_tools(&self) -> Option<Result<Forks, String>> {
         self.ensemble.as_ref().map(Running::forks)
+    }
+
+    /// What plausible tools did in the newest seconds that they have come to.
+    pub fn seconds_of_tools(&self) -> impl Iterator<Item = &Bands> {
+        self.bands.iter()
     }
 
     /// Publishes where the tool drills next, and judges the alarm on the plan, up to the first message whose answer is not
