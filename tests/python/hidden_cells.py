@@ -21,7 +21,6 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import hidden_rigs
-from ruamel.yaml import YAML
 
 # Time to reach speed and weight from rest, at the configured slew limits, and for alarms of the way to end (s).
 WAY = 12
@@ -48,11 +47,7 @@ def one(number, options, cells, horizon):
     folder = options.out / f"cell_{number:03}"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    yaml = YAML(typ="safe")
-    config = yaml.load(options.config.read_text())
-    names = hidden_rigs.hidden_rig(config, rng)
-    with (folder / "hidden.yaml").open("w") as to:
-        yaml.dump(config, to)
+    names = hidden_rigs.drawn(options, rng, folder / "hidden.yaml")
     (folder / "plan.yaml").write_text(
         'separator: ","\ncolumns:\n  time: {column: time_s, format: seconds}\n'
         "  rotary_speed: {column: rpm, unit: r/min}\n  weight_on_bit: {direct: {column: wob, unit: kN}}\n"

@@ -53,6 +53,8 @@ SETTLING = 30
 DRILLING, LOW = 0, 1
 WITHIN = 60
 TENTHS = 10
+# Most draws of a hidden rig.
+DRAWS = 50
 # Share of what a hidden rig does that a band is to hold.
 HOLDS = 0.9
 
@@ -76,7 +78,11 @@ STRUCTURES = {
     "friction in the pipe acts around and along by itself": lambda c: at(c, "contact.inner.friction", "separate"),
     "joints of constant velocity": lambda c: (at(c, "tool.joint.kind", "ball_cage"), get(c, "tool.joint").pop("friction", 0)),
     "joints with play of 0.5 deg": lambda c: at(c, "tool.joint.play_deg", 0.5),
-    "a bit whose torque falls with its speed, without cutting": lambda c: at(c, "rock.law", "weakening"),
+    # The weight is that at the kick-off, as friction takes its part on the way to the bit of every rig.
+    "a bit whose torque falls with its speed, without cutting": lambda c: (
+        at(c, "rock.law", "weakening"),
+        at(c, "boundary.weight_on_bit_at", "kickoff"),
+    ),
     "a string of two sections": lambda c: at(
         c,
         "string.sections",
@@ -126,6 +132,23 @@ def hidden_rig(config, rng):
     for name in names:
         STRUCTURES[name](config)
     return names
+
+
+def drawn(options, rng, file):
+    """Writes the configuration of a hidden rig, and returns the names of its structures.
+
+    A draw from a range that is wider than the twin's may lie beyond the bounds of a key: then all is drawn again.
+    """
+    yaml = YAML(typ="safe")
+    for _ in range(DRAWS):
+        config = yaml.load(options.config.read_text())
+        names = hidden_rig(config, rng)
+        with file.open("w") as to:
+            yaml.dump(config, to)
+        checked = subprocess.run([options.binary, "check", file], capture_output=True, text=True, check=False)
+        if checked.returncode == 0:
+            return names
+    raise RuntimeError(f"{file}: none of {DRAWS} draws is a tool: {checked.stderr[-500:]}")
 
 
 def plan(seconds, rng):
@@ -203,11 +226,7 @@ class Hidden:
         self.binary, self.folder = options.binary, options.out / f"rig_{number:03}"
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
-        yaml = YAML(typ="safe")
-        config = yaml.load(options.config.read_text())
-        self.structures = hidden_rig(config, self.rng)
-        with (self.folder / "hidden.yaml").open("w") as to:
-            yaml.dump(config, to)
+        self.structures = drawn(options, self.rng, self.folder / "hidden.yaml")
         (self.folder / "plan.yaml").write_text(self.COLUMNS)
         self.rows = plan(options.seconds, self.rng)
 
