@@ -170,7 +170,7 @@ impl ForecastDesk {
     }
 
     /// What is to be published `now`, as a message: the forecast that has arrived, why the published one is given up, or after
-    /// [`LATE`] why none has arrived. `tools` are the newest seconds of plausible tools, and `instant` gives the time of a tick
+    /// 90 s why none has arrived. `tools` are the newest seconds of plausible tools, and `instant` gives the time of a tick
     /// (ns).
     pub fn take<'a>(
         &mut self,
