@@ -19,14 +19,12 @@ DIR/rig_NNN.json has what came of one rig: a run that was interrupted continues 
 Ends with 77 when packages are missing.
 """
 
-import argparse
 import json
 import math
 import re
 import shutil
 import sys
 from collections import defaultdict
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import hidden_rigs
@@ -200,34 +198,14 @@ def tables(rigs, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    root = Path(__file__).resolve().parents[2]
-    parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--rigs", type=int, default=60)
+    parser = hidden_rigs.arguments(__doc__, 3)
     parser.add_argument("--seconds", type=int, default=240)
     parser.add_argument("--members", type=int, default=12)
     parser.add_argument("--forecast-members", type=int, default=4)
-    parser.add_argument("--seed", type=int, default=3)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--binary", type=Path, default=root / "target/release/flexdrill")
-    parser.add_argument("--config", type=Path, default=root / "config/rig.yaml")
     parser.add_argument("--twin", type=Path)
     options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
-
-    def safe(number):
-        try:
-            return one(number, options)
-        except RuntimeError as error:
-            print(f"rig {number}: {error}", file=sys.stderr)
-            return None
-
-    with ThreadPoolExecutor(options.jobs) as pool:
-        rigs = list(pool.map(safe, range(options.rigs)))
-    failed = sum(rig is None for rig in rigs)
-    text = tables([rig for rig in rigs if rig], options)
-    if failed:
-        text += f"\n{failed} rigs could not be computed: their messages are above, and they are in no table.\n"
+    rigs, failed = hidden_rigs.every(options, lambda number: one(number, options))
+    text = tables([rig for rig in rigs if rig], options) + failed
     (options.out / "ahead.md").write_text(text)
     print(text)
     return 1 if failed else 0

@@ -12,12 +12,10 @@ DIR/cell_NNN.json has what one rig did: a run that was interrupted continues whe
 Ends with 77 when packages are missing.
 """
 
-import argparse
 import json
 import random
 import shutil
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import hidden_rigs
@@ -103,32 +101,12 @@ def table(rigs, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    root = Path(__file__).resolve().parents[2]
+    parser = hidden_rigs.arguments(__doc__, 2)
     parser.add_argument("map", type=Path)
-    parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--rigs", type=int, default=60)
-    parser.add_argument("--seed", type=int, default=2)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--binary", type=Path, default=root / "target/release/flexdrill")
-    parser.add_argument("--config", type=Path, default=root / "config/rig.yaml")
     options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
     cells, horizon = axis_values(options.map)
-
-    def safe(number):
-        try:
-            return one(number, options, cells, horizon)
-        except RuntimeError as error:
-            print(f"rig {number}: {error}", file=sys.stderr)
-            return None
-
-    with ThreadPoolExecutor(options.jobs) as pool:
-        rigs = list(pool.map(safe, range(options.rigs)))
-    failed = sum(rig is None for rig in rigs)
-    text = table([rig for rig in rigs if rig], options)
-    if failed:
-        text += f"\n{failed} rigs could not be computed: their messages are above, and they are in no table.\n"
+    rigs, failed = hidden_rigs.every(options, lambda number: one(number, options, cells, horizon))
+    text = table([rig for rig in rigs if rig], options) + failed
     (options.out / "cells.md").write_text(text)
     print(text)
     return 1 if failed else 0

@@ -458,24 +458,26 @@ def tables(rigs, options):
     return "\n".join(out) + "\n"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+def arguments(description, seed):
+    """What every study of hidden rigs is told; rigs of another study have another seed."""
+    parser = argparse.ArgumentParser(description=description.split("\n\n")[0])
     root = Path(__file__).resolve().parents[2]
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--rigs", type=int, default=60)
-    parser.add_argument("--seconds", type=int, default=600)
-    parser.add_argument("--members", type=int, default=16)
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=seed)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--binary", type=Path, default=root / "target/release/flexdrill")
     parser.add_argument("--config", type=Path, default=root / "config/rig.yaml")
-    parser.add_argument("--twin", type=Path)
-    options = parser.parse_args()
+    return parser
+
+
+def every(options, one):
+    """What `one` finds on each rig, by number; None and a message where a rig could not be computed. With a sentence on those."""
     options.out.mkdir(parents=True, exist_ok=True)
 
     def safe(number):
         try:
-            return one(number, options)
+            return one(number)
         except RuntimeError as error:
             print(f"rig {number}: {error}", file=sys.stderr)
             return None
@@ -483,11 +485,21 @@ def main():
     with ThreadPoolExecutor(options.jobs) as pool:
         rigs = list(pool.map(safe, range(options.rigs)))
     failed = sum(rig is None for rig in rigs)
+    words = f"\n{failed} rigs could not be computed: their messages are above, and they are in no table.\n" if failed else ""
+    return rigs, words
+
+
+def main():
+    parser = arguments(__doc__, 1)
+    parser.add_argument("--seconds", type=int, default=600)
+    parser.add_argument("--members", type=int, default=16)
+    parser.add_argument("--twin", type=Path)
+    options = parser.parse_args()
+    rigs, failed = every(options, lambda number: one(number, options))
     of_factors, in_configuration = factors(rigs, options)
     text = tables([rig for rig in rigs if rig], options) + of_factors
     (options.out / "factors.yaml").write_text(in_configuration)
-    if failed:
-        text += f"\n{failed} rigs could not be computed: their messages are above, and they are in no table.\n"
+    text += failed
     (options.out / "scores.md").write_text(text)
     print(text)
     return 1 if failed else 0

@@ -66,7 +66,7 @@ pub(super) struct ReplayArgs {
     #[arg(long, value_name = "NUMBER")]
     members: Option<u32>,
     /// Also search for advice on alarms and forecast the next minute, as the configuration asks (look_ahead). The run waits
-    /// for each answer: a search takes about 1000 s of model time, a forecast 60 s for each of its runs.
+    /// for each answer: a search takes 400 to 1000 s of model time, a forecast 60 s for each of its runs.
     #[arg(long, requires = "out")]
     look_ahead: bool,
     /// Sample that the plausible tools of a recording were drawn from, where its configuration names one (ensemble.from).
