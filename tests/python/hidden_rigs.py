@@ -11,8 +11,8 @@ The twin gets the log and the configuration that is under test, and nothing else
 rigs are drawn from: one with a coarser mesh takes less time, and errs by that too.
 
 DIR/rig_NNN.json has the figures of one rig: a run that was interrupted continues where it was. DIR/scores.md has the
-tables. Rigs of even numbers tune: DIR/factors.yaml has the factors on the bands (`ensemble.band_factors`) with which a
-band holds 90 % of what another rig of the same population does. Rigs of odd numbers judge them. Factors that the
+tables. DIR/factors.yaml has the factors on the bands (`ensemble.band_factors`) with which a band holds 90 % of what
+another rig of the same population does. Each rig judges factors by all others, which have not seen it. Factors that the
 configuration already has are taken out first. Ends with 77 when packages are missing.
 """
 
@@ -73,13 +73,15 @@ def get(config, key):
     return config
 
 
+WITHOUT_CUTTING = "a bit whose torque falls with its speed, without cutting"
 # Another structure than the twin assumes, by name: what it does to a configuration.
 STRUCTURES = {
     "friction in the pipe acts around and along by itself": lambda c: at(c, "contact.inner.friction", "separate"),
     "joints of constant velocity": lambda c: (at(c, "tool.joint.kind", "ball_cage"), get(c, "tool.joint").pop("friction", 0)),
     "joints with play of 0.5 deg": lambda c: at(c, "tool.joint.play_deg", 0.5),
-    # The weight is that at the kick-off, as friction takes its part on the way to the bit of every rig.
-    "a bit whose torque falls with its speed, without cutting": lambda c: (
+    # The weight is that at the kick-off, as friction takes its part on the way to the bit of every rig. Without a surface
+    # to lift the bit from, its plan stays on bottom.
+    WITHOUT_CUTTING: lambda c: (
         at(c, "rock.law", "weakening"),
         at(c, "boundary.weight_on_bit_at", "kickoff"),
     ),
@@ -151,15 +153,15 @@ def drawn(options, rng, file):
     raise RuntimeError(f"{file}: none of {DRAWS} draws is a tool: {checked.stderr[-500:]}")
 
 
-def plan(seconds, rng):
-    """Speed (r/min) and weight (kN) by the second: changes every 30 to 120 s, and once off bottom."""
+def plan(seconds, rng, lifts):
+    """Speed (r/min) and weight (kN) by the second: changes every 30 to 120 s, and once off bottom if the rig can do that."""
     rows, next_change, lifted = [], 0, rng.randrange(seconds // 2, max(seconds - 60, seconds // 2 + 1))
     speed = weight = 0.0
     for second in range(seconds):
         if second >= next_change:
             speed, weight = rng.choice([30.0, 40.0, 50.0, 60.0, 70.0]), rng.choice([6.0, 8.0, 10.0, 14.0, 18.0])
             next_change = second + rng.randrange(30, 120)
-        on_bottom = second >= 10 and not lifted <= second < lifted + 25
+        on_bottom = second >= 10 and not (lifts and lifted <= second < lifted + 25)
         rows.append((speed, weight if on_bottom else 0.0))
     return rows
 
@@ -228,7 +230,7 @@ class Hidden:
         self.folder.mkdir(parents=True)
         self.structures = drawn(options, self.rng, self.folder / "hidden.yaml")
         (self.folder / "plan.yaml").write_text(self.COLUMNS)
-        self.rows = plan(options.seconds, self.rng)
+        self.rows = plan(options.seconds, self.rng, WITHOUT_CUTTING not in self.structures)
 
     def drills(self, rows, name):
         """Runs the rig at speeds and weights that act, second by second, into the bag of this name."""
@@ -371,34 +373,38 @@ def standard_error(values):
     return math.sqrt(mean((value - mean(values)) ** 2 for value in values) / max(len(values) - 1, 1)) if values else math.nan
 
 
+def factor(rigs, name):
+    """The factor on the bands of a figure with which they hold another rig, by these; None of too few."""
+    found = conformal.quantile([[needed(row) for row in rig["bands"].get(name, [])] for rig in rigs], HOLDS)
+    # Bands that hold more than asked for are not made narrower than the members say.
+    return None if found is None else max(1.0, math.ceil(100 * found) / 100)
+
+
 def factors(rigs, options):
-    """Factors by the tuning half, and the table of what they are worth on the judging half.
+    """Factors by all rigs, and the table of what those by all others are worth on each.
 
     `rigs` by number; None where one could not be computed.
     """
-    tuning, judging = ([rig for rig in rigs[half::2] if rig] for half in (0, 1))
-    found = {}
+    rigs = [rig for rig in rigs if rig]
+    rows = []
     out = [
-        f"Factors on the bands, by {len(tuning)} rigs that tune, on {len(judging)} others that judge: mean share of a rig's",
-        "seconds in which the band holds, with its standard error over rigs.",
+        f"Factors on the bands, by {len(rigs)} rigs: mean share of a rig's seconds in which the band holds, with its standard",
+        "error over rigs. Each rig judges the factor by all others.",
         "",
-        "| figure | factor | holds without it | with it |",
+        "| figure | factor | holds without it | with that by the others |",
         "| --- | --- | --- | --- |",
     ]
     for name, path in JUDGED.items():
-        factor = conformal.quantile([[needed(row) for row in rig["bands"].get(name, [])] for rig in tuning], HOLDS)
-        # Bands that hold more than asked for are not made narrower than the members say.
-        if factor is not None:
-            factor = found[path] = max(1.0, math.ceil(100 * factor) / 100)
-        shares = [held(judging, name, by) for by in (1.0, factor or math.nan)]
-        words = [f"{mean(of):.2f} +- {standard_error(of):.2f}" for of in shares]
-        out.append(f"| {name} | {f'{factor:.2f}' if factor else 'too few rigs'} | {words[0]} | {words[1] if factor else ''} |")
-    rows = [
-        f"- {{figure: {path}, factor: {factor}, source: \"{len(tuning)} hidden rigs of {options.seconds} s, seed {options.seed}, "
-        f'{options.members} members; tests/python/hidden_rigs.py"}}'
-        for path, factor in found.items()
-        if factor > 1.0
-    ]
+        found = factor(rigs, name)
+        others = [(rig, factor(rigs[:index] + rigs[index + 1 :], name)) for index, rig in enumerate(rigs)]
+        shares = [held(rigs, name, 1.0), [share for rig, by in others if by for share in held([rig], name, by)]]
+        words = [f"{mean(of):.2f} +- {standard_error(of):.2f}" if of else "" for of in shares]
+        out.append(f"| {name} | {f'{found:.2f}' if found else 'too few rigs'} | {words[0]} | {words[1]} |")
+        if found and found > 1.0:
+            rows.append(
+                f'- {{figure: {path}, factor: {found}, source: "{len(rigs)} hidden rigs of {options.seconds} s, seed '
+                f'{options.seed}, {options.members} members; tests/python/hidden_rigs.py"}}'
+            )
     return "\n".join(["", *out, ""]), "\n".join(["# ensemble.band_factors; figures that are left out have the factor 1", *rows, ""])
 
 

@@ -23,8 +23,8 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn root(self) -> Self;
     /// The larger; `other` where one of them is NaN.
     fn largest(self, other: Self) -> Self;
-    /// Itself where `x` is larger than `bound`, otherwise zero.
-    fn where_above(self, x: Self, bound: Self) -> Self;
+    /// Itself where `x` is larger than `bound`, `otherwise` elsewhere.
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
     /// Applies a scalar function to each lane.
@@ -66,8 +66,8 @@ impl Number for f64 {
         if self > other { self } else { other }
     }
     #[inline(always)]
-    fn where_above(self, x: Self, bound: Self) -> Self {
-        if x > bound { self } else { 0.0 }
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self {
+        if x > bound { self } else { otherwise }
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -143,8 +143,8 @@ impl<V: Vector> Number for Eight<V> {
     }
 
     #[inline(always)]
-    fn where_above(self, x: Self, bound: Self) -> Self {
-        Self(self.0.where_above(x.0, bound.0))
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self {
+        Self(self.0.where_above(x.0, bound.0, otherwise.0))
     }
 
     /// Sine and cosine, to two units in the last place of 1 for arguments up to 1e6.
@@ -208,13 +208,7 @@ impl<V: Vector> Number for Eight<V> {
 
     #[inline(always)]
     fn any_below(self, bound: Self) -> bool {
-        let (mut lanes, mut bounds) = (Aligned([0.0; 8]), Aligned([0.0; 8]));
-        self.store(&mut lanes);
-        bound.store(&mut bounds);
-        lanes
-            .iter()
-            .zip(*bounds)
-            .fold(false, |any, (x, bound)| any | (*x < bound))
+        bound.0.above(self.0) != 0
     }
 }
 

@@ -34,8 +34,8 @@ pub(crate) trait Vector: Copy {
     fn root(self) -> Self;
     /// The larger, lane by lane; the lane of `other` where one of them is NaN.
     fn largest(self, other: Self) -> Self;
-    /// Lanes of `self` where `x` is larger than `bound`, zero in the others.
-    fn where_above(self, x: Self, bound: Self) -> Self;
+    /// Lanes of `self` where `x` is larger than `bound`, of `otherwise` in the others.
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self;
     /// self + a b, rounded once where the machine does that.
     fn plus_product(self, a: Self, b: Self) -> Self;
     /// self - a b, likewise.
@@ -107,10 +107,12 @@ impl Vector for Portable {
         self.zip(other, |x, y| if x > y { x } else { y })
     }
     #[inline(always)]
-    fn where_above(self, x: Self, bound: Self) -> Self {
-        let mut out = self;
-        for ((out, x), bound) in out.0.iter_mut().zip(x.0).zip(bound.0) {
-            *out = if x > bound { *out } else { 0.0 };
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self {
+        let mut out = otherwise;
+        for (lane, out) in out.0.iter_mut().enumerate() {
+            if x.0[lane] > bound.0[lane] {
+                *out = self.0[lane];
+            }
         }
         out
     }

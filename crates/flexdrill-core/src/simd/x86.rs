@@ -77,11 +77,11 @@ impl Vector for Avx2 {
         unsafe { Self(_mm256_max_pd(self.0, other.0), _mm256_max_pd(self.1, other.1)) }
     }
     #[inline(always)]
-    fn where_above(self, x: Self, bound: Self) -> Self {
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self {
         unsafe {
             Self(
-                _mm256_and_pd(self.0, _mm256_cmp_pd::<_CMP_GT_OQ>(x.0, bound.0)),
-                _mm256_and_pd(self.1, _mm256_cmp_pd::<_CMP_GT_OQ>(x.1, bound.1)),
+                _mm256_blendv_pd(otherwise.0, self.0, _mm256_cmp_pd::<_CMP_GT_OQ>(x.0, bound.0)),
+                _mm256_blendv_pd(otherwise.1, self.1, _mm256_cmp_pd::<_CMP_GT_OQ>(x.1, bound.1)),
             )
         }
     }
@@ -159,12 +159,10 @@ impl Vector for Avx512 {
         unsafe { Self(_mm512_max_pd(self.0, other.0)) }
     }
     #[inline(always)]
-    fn where_above(self, x: Self, bound: Self) -> Self {
+    fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self {
         unsafe {
-            Self(_mm512_maskz_mov_pd(
-                _mm512_cmp_pd_mask::<_CMP_GT_OQ>(x.0, bound.0),
-                self.0,
-            ))
+            let above = _mm512_cmp_pd_mask::<_CMP_GT_OQ>(x.0, bound.0);
+            Self(_mm512_mask_mov_pd(otherwise.0, above, self.0))
         }
     }
     #[inline(always)]

@@ -352,34 +352,35 @@ impl SingleElimination<'_> {
             self.carry::<S>(above, &mut carry);
         }
         let mut blocks = self.sweep.blocks;
-        let only = window.first == window.last;
-        let (mut inverse, mut squares) = self.assemble::<S>(window.first, only, &mut blocks[window.first % 2]);
-        for k in window.first..=window.last {
-            let last = k == window.last;
-            let rows = self.rows[k].as_ref();
-            let after = if last {
+        let (mut inverse, mut squares) = (Inverse::start(), zero);
+        for next in window.first..=window.last + 1 {
+            // A node's assembly and early pair do not wait for the node above, and fill the gaps between its divisions.
+            let early = if next <= window.last {
+                self.assemble::<S>(next, next == window.last, &mut blocks[next % 2])
+            } else {
                 (inverse, zero)
-            } else {
-                // The next node's assembly and early pair do not wait for this node's, and fill the gaps between its
-                // divisions.
-                self.assemble::<S>(k + 1, k + 1 == window.last, &mut blocks[(k + 1) % 2])
             };
-            let (a, b) = (&mut blocks[k % 2], &mut self.sweep.columns[k]);
-            if k > 0 {
-                subtract_carry::<S>(a, &mut b[12], &carry, rows);
+            if next > window.first {
+                let k = next - 1;
+                let rows = self.rows[k].as_ref();
+                let (a, b) = (&mut blocks[k % 2], &mut self.sweep.columns[k]);
+                if k > 0 {
+                    subtract_carry::<S>(a, &mut b[12], &carry, rows);
+                }
+                let largest = if k == window.last {
+                    eliminate_last::<S>(a, &mut b[12])
+                } else if self.additions.spans[k] == Touching::Both {
+                    eliminate::<S, true>(a, b, inverse)
+                } else {
+                    eliminate::<S, false>(a, b, inverse)
+                };
+                squares = squares.largest(largest);
+                if k < window.last {
+                    self.carry::<S>(k, &mut carry);
+                }
             }
-            let largest = if last {
-                eliminate_last::<S>(a, &mut b[12])
-            } else if self.additions.spans[k] == Touching::Both {
-                eliminate::<S, true>(a, b, inverse)
-            } else {
-                eliminate::<S, false>(a, b, inverse)
-            };
-            squares = squares.largest(largest).largest(after.1);
-            inverse = after.0;
-            if !last {
-                self.carry::<S>(k, &mut carry);
-            }
+            squares = squares.largest(early.1);
+            inverse = early.0;
         }
         // The solutions are judged before they are used: all multipliers,
         // and the last node for numbers that are not finite.

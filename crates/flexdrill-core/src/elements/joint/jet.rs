@@ -26,11 +26,11 @@ impl<T: Number> Jet<T> {
         }
     }
 
-    /// Adds `factor` times `other`.
+    /// Adds `factor` times `other`, whose derivatives before the variable `FIRST` are zero.
     #[inline(always)]
-    pub fn add(&mut self, factor: T, other: &Self) {
+    pub fn add<const FIRST: usize>(&mut self, factor: T, other: &Self) {
         self.value = self.value.plus_product(factor, other.value);
-        for k in 0..3 {
+        for k in FIRST..3 {
             self.gradient[k] = self.gradient[k].plus_product(factor, other.gradient[k]);
             for l in k..3 {
                 let sum = self.hessian[k][l].plus_product(factor, other.hessian[k][l]);

@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::jet::Jet;
-use super::rotation::{DirectionJet, shaft_axis, transverse_axis};
+use super::rotation::{DirectionJet, TransverseAxis, shaft_axis, transverse_axis};
 use super::stop::Stop;
 use crate::simd::number::Number;
 use crate::tool::{JointKind, JointPlay, PinFriction};
@@ -71,30 +71,39 @@ pub(super) struct Product<T> {
 }
 
 impl<T: Number> Product<T> {
-    /// Value, gradient (a row of Phi_q, Eq. 16) and second derivatives, by the product rule.
+    /// Value, gradient (a row of Phi_q, Eq. 16) and second derivatives, by the product rule. Derivatives that are zero for
+    /// every motion are left out of the sums.
     #[inline(always)]
-    pub fn of(above: &DirectionJet<T>, relative: &[[T; 3]; 3], below: &DirectionJet<T>) -> Self {
+    pub fn of<const A: usize, const B: usize>(
+        above: &DirectionJet<T, A>,
+        relative: &[[T; 3]; 3],
+        below: &DirectionJet<T, B>,
+    ) -> Self {
         let zero = T::of(0.0);
         let mut out = Self {
             value: zero,
             gradient: [zero; 6],
             hessian: [[zero; 6]; 6],
         };
-        for (a, row) in above.iter().zip(relative) {
+        for (a, row) in above.0.iter().zip(relative) {
             let mut b = Jet::zero();
-            for (part, &factor) in below.iter().zip(row) {
-                b.add(factor, part);
+            for (part, &factor) in below.0.iter().zip(row) {
+                b.add::<B>(factor, part);
             }
             out.value = out.value.plus_product(a.value, b.value);
-            for k in 0..3 {
+            for k in A..3 {
                 out.gradient[k] = out.gradient[k].plus_product(a.gradient[k], b.value);
-                out.gradient[3 + k] = out.gradient[3 + k].plus_product(a.value, b.gradient[k]);
                 for l in k..3 {
                     out.hessian[k][l] = out.hessian[k][l].plus_product(a.hessian[k][l], b.value);
-                    out.hessian[3 + k][3 + l] = out.hessian[3 + k][3 + l].plus_product(a.value, b.hessian[k][l]);
                 }
-                for l in 0..3 {
+                for l in B..3 {
                     out.hessian[k][3 + l] = out.hessian[k][3 + l].plus_product(a.gradient[k], b.gradient[l]);
+                }
+            }
+            for k in B..3 {
+                out.gradient[3 + k] = out.gradient[3 + k].plus_product(a.value, b.gradient[k]);
+                for l in k..3 {
+                    out.hessian[3 + k][3 + l] = out.hessian[3 + k][3 + l].plus_product(a.value, b.hessian[k][l]);
                 }
             }
         }
@@ -170,7 +179,7 @@ impl<M> JointLaw<M> {
 
     /// a_z(a): the arm of the cross that the link above carries.
     #[inline(always)]
-    pub(super) fn upper_arm<T: Number<Memory = M>>(&self, q: &[T; 6]) -> DirectionJet<T> {
+    pub(super) fn upper_arm<T: Number<Memory = M>>(&self, q: &[T; 6]) -> TransverseAxis<T> {
         let angle = q[0] + T::load(&self.phase) + T::of(FRAC_PI_2);
         transverse_axis(angle.sin_cos(), q[1], q[2])
     }

@@ -7,8 +7,12 @@ use nalgebra::Vector3;
 use super::jet::Jet;
 use crate::simd::number::Number;
 
-/// A direction in the link frame with its derivatives in (psi, phi_y, phi_z).
-pub type DirectionJet<T> = [Jet<T>; 3];
+/// A direction in the link frame with its derivatives in (psi, phi_y, phi_z); those by the variables before `FIRST` are zero.
+pub struct DirectionJet<T, const FIRST: usize>(pub [Jet<T>; 3]);
+/// The shaft's own axis, which does not turn with its spin.
+pub type ShaftAxis<T> = DirectionJet<T, 1>;
+/// An axis across the shaft.
+pub type TransverseAxis<T> = DirectionJet<T, 0>;
 
 /// Tilts beyond this (rad) are outside the range in which the series below are exact to rounding.
 pub const LARGEST_TILT: f64 = 1.0;
@@ -142,14 +146,14 @@ impl<T: Number> Tilted<T> {
 /// The node's x axis (the link's own axis after bending), in the link frame: (1 - b s, a z, -a y) with s = y^2 + z^2.
 /// Part of the Lambda of Eq. 11, as [`transverse_axis`].
 #[inline(always)]
-pub fn shaft_axis<T: Number>(y: T, z: T) -> DirectionJet<T> {
+pub fn shaft_axis<T: Number>(y: T, z: T) -> ShaftAxis<T> {
     let s = y * y + z * z;
     let a = Tilted::radial(series(&SINE_RATIO, s), y, z);
     let [b, d, dd] = series(&VERSINE_RATIO, s);
     let bent = Tilted::radial([b * s, b + d * s, T::of(2.0) * d + dd * s], y, z);
     let mut along = bent.negative().jet();
     along.value = along.value + T::of(1.0);
-    [along, a.times_z(z).jet(), a.times_y(y).negative().jet()]
+    DirectionJet([along, a.times_z(z).jet(), a.times_y(y).negative().jet()])
 }
 
 /// The value of [`shaft_axis`] alone.
@@ -165,7 +169,7 @@ pub fn shaft_direction<T: Number>(y: T, z: T) -> [T; 3] {
 /// turned with the node): (a c, cos + b z c, sin - b y c) with c = y sin - z cos. `sin` and `cos` are those of the spin
 /// plus the angle.
 #[inline(always)]
-pub fn transverse_axis<T: Number>((sin, cos): (T, T), y: T, z: T) -> DirectionJet<T> {
+pub fn transverse_axis<T: Number>((sin, cos): (T, T), y: T, z: T) -> TransverseAxis<T> {
     let s = y * y + z * z;
     let a = Tilted::radial(series(&SINE_RATIO, s), y, z);
     let b = Tilted::radial(series(&VERSINE_RATIO, s), y, z);
@@ -178,13 +182,13 @@ pub fn transverse_axis<T: Number>((sin, cos): (T, T), y: T, z: T) -> DirectionJe
     across_z.value = across_z.value + sin;
     across_z.gradient[0] = across_z.gradient[0] + cos;
     across_z.hessian[0][0] = across_z.hessian[0][0] - sin;
-    [a.turned(sin, cos, c, e), across_y, across_z]
+    DirectionJet([a.turned(sin, cos, c, e), across_y, across_z])
 }
 
 /// The value of a direction.
 #[cfg(test)]
-fn value(direction: &DirectionJet<f64>) -> Vector3<f64> {
-    Vector3::new(direction[0].value, direction[1].value, direction[2].value)
+fn value<const FIRST: usize>(direction: &DirectionJet<f64, FIRST>) -> Vector3<f64> {
+    Vector3::from(direction.0.map(|part| part.value))
 }
 
 #[cfg(test)]
@@ -215,7 +219,7 @@ mod tests {
     fn derivatives_are_those_of_differences() {
         let at = [0.4, 0.11, -0.23];
         let h = 1e-5;
-        let f = |x: [f64; 3]| transverse_axis((x[0] + 0.2_f64).sin_cos(), x[1], x[2]);
+        let f = |x: [f64; 3]| transverse_axis((x[0] + 0.2_f64).sin_cos(), x[1], x[2]).0;
         let centre = f(at);
         for i in 0..3 {
             let (mut lo, mut hi) = (at, at);

@@ -23,7 +23,8 @@
 //! the elastic slip is - F / k_t; it is zero where the gap is open. Energy |F|^2 / (2 k_t) is stored.
 
 use super::{GapLaw, Sliding, Touch};
-use crate::simd::number::Lane;
+use crate::simd::number::{Eight, Lane, Number};
+use crate::simd::vector::Vector;
 
 /// Normal force below which nothing sticks (N): a billionth of what a step balances.
 const LEAST_NORMAL: f64 = 1e-9;
@@ -42,108 +43,105 @@ pub(super) struct Bristles {
     step: f64,
 }
 
-/// The friction at the end of a step.
+/// The friction at the end of a step, or that in each of eight lanes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Friction {
+struct Friction<N = f64> {
     /// Force around and along (N).
-    force: [f64; 2],
+    force: [N; 2],
     /// d force / d trial force: around, coupling, along (-).
-    by_trial: [f64; 3],
+    by_trial: [N; 3],
     /// d force / d normal force, around and along (-).
-    by_normal: [f64; 2],
+    by_normal: [N; 2],
 }
 
-impl Friction {
-    const NONE: Self = Self {
-        force: [0.0; 2],
-        by_trial: [0.0; 3],
-        by_normal: [0.0; 2],
-    };
-
-    /// The point of the ellipse of `normal` force (N) and coefficients `mu` that is next to a `trial` force (N).
-    fn next_to(trial: [f64; 2], mu: [f64; 2], normal: f64) -> Self {
-        // Without friction in one direction the ellipse is a line.
-        let sticks = |k: usize| trial[k].abs() <= mu[k] * normal;
-        let line = |k: usize| {
-            if sticks(k) {
-                (trial[k], 1.0, 0.0)
-            } else {
-                let by_normal = mu[k].copysign(trial[k]);
-                (by_normal * normal, 0.0, by_normal)
-            }
-        };
-        match mu.map(|mu| mu > 0.0) {
-            _ if normal < LEAST_NORMAL => Self::NONE,
-            [false, false] => Self::NONE,
-            [true, false] => {
-                let (force, by_trial, by_normal) = line(0);
-                Self {
-                    force: [force, 0.0],
-                    by_trial: [by_trial, 0.0, 0.0],
-                    by_normal: [by_normal, 0.0],
-                }
-            }
-            [false, true] => {
-                let (force, by_trial, by_normal) = line(1);
-                Self {
-                    force: [0.0, force],
-                    by_trial: [0.0, 0.0, by_trial],
-                    by_normal: [0.0, by_normal],
-                }
-            }
-            [true, true] => Self::on_ellipse(trial, mu, normal),
+impl<N: Number> Friction<N> {
+    /// The forces `held` (N), which nothing changes.
+    #[inline(always)]
+    fn held(force: [N; 2]) -> Self {
+        let zero = N::of(0.0);
+        Self {
+            force,
+            by_trial: [zero; 3],
+            by_normal: [zero; 2],
         }
     }
 
-    fn on_ellipse(trial: [f64; 2], mu: [f64; 2], normal: f64) -> Self {
+    /// The point of the ellipse of `normal` force (N) and coefficients `mu` that is next to a `trial` force (N).
+    #[inline(always)]
+    fn next_to(trial: [N; 2], mu: [N; 2], normal: N) -> Self {
+        let (zero, one) = (N::of(0.0), N::of(1.0));
+        // Without friction in one direction the ellipse is a line: that of a circle, with a force in the other direction
+        // only.
+        let full = [0, 1].map(|k| trial[k].where_above(mu[k], zero, zero));
+        let scale = mu.map(|mu| mu.where_above(mu, zero, one));
+        let at = Self::on_ellipse(full, scale, normal);
+
+        let none = Self::held([zero; 2]);
+        let touches = |value: N, otherwise: N| otherwise.where_above(N::of(LEAST_NORMAL), normal, value);
+        let rubs = |k: usize, value: N, otherwise: N| touches(value.where_above(mu[k], zero, otherwise), otherwise);
+        Self {
+            force: [0, 1].map(|k| rubs(k, at.force[k], none.force[k])),
+            by_trial: [
+                rubs(0, at.by_trial[0], none.by_trial[0]),
+                touches(at.by_trial[1], none.by_trial[1]),
+                rubs(1, at.by_trial[2], none.by_trial[2]),
+            ],
+            by_normal: [0, 1].map(|k| rubs(k, at.by_normal[k], none.by_normal[k])),
+        }
+    }
+
+    /// As [`Friction::next_to`] with friction in both directions.
+    #[inline(always)]
+    fn on_ellipse(trial: [N; 2], mu: [N; 2], normal: N) -> Self {
+        let (zero, one) = (N::of(0.0), N::of(1.0));
         let square = mu.map(|mu| mu * mu);
         // Share of the trial force in each direction that remains at lambda, and the length on the unit circle's scale.
-        let parts = |lambda: f64| square.map(|square| square / (square + lambda));
-        let length = |kept: [f64; 2]| {
-            let scaled = [0, 1].map(|k| trial[k] * kept[k] / mu[k]);
-            (scaled[0] * scaled[0] + scaled[1] * scaled[1]).sqrt()
-        };
-        // Within the ellipse the contact sticks, and the trial force is the force.
-        if length([1.0; 2]) <= normal {
-            return Self {
-                force: trial,
-                by_trial: [1.0, 0.0, 1.0],
-                by_normal: [0.0; 2],
-            };
-        }
-        // Newton's method for 1 / length = 1 / normal, which is concave in lambda: from 0 on it never oversteps.
-        let mut lambda = 0.0;
+        let parts = |lambda: N| square.map(|square| square.over(square + lambda));
+        let scaled = |kept: [N; 2]| [0, 1].map(|k| (trial[k] * kept[k]).over(mu[k]));
+        let length = |[around, along]: [N; 2]| (around * around + along * along).root();
+
+        // Newton's method for 1 / length = 1 / normal, which is concave in lambda: from 0 on it never oversteps. Lanes that
+        // have arrived wait for the others where they are.
+        let mut lambda = zero;
         for _ in 0..MOST_STEPS {
             let kept = parts(lambda);
-            let now = length(kept);
-            let excess = now / normal - 1.0;
-            if excess <= ON_THE_ELLIPSE {
+            let scaled = scaled(kept);
+            let now = length(scaled);
+            let excess = now.over(normal) - one;
+            if !N::of(ON_THE_ELLIPSE).any_below(excess) {
                 break;
             }
-            let fall: f64 = (0..2)
-                .map(|k| {
-                    let scaled = trial[k] * kept[k] / mu[k];
-                    scaled * scaled / (square[k] + lambda)
-                })
-                .sum();
-            lambda += excess * now * now / fall;
+            let falls = [0, 1].map(|k| (scaled[k] * scaled[k]).over(square[k] + lambda));
+            let stride = (excess * now * now).over(falls[0] + falls[1]);
+            lambda = lambda + stride.where_above(excess, N::of(ON_THE_ELLIPSE), zero);
         }
+
         // Outside, the closest point of the ellipse: the force with the most dissipation.
         let kept = parts(lambda);
         let force = [0, 1].map(|k| trial[k] * kept[k]);
         // The tangent follows from the condition of the ellipse; along the
         // gradient it is zero, because the size is fixed there.
-        let slope = [0, 1].map(|k| force[k] / square[k]);
+        let slope = [0, 1].map(|k| force[k].over(square[k]));
         let gradient = [0, 1].map(|k| kept[k] * slope[k]);
-        let over = 1.0 / (gradient[0] * slope[0] + gradient[1] * slope[1]);
+        let over = one.over(gradient[0] * slope[0] + gradient[1] * slope[1]);
+        let by_trial = [
+            kept[0] - gradient[0] * gradient[0] * over,
+            -gradient[0] * gradient[1] * over,
+            kept[1] - gradient[1] * gradient[1] * over,
+        ];
+        let by_normal = gradient.map(|gradient| gradient * normal * over);
+
+        // Within the ellipse the contact sticks, and the trial force is the force.
+        let outside = length(scaled([one; 2]));
+        let slips = |value: N, sticks: N| value.where_above(outside, normal, sticks);
         Self {
-            force,
+            force: [0, 1].map(|k| slips(force[k], trial[k])),
             by_trial: [
-                kept[0] - gradient[0] * gradient[0] * over,
-                -gradient[0] * gradient[1] * over,
-                kept[1] - gradient[1] * gradient[1] * over,
+                slips(by_trial[0], one),
+                slips(by_trial[1], zero),
+                slips(by_trial[2], one),
             ],
-            by_normal: gradient.map(|gradient| gradient * normal * over),
+            by_normal: by_normal.map(|share| slips(share, zero)),
         }
     }
 }
@@ -166,7 +164,7 @@ impl Bristles {
     /// Sets the friction of `touches`, the contacts at `stations` lane by lane with their `factors` on the coefficients.
     /// They have moved by `travel` since the start of the step (m; rotations times radius).
     #[inline(always)]
-    pub(super) fn rub(
+    pub(super) fn rub<V: Vector>(
         &self,
         law: &GapLaw,
         stations: impl Iterator<Item = usize>,
@@ -176,53 +174,55 @@ impl Bristles {
     ) {
         // The tangent is by travel and not by velocity, which the factors of the scheme must know.
         touches.by_travel = true;
-        let stiffness = law.bristle_stiffness;
+
+        // Travel and forces are known by contact: what they become is put into lanes.
+        let (mut held, mut slid) = ([Lane::default(); 2], [Lane::default(); 2]);
         for (lane, station) in stations.enumerate() {
-            let held = self.held[station];
-            let mut touch = touches.lane(lane);
+            [held[0][lane], held[1][lane]] = self.held[station];
             let [x, y, z, psi, phi_y, phi_z, ..] = *travel[lane];
-            let sliding = Sliding::of(&touch, &[x, y, z, psi, phi_y, phi_z]);
-            touch.sliding_by = sliding.by;
-            // The force of the step before, less what the travel stretches the bristles by.
-            let trial = [
-                held[0] - stiffness * sliding.around,
-                held[1] - stiffness * sliding.along,
-            ];
-            // Without a step nothing slips: the start evaluates forces that are to be held.
-            let friction = if self.step > 0.0 {
-                Friction::next_to(trial, law.friction(factors[lane]), touch.normal)
-            } else {
-                Friction {
-                    force: held,
-                    ..Friction::NONE
-                }
-            };
-            [touch.tangential, touch.axial] = friction.force;
-            // The tangent multiplies these by the normal force.
-            let per_normal = if self.step > 0.0 && touch.normal >= LEAST_NORMAL {
-                stiffness / touch.normal
-            } else {
-                0.0
-            };
-            let [around, coupling, along] = friction.by_trial.map(|x| per_normal * x);
-            touch.coupling = coupling;
-            for (slip, (speed, (slope, share))) in touch.slip.iter_mut().zip(
-                [sliding.around, sliding.along]
-                    .into_iter()
-                    .zip([around, along].into_iter().zip(friction.by_normal)),
-            ) {
-                // The share of the normal force enters with the other sign, as the slope of friction against sliding.
-                (slip.speed, slip.slope, slip.friction) = (speed, slope, -share);
-            }
-            // Slip is what the travel leaves after the change of the elastic slip.
-            touch.friction_power = if self.step > 0.0 && stiffness > 0.0 {
-                let slipped = [0, 1].map(|k| friction.force[k] * (trial[k] - friction.force[k]));
-                (slipped[0] + slipped[1]) / (stiffness * self.step)
-            } else {
-                0.0
-            };
-            touches.set_lane(lane, &touch);
+            let sliding = Sliding::of(&touches.lane(lane), &[x, y, z, psi, phi_y, phi_z]);
+            [slid[0][lane], slid[1][lane]] = [sliding.around, sliding.along];
+            [touches.sliding_by[0][lane], touches.sliding_by[1][lane]] = sliding.by;
         }
+        let [held, slid]: [[Eight<V>; 2]; 2] = [held, slid].map(|of| of.each_ref().map(Eight::load));
+
+        // The force of the step before, less what the travel stretches the bristles by.
+        let (zero, stiffness) = (Eight::<V>::of(0.0), Eight::of(law.bristle_stiffness));
+        let normal = Eight::load(&touches.normal);
+        let trial = [0, 1].map(|k| held[k] - stiffness * slid[k]);
+        // Without a step nothing slips: the start evaluates forces that are to be held.
+        let moves = self.step > 0.0;
+        let friction = if moves {
+            Friction::next_to(trial, law.friction(Eight::load(factors)), normal)
+        } else {
+            Friction::held(held)
+        };
+        friction.force[0].store(&mut touches.tangential);
+        friction.force[1].store(&mut touches.axial);
+
+        // The tangent multiplies these by the normal force.
+        let per_normal = if moves {
+            zero.where_above(Eight::of(LEAST_NORMAL), normal, stiffness.over(normal))
+        } else {
+            zero
+        };
+        let [around, coupling, along] = friction.by_trial.map(|x| per_normal * x);
+        coupling.store(&mut touches.coupling);
+        for (k, slope) in [around, along].into_iter().enumerate() {
+            slid[k].store(&mut touches.slip[k].speed);
+            slope.store(&mut touches.slip[k].slope);
+            // The share of the normal force enters with the other sign, as the slope of friction against sliding.
+            (-friction.by_normal[k]).store(&mut touches.slip[k].friction);
+        }
+
+        // Slip is what the travel leaves after the change of the elastic slip.
+        let power = if moves && law.bristle_stiffness > 0.0 {
+            let slipped = [0, 1].map(|k| friction.force[k] * (trial[k] - friction.force[k]));
+            (slipped[0] + slipped[1]).over(stiffness * Eight::of(self.step))
+        } else {
+            zero
+        };
+        power.store(&mut touches.friction_power);
     }
 }
 

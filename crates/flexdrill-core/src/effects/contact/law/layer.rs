@@ -7,6 +7,7 @@ use super::bristle::Bristles;
 use super::memory::LayerMemory;
 use super::vector::VectorMemory;
 use super::{GapLaw, Sliding, Touch, separate, vector};
+use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
 use crate::simd::number::{Eight, Lane, Number};
 use crate::simd::vector::Vector;
@@ -171,54 +172,7 @@ impl LayerContacts {
 
     #[inline(always)]
     fn evaluate<V: Vector>(&mut self, law: &GapLaw) {
-        // The velocities were stored by station; the law needs them by component, one station per lane.
-        let mut velocity = [Eight::<V>::of(0.0); 6];
-        for (k, x) in velocity.iter_mut().enumerate() {
-            let mut lanes = Lane::default();
-            for (to, from) in lanes.iter_mut().zip(&self.velocities) {
-                *to = from[k];
-            }
-            *x = Eight::load(&lanes);
-        }
-        let lateral = [Eight::load(&self.lateral[0]), Eight::load(&self.lateral[1])];
-        let mut touch = law.press(lateral, Eight::load(&self.clearance), &velocity);
-        let sliding = Sliding::of(&touch, &velocity);
-        let factor = Eight::load(&self.factor);
-        let waiting = &self.waiting[..self.count];
-        let stations = waiting.iter().map(|&slot| self.found[slot].station);
-        // All gaps are evaluated in order: the eight slots are one group. Where only some are evaluated again, their
-        // slots are scattered over the groups.
-        let lanes = if self.partial {
-            &mut self.scattered
-        } else {
-            &mut self.touches[waiting[0] / 8]
-        };
-        // Press before friction: the normal force is the scale of the friction.
-        match law.surface.friction_law {
-            FrictionLaw::Separate => {
-                separate::rub(law, &mut touch, sliding, factor);
-                touch.store(lanes);
-                self.memory.follow(law, stations, &self.factor, lanes);
-            }
-            FrictionLaw::Vector => {
-                vector::rub(law, &mut touch, sliding, factor);
-                touch.store(lanes);
-                touch.coupling.store(&mut lanes.coupling);
-                self.vector_memory.follow(law, stations, &self.factor, lanes);
-            }
-            // The bristles work by station, as each has its own memory.
-            FrictionLaw::Bristle => {
-                touch.store(lanes);
-                self.bristles.rub(law, stations, &self.factor, lanes, &self.travels);
-            }
-        }
-        // A partial evaluation has its lanes from anywhere; they return to their slots.
-        if self.partial {
-            for (lane, &slot) in waiting.iter().enumerate() {
-                self.touches[slot / 8].set_lane(slot % 8, &self.scattered.lane(lane));
-            }
-        }
-        self.count = 0;
+        V::call(Evaluate { layer: self, law });
     }
 
     /// Number of closed gaps.
@@ -248,5 +202,70 @@ impl LayerContacts {
         found
             .filter(move |(_, found)| found.closed && wanted(found.station))
             .map(move |(slot, found)| (found.station, touch(slot)))
+    }
+}
+
+/// The law of the gap for the contacts that wait.
+struct Evaluate<'a> {
+    layer: &'a mut LayerContacts,
+    law: &'a GapLaw,
+}
+
+impl Kernel for Evaluate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { layer, law } = self;
+        // The velocities were stored by station; the law needs them by component, one station per lane.
+        let mut velocity = [Eight::<V>::of(0.0); 6];
+        for (k, x) in velocity.iter_mut().enumerate() {
+            let mut lanes = Lane::default();
+            for (to, from) in lanes.iter_mut().zip(&layer.velocities) {
+                *to = from[k];
+            }
+            *x = Eight::load(&lanes);
+        }
+        let lateral = [Eight::load(&layer.lateral[0]), Eight::load(&layer.lateral[1])];
+        let mut touch = law.press(lateral, Eight::load(&layer.clearance), &velocity);
+        let sliding = Sliding::of(&touch, &velocity);
+        let factor = Eight::load(&layer.factor);
+        let waiting = &layer.waiting[..layer.count];
+        let stations = waiting.iter().map(|&slot| layer.found[slot].station);
+        // All gaps are evaluated in order: the eight slots are one group. Where only some are evaluated again, their
+        // slots are scattered over the groups.
+        let lanes = if layer.partial {
+            &mut layer.scattered
+        } else {
+            &mut layer.touches[waiting[0] / 8]
+        };
+        // Press before friction: the normal force is the scale of the friction.
+        match law.surface.friction_law {
+            FrictionLaw::Separate => {
+                separate::rub(law, &mut touch, sliding, factor);
+                touch.store(lanes);
+                layer.memory.follow(law, stations, &layer.factor, lanes);
+            }
+            FrictionLaw::Vector => {
+                vector::rub(law, &mut touch, sliding, factor);
+                touch.store(lanes);
+                touch.coupling.store(&mut lanes.coupling);
+                layer.vector_memory.follow(law, stations, &layer.factor, lanes);
+            }
+            // The bristles work by station, as each has its own memory.
+            FrictionLaw::Bristle => {
+                touch.store(lanes);
+                layer
+                    .bristles
+                    .rub::<V>(law, stations, &layer.factor, lanes, &layer.travels);
+            }
+        }
+        // A partial evaluation has its lanes from anywhere; they return to their slots.
+        if layer.partial {
+            for (lane, &slot) in waiting.iter().enumerate() {
+                layer.touches[slot / 8].set_lane(slot % 8, &layer.scattered.lane(lane));
+            }
+        }
+        layer.count = 0;
     }
 }

@@ -317,7 +317,7 @@ impl GapLaw {
         let viscous = zero.largest(one.plus_product(c, closing));
         let spring = k * depth;
         let normal = spring * viscous;
-        let by_rate = (spring * c).where_above(viscous, zero);
+        let by_rate = (spring * c).where_above(viscous, zero, zero);
         let nothing = Slip {
             speed: zero,
             friction: zero,
