@@ -78,3 +78,24 @@ fn machines_agree_to_the_bit() {
         }
     }
 }
+
+/// A vector instruction is a function where a kernel's closure was compiled by itself, without the instructions that the
+/// kernel around it has: a call for each product. The names of functions are in the symbol table of this test's program.
+#[cfg(all(target_arch = "x86_64", target_os = "linux"))]
+#[test]
+#[cfg_attr(debug_assertions, ignore = "without optimisation every instruction is a function")]
+fn vector_instructions_are_compiled_into_the_kernels() {
+    let program = std::fs::read(std::env::current_exe().unwrap()).unwrap();
+    let names = program.split(|byte| !byte.is_ascii_alphanumeric() && !b"_.$".contains(byte));
+    let names: Vec<_> = names.filter_map(|name| std::str::from_utf8(name).ok()).collect();
+    let kernels = names.iter().filter(|name| name.contains("with_avx2")).count();
+    assert!(kernels > 20, "{kernels} kernels: the program has no symbols");
+    let called: std::collections::BTreeSet<_> = (names.iter())
+        .filter(|name| {
+            ["3x863avx", "3x863fma", "3x867avx512"]
+                .iter()
+                .any(|group| name.contains(group))
+        })
+        .collect();
+    assert!(called.is_empty(), "{called:#?}");
+}

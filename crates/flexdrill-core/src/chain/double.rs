@@ -2,6 +2,7 @@
 
 use super::NODE as SIZE;
 use super::columns::load;
+use crate::simd::Kernel;
 use crate::simd::vector::Vector;
 
 /// Ratio of the diagonal entry to the largest candidate below which rows are exchanged. Stiffness and inertia dominate
@@ -150,26 +151,32 @@ struct Pivots {
     partner: [f64; SIZE],
 }
 
-/// Eliminates pivots k and k + 1 one after the other, with rows exchanged where that is better.
-#[cold]
-#[inline(never)]
-fn one_by_one<V: Vector, const C: usize>(
+/// Eliminates pivots k and k + 1 one after the other, with rows exchanged where that is better; seldom needed.
+struct OneByOne<'a, const C: usize> {
     k: usize,
-    a: &mut [[f64; SIZE]; SIZE],
-    b: &mut [[f64; SIZE]; C],
-    pivots: &mut Pivots,
-) -> Result<(), f64> {
-    for k in k..k + 2 {
-        if !is_large_enough::<V>(&a[k], k) {
-            exchange(k, a, b)?;
+    a: &'a mut [[f64; SIZE]; SIZE],
+    b: &'a mut [[f64; SIZE]; C],
+    pivots: &'a mut Pivots,
+}
+
+impl<const C: usize> Kernel for OneByOne<'_, C> {
+    type Output = Result<(), f64>;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Result<(), f64> {
+        let Self { k, a, b, pivots } = self;
+        for k in k..k + 2 {
+            if !is_large_enough::<V>(&a[k], k) {
+                exchange(k, a, b)?;
+            }
+            let next: Pivot<V> = pivot(&a[k], k);
+            (pivots.own[k], pivots.partner[k]) = (next.reciprocal, 0.0);
+            for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
+                subtract(column, next.multipliers, column[k]);
+            }
         }
-        let next: Pivot<V> = pivot(&a[k], k);
-        (pivots.own[k], pivots.partner[k]) = (next.reciprocal, 0.0);
-        for column in a[k + 1..].iter_mut().chain(b.iter_mut()) {
-            subtract(column, next.multipliers, column[k]);
-        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Solves `a x = b` for all columns of `b` in place; `a` is destroyed. The last column of `b` is full; of the others,
@@ -203,7 +210,8 @@ pub(super) fn sixteen<V: Vector, const C: usize>(
             pivots.own[k..k + 2].copy_from_slice(&pair.own);
             pivots.partner[k..k + 2].copy_from_slice(&pair.partner);
         } else {
-            one_by_one::<V, C>(k, a, b, &mut pivots)?;
+            let pivots = &mut pivots;
+            V::call(OneByOne { k, a, b, pivots })?;
             exchanged = true;
         }
         k += 2;

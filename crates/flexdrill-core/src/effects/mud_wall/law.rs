@@ -114,6 +114,13 @@ fn dot<N: Number>(x: [N; 2], y: [N; 2]) -> N {
     (x[0] * y[0]).plus_product(x[1], y[1])
 }
 
+/// The smaller of two numbers.
+#[inline(always)]
+fn smaller<N: Number>(x: N, y: N) -> N {
+    let zero = N::of(0.0);
+    -(zero - x).largest(zero - y)
+}
+
 impl<N: Number> NearWall<N> {
     /// What the mud takes.
     #[inline(always)]
@@ -123,7 +130,6 @@ impl<N: Number> NearWall<N> {
         let (away, closing, speed) = (dot(d, d), dot(d, v), dot(v, v));
         let eccentricity = away * self.per_square;
         let most = N::of(MOST);
-        let smaller = |x: N, y: N| -(zero - x).largest(zero - y);
         let u = smaller(eccentricity, most);
         let beyond = smaller((eccentricity - most).largest(zero), N::of(BEYOND));
         let s = (one - u).root();

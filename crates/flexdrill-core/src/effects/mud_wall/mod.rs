@@ -103,8 +103,8 @@ impl MudWall {
     /// What it takes in span `l`, in the lanes of its stations: from the pipe in the guide, and from the guide in the hole.
     #[inline(always)]
     fn taken<V: Vector>(&self, l: usize) -> [Taken<Eight<V>>; 2] {
-        let of = |layer: usize| take::<V>(&self.walls[l][layer], &self.motions[l][layer]);
-        [of(0), of(1)]
+        let (walls, motions) = (&self.walls[l], &self.motions[l]);
+        [take(&walls[0], &motions[0]), take(&walls[1], &motions[1])]
     }
 }
 

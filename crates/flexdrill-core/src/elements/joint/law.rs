@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::jet::Jet;
-use super::rotation::{DirectionJet, TransverseAxis, shaft_axis, transverse_axis};
+use super::rotation::{DirectionJet, TransverseAxis, shaft_axis, transverse_axes, transverse_axis};
 use super::stop::Stop;
 use crate::simd::number::Number;
 use crate::tool::{JointKind, JointPlay, PinFriction};
@@ -159,12 +159,9 @@ impl<M> JointLaw<M> {
     /// moment lies along that bisector.
     #[inline(always)]
     fn equal_spin_row<T: Number<Memory = M>>(&self, q: &[T; 6], row: &mut RotationFunction<M>) {
-        let axes = |psi: T, y: T, z: T| {
-            let (sin, cos) = psi.sin_cos();
-            (transverse_axis((sin, cos), y, z), transverse_axis((cos, -sin), y, z))
-        };
-        let (relative, (upper_y, upper_z)) = (self.relative(), axes(q[0], q[1], q[2]));
-        let (lower_y, lower_z) = axes(q[3], q[4], q[5]);
+        let relative = self.relative();
+        let [upper_y, upper_z] = transverse_axes(q[0], q[1], q[2]);
+        let [lower_y, lower_z] = transverse_axes(q[3], q[4], q[5]);
         let product = Product::of(&upper_y, &relative, &lower_z);
         row.set(&product.less(&Product::of(&upper_z, &relative, &lower_y)));
     }

@@ -185,6 +185,13 @@ pub fn transverse_axis<T: Number>((sin, cos): (T, T), y: T, z: T) -> TransverseA
     DirectionJet([a.turned(sin, cos, c, e), across_y, across_z])
 }
 
+/// The node's y and z axes at a spin, as [`transverse_axis`].
+#[inline(always)]
+pub fn transverse_axes<T: Number>(psi: T, y: T, z: T) -> [TransverseAxis<T>; 2] {
+    let (sin, cos) = psi.sin_cos();
+    [transverse_axis((sin, cos), y, z), transverse_axis((cos, -sin), y, z)]
+}
+
 /// The value of a direction.
 #[cfg(test)]
 fn value<const FIRST: usize>(direction: &DirectionJet<f64, FIRST>) -> Vector3<f64> {

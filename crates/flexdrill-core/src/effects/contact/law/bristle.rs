@@ -70,80 +70,83 @@ impl<N: Number> Friction<N> {
     #[inline(always)]
     fn next_to(trial: [N; 2], mu: [N; 2], normal: N) -> Self {
         let (zero, one) = (N::of(0.0), N::of(1.0));
-        // Without friction in one direction the ellipse is a line: that of a circle, with a force in the other direction
-        // only.
-        let full = [0, 1].map(|k| trial[k].where_above(mu[k], zero, zero));
-        let scale = mu.map(|mu| mu.where_above(mu, zero, one));
-        let at = Self::on_ellipse(full, scale, normal);
-
-        let none = Self::held([zero; 2]);
-        let touches = |value: N, otherwise: N| otherwise.where_above(N::of(LEAST_NORMAL), normal, value);
-        let rubs = |k: usize, value: N, otherwise: N| touches(value.where_above(mu[k], zero, otherwise), otherwise);
-        Self {
-            force: [0, 1].map(|k| rubs(k, at.force[k], none.force[k])),
-            by_trial: [
-                rubs(0, at.by_trial[0], none.by_trial[0]),
-                touches(at.by_trial[1], none.by_trial[1]),
-                rubs(1, at.by_trial[2], none.by_trial[2]),
-            ],
-            by_normal: [0, 1].map(|k| rubs(k, at.by_normal[k], none.by_normal[k])),
+        // Without friction in one direction the ellipse is a line: a circle, and a force in the other direction only.
+        let (mut full, mut scale) = (trial, mu);
+        for k in 0..2 {
+            full[k] = trial[k].where_above(mu[k], zero, zero);
+            scale[k] = mu[k].where_above(mu[k], zero, one);
         }
+        let mut out = Self::on_ellipse(full, scale, normal);
+
+        // That direction has neither force nor slope; without a normal force none has.
+        let least = N::of(LEAST_NORMAL);
+        for k in 0..2 {
+            out.force[k] = zero.where_above(least, normal, out.force[k].where_above(mu[k], zero, zero));
+            out.by_trial[2 * k] = zero.where_above(least, normal, out.by_trial[2 * k].where_above(mu[k], zero, zero));
+            out.by_normal[k] = zero.where_above(least, normal, out.by_normal[k].where_above(mu[k], zero, zero));
+        }
+        out.by_trial[1] = zero.where_above(least, normal, out.by_trial[1]);
+        out
     }
 
     /// As [`Friction::next_to`] with friction in both directions.
     #[inline(always)]
     fn on_ellipse(trial: [N; 2], mu: [N; 2], normal: N) -> Self {
         let (zero, one) = (N::of(0.0), N::of(1.0));
-        let square = mu.map(|mu| mu * mu);
-        // Share of the trial force in each direction that remains at lambda, and the length on the unit circle's scale.
-        let parts = |lambda: N| square.map(|square| square.over(square + lambda));
-        let scaled = |kept: [N; 2]| [0, 1].map(|k| (trial[k] * kept[k]).over(mu[k]));
-        let length = |[around, along]: [N; 2]| (around * around + along * along).root();
+        let square = [mu[0] * mu[0], mu[1] * mu[1]];
 
         // Newton's method for 1 / length = 1 / normal, which is concave in lambda: from 0 on it never oversteps. Lanes that
         // have arrived wait for the others where they are.
         let mut lambda = zero;
+        let mut kept = [one; 2];
+        // At first the length of the trial force: within the ellipse the contact sticks.
+        let at_first = on_circle(trial, kept, mu).1;
         for _ in 0..MOST_STEPS {
-            let kept = parts(lambda);
-            let scaled = scaled(kept);
-            let now = length(scaled);
+            let (scaled, now) = on_circle(trial, kept, mu);
             let excess = now.over(normal) - one;
             if !N::of(ON_THE_ELLIPSE).any_below(excess) {
                 break;
             }
-            let falls = [0, 1].map(|k| (scaled[k] * scaled[k]).over(square[k] + lambda));
+            let falls = [
+                (scaled[0] * scaled[0]).over(square[0] + lambda),
+                (scaled[1] * scaled[1]).over(square[1] + lambda),
+            ];
             let stride = (excess * now * now).over(falls[0] + falls[1]);
             lambda = lambda + stride.where_above(excess, N::of(ON_THE_ELLIPSE), zero);
+            // The share of the trial force that remains at lambda.
+            kept = [square[0].over(square[0] + lambda), square[1].over(square[1] + lambda)];
         }
 
         // Outside, the closest point of the ellipse: the force with the most dissipation.
-        let kept = parts(lambda);
-        let force = [0, 1].map(|k| trial[k] * kept[k]);
+        let force = [trial[0] * kept[0], trial[1] * kept[1]];
         // The tangent follows from the condition of the ellipse; along the
         // gradient it is zero, because the size is fixed there.
-        let slope = [0, 1].map(|k| force[k].over(square[k]));
-        let gradient = [0, 1].map(|k| kept[k] * slope[k]);
+        let slope = [force[0].over(square[0]), force[1].over(square[1])];
+        let gradient = [kept[0] * slope[0], kept[1] * slope[1]];
         let over = one.over(gradient[0] * slope[0] + gradient[1] * slope[1]);
-        let by_trial = [
-            kept[0] - gradient[0] * gradient[0] * over,
-            -gradient[0] * gradient[1] * over,
-            kept[1] - gradient[1] * gradient[1] * over,
-        ];
-        let by_normal = gradient.map(|gradient| gradient * normal * over);
 
-        // Within the ellipse the contact sticks, and the trial force is the force.
-        let outside = length(scaled([one; 2]));
-        let slips = |value: N, sticks: N| value.where_above(outside, normal, sticks);
-        Self {
-            force: [0, 1].map(|k| slips(force[k], trial[k])),
-            by_trial: [
-                slips(by_trial[0], one),
-                slips(by_trial[1], zero),
-                slips(by_trial[2], one),
-            ],
-            by_normal: by_normal.map(|share| slips(share, zero)),
+        // Within the ellipse the trial force is the force.
+        let coupling = (-gradient[0]) * gradient[1] * over;
+        let mut out = Self {
+            force,
+            by_trial: [zero, coupling.where_above(at_first, normal, zero), zero],
+            by_normal: [zero; 2],
+        };
+        for k in 0..2 {
+            let by_trial = kept[k] - gradient[k] * gradient[k] * over;
+            out.force[k] = force[k].where_above(at_first, normal, trial[k]);
+            out.by_trial[2 * k] = by_trial.where_above(at_first, normal, one);
+            out.by_normal[k] = (gradient[k] * normal * over).where_above(at_first, normal, zero);
         }
+        out
     }
+}
+
+/// The shares `kept` of a `trial` force on the scale on which the ellipse is a circle, and their length.
+#[inline(always)]
+fn on_circle<N: Number>(trial: [N; 2], kept: [N; 2], mu: [N; 2]) -> ([N; 2], N) {
+    let scaled = [(trial[0] * kept[0]).over(mu[0]), (trial[1] * kept[1]).over(mu[1])];
+    (scaled, (scaled[0] * scaled[0] + scaled[1] * scaled[1]).root())
 }
 
 impl Bristles {
@@ -184,12 +187,13 @@ impl Bristles {
             [slid[0][lane], slid[1][lane]] = [sliding.around, sliding.along];
             [touches.sliding_by[0][lane], touches.sliding_by[1][lane]] = sliding.by;
         }
-        let [held, slid]: [[Eight<V>; 2]; 2] = [held, slid].map(|of| of.each_ref().map(Eight::load));
+        let held = [Eight::<V>::load(&held[0]), Eight::load(&held[1])];
+        let slid = [Eight::<V>::load(&slid[0]), Eight::load(&slid[1])];
 
         // The force of the step before, less what the travel stretches the bristles by.
         let (zero, stiffness) = (Eight::<V>::of(0.0), Eight::of(law.bristle_stiffness));
         let normal = Eight::load(&touches.normal);
-        let trial = [0, 1].map(|k| held[k] - stiffness * slid[k]);
+        let trial = [held[0] - stiffness * slid[0], held[1] - stiffness * slid[1]];
         // Without a step nothing slips: the start evaluates forces that are to be held.
         let moves = self.step > 0.0;
         let friction = if moves {
@@ -206,18 +210,20 @@ impl Bristles {
         } else {
             zero
         };
-        let [around, coupling, along] = friction.by_trial.map(|x| per_normal * x);
-        coupling.store(&mut touches.coupling);
-        for (k, slope) in [around, along].into_iter().enumerate() {
+        (per_normal * friction.by_trial[1]).store(&mut touches.coupling);
+        for k in 0..2 {
             slid[k].store(&mut touches.slip[k].speed);
-            slope.store(&mut touches.slip[k].slope);
+            (per_normal * friction.by_trial[2 * k]).store(&mut touches.slip[k].slope);
             // The share of the normal force enters with the other sign, as the slope of friction against sliding.
             (-friction.by_normal[k]).store(&mut touches.slip[k].friction);
         }
 
         // Slip is what the travel leaves after the change of the elastic slip.
         let power = if moves && law.bristle_stiffness > 0.0 {
-            let slipped = [0, 1].map(|k| friction.force[k] * (trial[k] - friction.force[k]));
+            let slipped = [
+                friction.force[0] * (trial[0] - friction.force[0]),
+                friction.force[1] * (trial[1] - friction.force[1]),
+            ];
             (slipped[0] + slipped[1]).over(stiffness * Eight::of(self.step))
         } else {
             zero

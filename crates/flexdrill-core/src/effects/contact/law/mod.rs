@@ -295,7 +295,11 @@ impl GapLaw {
     /// Coefficients of friction around and along, at stations with this factor on both.
     #[inline(always)]
     fn friction<N: Number>(&self, factor: N) -> [N; 2] {
-        [self.surface.friction_tangential, self.surface.friction_axial].map(|mu| N::of(mu) * factor)
+        let surface = &self.surface;
+        [
+            N::of(surface.friction_tangential) * factor,
+            N::of(surface.friction_axial) * factor,
+        ]
     }
 
     /// The contact of a closed gap at lateral displacement `lateral` (y, z; offsets included) and local velocity

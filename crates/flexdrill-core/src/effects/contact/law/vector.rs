@@ -37,7 +37,7 @@ pub(super) fn rub<N: Number>(law: &GapLaw, touch: &mut Touch<N>, sliding: Slidin
     let width = width(law, mu);
     let square = (width * width).plus_product(scaled[0], scaled[0]);
     let over = one.over(square.plus_product(scaled[1], scaled[1]).root());
-    let share = scaled.map(|x| x * over);
+    let share = [scaled[0] * over, scaled[1] * over];
     let (around, along) = (mu_around * share[0], mu_along * share[1]);
     touch.slip = [
         Slip {
