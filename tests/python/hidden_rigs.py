@@ -10,7 +10,8 @@ with its plausible tools (`flexdrill replay LOG --members N`), and its bands are
 The twin gets the log and the configuration that is under test, and nothing else. With --twin it has another one than the
 rigs are drawn from: one with a coarser mesh takes less time, and errs by that too.
 
-DIR/rig_NNN.json has the figures of one rig: a run that was interrupted continues where it was. DIR/scores.md has the
+DIR/rig_NNN.json has the figures of one rig: a run that was interrupted continues where it was, and one that begins with
+those of tests/data/hidden_rigs adds to them. DIR/scores.md has the
 tables. DIR/factors.yaml has the factors on the bands (`ensemble.band_factors`) with which a band holds 90 % of what
 another rig of the same population does. Each rig judges factors by all others, which have not seen it. Factors that the
 configuration already has are taken out first. Ends with 77 when packages are missing.
@@ -295,25 +296,48 @@ def field(message, path):
     return getattr(message, path.split("/")[1])
 
 
+def needed(real, low, middle, high):
+    """The factor on a band with which it holds the truth; None if there is none."""
+    half = high - middle if real > middle else middle - low
+    off = abs(real - middle)
+    return 0.0 if off == 0 else round(off / half, 3) if half > 0 else None
+
+
 def compared(truth, twin, first, names):
-    """What is judged of one rig: for each second the truth, band and the twin's own figure; alarms with their chances."""
+    """What is judged of one rig.
+
+    For each figure by the second the factor on the members' band with which it holds the truth, the width of the band in
+    parts of its middle in the first and the last third, and by which share the twin's own figure was off; the alarms that
+    came, with their chances.
+    """
     begins = min(twin["bands"], default=0)
     offset = min(twin["transfer"]) - first
     seconds = [second for second in sorted(twin["bands"]) if second - offset in truth["transfer"] and second > begins + SETTLING]
-    bands = defaultdict(list)
+    factors, widths, off = defaultdict(list), defaultdict(list), defaultdict(list)
     for second in seconds:
         message = twin["bands"][second]
-        factors = getattr(message, "band_factors", [])
-        of = {band.name: (band, factor) for band, factor in zip(message.bands, factors, strict=True)}
+        of = {band.name: (band, factor) for band, factor in zip(message.bands, message.band_factors, strict=True)}
         for name, path in JUDGED.items():
             topic = path.split("/")[0]
             (band, factor), real, own = of.get(path, (None, 1.0)), truth[topic].get(second - offset), twin[topic].get(second)
-            if band is not None and real is not None and own is not None and math.isfinite(band.p5):
-                since = second - first - offset
-                # As of the members themselves, so that factors are of one kind whatever the configuration has.
-                low, high = (band.p50 + (end - band.p50) / factor for end in (band.p5, band.p95))
-                row = [since, field(real, path), low, band.p50, high, field(own, path), message.effective]
-                bands[name].append(row)
+            if band is None or real is None or own is None or not math.isfinite(band.p5):
+                continue
+            # As of the members themselves, so that factors are of one kind whatever the configuration has.
+            low, high = (band.p50 + (end - band.p50) / factor for end in (band.p5, band.p95))
+            real, own = field(real, path), field(own, path)
+            factors[name].append(needed(real, low, band.p50, high))
+            if band.p50:
+                widths[name].append((high - low) / abs(band.p50))
+            if real:
+                off[name].append(abs(own - real) / abs(real))
+    bands = {
+        name: {
+            "needed": rows,
+            "width": [round(mean(part), 3) for part in ends_of(widths[name])] if widths[name] else None,
+            "twin_off": round(mean(off[name]), 3) if off[name] else None,
+        }
+        for name, rows in factors.items()
+    }
     # The next minute: whether an alarm of the tool stands within it in the hidden rig.
     real = standing(truth, range(first, first + len(truth["transfer"]) + 1))
     own = standing(twin, range(first + offset, first + offset + len(twin["transfer"]) + 1))
@@ -321,15 +345,22 @@ def compared(truth, twin, first, names):
     alarms = []
     for second in seconds[::10]:
         now = second - offset
-        if now + WITHIN <= last:
-            came = any(real[later] for later in range(now, now + WITHIN))
-            alarms.append([twin["bands"][second].any_alarm, bool(own.get(second)), came])
+        chance = twin["bands"][second].any_alarm
+        if now + WITHIN <= last and math.isfinite(chance):
+            came = sorted({name for later in range(now, now + WITHIN) for name in real[later]})
+            alarms.append({"chance": round(chance, 3), "twin": bool(own.get(second)), "came": came})
     stands = [
         any(alarm.id == "rig_disagrees" and alarm.active for alarm in twin["alarms"][second].alarms)
         for second in sorted(twin["alarms"])
     ]
     begins = sum(now and not before for before, now in zip([False, *stands], stands))
     return {"structures": names, "bands": bands, "alarms": alarms, "disagrees": begins, "seconds": len(seconds)}
+
+
+def ends_of(values):
+    """The first and the last third."""
+    third = max(len(values) // 3, 1)
+    return values[:third], values[-third:]
 
 
 def wilson(share, count):
@@ -347,26 +378,14 @@ def mean(values):
     return sum(values) / len(values) if values else math.nan
 
 
-def needed(row):
-    """The factor on the members' band with which it holds the truth of a second."""
-    _, real, low, middle, high, _, _ = row
-    half = high - middle if real > middle else middle - low
-    off = abs(real - middle)
-    return 0.0 if off == 0 else off / half if half > 0 else math.inf
-
-
-def widened_rows(rows, factor):
-    """Rows with bands that are wider by a factor."""
-    return [
-        [since, real, middle - factor * (middle - low), middle, middle + factor * (high - middle), own, effective]
-        for since, real, low, middle, high, own, effective in rows
-    ]
+def factors_needed(rig, name):
+    """The factors with which the band of a figure holds a rig's truth, by the second."""
+    return [math.inf if factor is None else factor for factor in rig["bands"].get(name, {}).get("needed", [])]
 
 
 def held(rigs, name, factor):
     """Shares of the seconds in which the band holds, by rig."""
-    of_rigs = (widened_rows(rig["bands"].get(name, []), factor) for rig in rigs)
-    return [mean(low <= real <= high for _, real, low, _, high, _, _ in rows) for rows in of_rigs if rows]
+    return [mean(by <= factor for by in rows) for rows in (factors_needed(rig, name) for rig in rigs) if rows]
 
 
 def standard_error(values):
@@ -375,7 +394,7 @@ def standard_error(values):
 
 def factor(rigs, name):
     """The factor on the bands of a figure with which they hold another rig, by these; None of too few."""
-    found = conformal.quantile([[needed(row) for row in rig["bands"].get(name, [])] for rig in rigs], HOLDS)
+    found = conformal.quantile([factors_needed(rig, name) for rig in rigs], HOLDS)
     # Bands that hold more than asked for are not made narrower than the members say.
     return None if found is None else max(1.0, math.ceil(100 * found) / 100)
 
@@ -418,28 +437,17 @@ def tables(rigs, options):
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in JUDGED:
-        all_of, early, late, ratio, error = [], [], [], [], []
-        for rig in rigs:
-            rows = rig["bands"].get(name, [])
-            if not rows:
-                continue
-            inside = [low <= real <= high for _, real, low, _, high, _, _ in rows]
-            third = max(len(rows) // 3, 1)
-            all_of.append(mean(inside))
-            early.append(mean(inside[:third]))
-            late.append(mean(inside[-third:]))
-            # Widths in parts of the middle, since the plan moves both.
-            width = [(high - low) / abs(middle) if middle else math.nan for _, _, low, middle, high, _, _ in rows]
-            known = [[value for value in part if math.isfinite(value)] for part in (width[:third], width[-third:])]
-            ratio.append(mean(known[1]) / mean(known[0]) if known[0] and known[1] else math.nan)
-            error.append(mean(abs(own - real) / abs(real) for _, real, _, _, _, own, _ in rows if real))
-        spread = standard_error(all_of)
-        finite = [value for value in ratio if math.isfinite(value)]
+        of = [rig["bands"][name] for rig in rigs if name in rig["bands"]]
+        inside = [[by <= 1 for by in factors_needed(rig, name)] for rig in rigs if name in rig["bands"]]
+        all_of = [mean(rows) for rows in inside]
+        early, late = ([mean(ends_of(rows)[end]) for rows in inside] for end in (0, 1))
+        ratio = [bands["width"][1] / bands["width"][0] for bands in of if bands["width"] and bands["width"][0]]
+        error = [bands["twin_off"] for bands in of if bands["twin_off"] is not None]
         out.append(
-            f"| {name} | {mean(all_of):.2f} | {spread:.2f} | {mean(early):.2f} | {mean(late):.2f} | {mean(finite):.2f} | "
-            f"{mean(error):.2f} |"
+            f"| {name} | {mean(all_of):.2f} | {standard_error(all_of):.2f} | {mean(early):.2f} | {mean(late):.2f} | "
+            f"{mean(ratio):.2f} | {mean(error):.2f} |"
         )
-    alarms = [row for rig in rigs for row in rig["alarms"] if math.isfinite(row[0])]
+    alarms = [(row["chance"], row["twin"], bool(row["came"])) for rig in rigs for row in rig["alarms"]]
     climate = mean(came for _, _, came in alarms)
     brier = [
         ("plausible tools", mean((chance - came) ** 2 for chance, _, came in alarms)),

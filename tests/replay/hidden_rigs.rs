@@ -61,12 +61,16 @@ fn plausible_tools_hold_what_a_rig_of_another_structure_does() {
     let (mut inside, mut all) = (0, 0);
     for rig in &rigs {
         assert_eq!(rig["structures"].as_array().unwrap().len(), 3);
-        for row in rig["bands"]["bit torque"].as_array().unwrap() {
-            let [truth, low, high] = [1, 2, 4].map(|at: usize| row[at].as_f64().unwrap());
-            assert!(low <= high && low.is_finite() && high.is_finite(), "{row}");
-            inside += u32::from(low <= truth && truth <= high);
+        let torque = &rig["bands"]["bit torque"];
+        for factor in torque["needed"].as_array().unwrap() {
+            // None where the truth is beside a band without width.
+            let factor = factor.as_f64().unwrap_or(f64::INFINITY);
+            assert!(factor >= 0.0, "{factor}");
+            inside += u32::from(factor <= 1.0);
             all += 1;
         }
+        let [early, late] = [0, 1].map(|end: usize| torque["width"][end].as_f64().unwrap());
+        assert!(early > 0.0 && late > 0.0, "{torque}");
     }
     // 30 of 90 s settle, and the bands of the last second may come after the end of the truth.
     assert!(all >= 58, "{all} seconds were judged");

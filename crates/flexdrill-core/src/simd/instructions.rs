@@ -109,7 +109,8 @@ pub(crate) trait Kernel {
     type Output;
 
     /// Computes the result. Implementations and everything that they call with `V` are `#[inline(always)]`: the code
-    /// must end up inside the function that carries the target feature.
+    /// must end up inside the function that carries the target feature. A closure cannot be marked so, and a large one
+    /// becomes a function that calls another one for each product; `mechanics_machines` finds those.
     fn run<V: Vector>(self) -> Self::Output;
 }
 

@@ -72,18 +72,18 @@ impl<N: Number> Friction<N> {
         let (zero, one) = (N::of(0.0), N::of(1.0));
         // Without friction in one direction the ellipse is a line: a circle, and a force in the other direction only.
         let (mut full, mut scale) = (trial, mu);
-        for k in 0..2 {
-            full[k] = trial[k].where_above(mu[k], zero, zero);
-            scale[k] = mu[k].where_above(mu[k], zero, one);
+        for (k, mu) in mu.iter().enumerate() {
+            full[k] = trial[k].where_above(*mu, zero, zero);
+            scale[k] = mu.where_above(*mu, zero, one);
         }
         let mut out = Self::on_ellipse(full, scale, normal);
 
         // That direction has neither force nor slope; without a normal force none has.
         let least = N::of(LEAST_NORMAL);
-        for k in 0..2 {
-            out.force[k] = zero.where_above(least, normal, out.force[k].where_above(mu[k], zero, zero));
-            out.by_trial[2 * k] = zero.where_above(least, normal, out.by_trial[2 * k].where_above(mu[k], zero, zero));
-            out.by_normal[k] = zero.where_above(least, normal, out.by_normal[k].where_above(mu[k], zero, zero));
+        for (k, mu) in mu.iter().enumerate() {
+            out.force[k] = zero.where_above(least, normal, out.force[k].where_above(*mu, zero, zero));
+            out.by_trial[2 * k] = zero.where_above(least, normal, out.by_trial[2 * k].where_above(*mu, zero, zero));
+            out.by_normal[k] = zero.where_above(least, normal, out.by_normal[k].where_above(*mu, zero, zero));
         }
         out.by_trial[1] = zero.where_above(least, normal, out.by_trial[1]);
         out
@@ -211,8 +211,8 @@ impl Bristles {
             zero
         };
         (per_normal * friction.by_trial[1]).store(&mut touches.coupling);
-        for k in 0..2 {
-            slid[k].store(&mut touches.slip[k].speed);
+        for (k, slid) in slid.iter().enumerate() {
+            slid.store(&mut touches.slip[k].speed);
             (per_normal * friction.by_trial[2 * k]).store(&mut touches.slip[k].slope);
             // The share of the normal force enters with the other sign, as the slope of friction against sliding.
             (-friction.by_normal[k]).store(&mut touches.slip[k].friction);
