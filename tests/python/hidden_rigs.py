@@ -11,8 +11,8 @@ The twin gets the log and the configuration that is under test, and nothing else
 rigs are drawn from: one with a coarser mesh takes less time, and errs by that too.
 
 DIR/rig_NNN.json has the figures of one rig: a run that was interrupted continues where it was, and one that begins with
-those of tests/data/hidden_rigs adds to them. DIR/scores.md has the
-tables. DIR/factors.yaml has the factors on the bands (`ensemble.band_factors`) with which a band holds 90 % of what
+those of tests/data/hidden_rigs adds to them. DIR/scores.md has the tables of all rigs in DIR; with --rigs 0 none is
+added. DIR/factors.yaml has the factors on the bands (`ensemble.band_factors`) with which a band holds 90 % of what
 another rig of the same population does. Each rig judges factors by all others, which have not seen it. Factors that the
 configuration already has are taken out first. Ends with 77 when packages are missing.
 """
@@ -273,6 +273,21 @@ class Hidden:
         return self.folder / "twin"
 
 
+def study(options):
+    """What rigs of one table have in common."""
+    return {"seconds": options.seconds, "seed": options.seed, "members": options.members}
+
+
+def kept(folder):
+    """The rigs of a folder, and what they have in common; ends where they are of several studies."""
+    rigs = [json.loads(figures.read_text()) for figures in sorted(folder.glob("rig_*.json"))]
+    first = rigs[0]["study"] if rigs else None
+    for rig in rigs:
+        if rig["study"] != first:
+            sys.exit(f"{folder} has rigs of several studies: {first} and {rig['study']}")
+    return rigs, first
+
+
 def one(number, options):
     """Runs a hidden rig and the twin on its log; figures by second."""
     result = options.out / f"rig_{number:03}.json"
@@ -284,7 +299,7 @@ def one(number, options):
     rig.log(truth)
     of_twin = rig.twin(options.twin or options.config, options.members)
     twin = messages(of_twin, TOPICS)
-    figures = compared(truth, twin, min(truth["transfer"]), rig.structures)
+    figures = {"study": study(options), **compared(truth, twin, min(truth["transfer"]), rig.structures)}
     result.write_text(json.dumps(figures))
     # Bags of a rig take a hundred megabytes; what is judged is in the figures.
     shutil.rmtree(bag)
@@ -399,12 +414,8 @@ def factor(rigs, name):
     return None if found is None else max(1.0, math.ceil(100 * found) / 100)
 
 
-def factors(rigs, options):
-    """Factors by all rigs, and the table of what those by all others are worth on each.
-
-    `rigs` by number; None where one could not be computed.
-    """
-    rigs = [rig for rig in rigs if rig]
+def factors(rigs, of):
+    """Factors by all rigs, and the table of what those by all others are worth on each."""
     rows = []
     out = [
         f"Factors on the bands, by {len(rigs)} rigs: mean share of a rig's seconds in which the band holds, with its standard",
@@ -421,28 +432,28 @@ def factors(rigs, options):
         out.append(f"| {name} | {f'{found:.2f}' if found else 'too few rigs'} | {words[0]} | {words[1]} |")
         if found and found > 1.0:
             rows.append(
-                f'- {{figure: {path}, factor: {found}, source: "{len(rigs)} hidden rigs of {options.seconds} s, seed '
-                f'{options.seed}, {options.members} members; tests/python/hidden_rigs.py"}}'
+                f'- {{figure: {path}, factor: {found}, source: "{len(rigs)} hidden rigs of {of["seconds"]} s, seed '
+                f'{of["seed"]}, {of["members"]} members; tests/python/hidden_rigs.py"}}'
             )
     return "\n".join(["", *out, ""]), "\n".join(["# ensemble.band_factors; figures that are left out have the factor 1", *rows, ""])
 
 
-def tables(rigs, options):
+def tables(rigs, of):
     """Scores as Markdown. A rig counts as one: its seconds are not independent."""
     out = [
-        f"{len(rigs)} hidden rigs of {options.seconds} s, seed {options.seed}, {options.members} plausible tools each.",
+        f"{len(rigs)} hidden rigs of {of['seconds']} s, seed {of['seed']}, {of['members']} plausible tools each.",
         "",
         "| figure | truth within the 90 % band, mean of rigs | standard error | first third | last third | width, last over "
         "first third | twin's own figure off by (mean share) |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in JUDGED:
-        of = [rig["bands"][name] for rig in rigs if name in rig["bands"]]
+        bands_of = [rig["bands"][name] for rig in rigs if name in rig["bands"]]
         inside = [[by <= 1 for by in factors_needed(rig, name)] for rig in rigs if name in rig["bands"]]
         all_of = [mean(rows) for rows in inside]
         early, late = ([mean(ends_of(rows)[end]) for rows in inside] for end in (0, 1))
-        ratio = [bands["width"][1] / bands["width"][0] for bands in of if bands["width"] and bands["width"][0]]
-        error = [bands["twin_off"] for bands in of if bands["twin_off"] is not None]
+        ratio = [bands["width"][1] / bands["width"][0] for bands in bands_of if bands["width"] and bands["width"][0]]
+        error = [bands["twin_off"] for bands in bands_of if bands["twin_off"] is not None]
         out.append(
             f"| {name} | {mean(all_of):.2f} | {standard_error(all_of):.2f} | {mean(early):.2f} | {mean(late):.2f} | "
             f"{mean(ratio):.2f} | {mean(error):.2f} |"
@@ -464,7 +475,7 @@ def tables(rigs, options):
             said = f"{tenth / TENTHS:.1f} to {(tenth + 1) / TENTHS:.1f}"
             out.append(f"| {said} | {len(rows)} | {mean(rows):.2f} | {low:.2f} to {high:.2f} |")
     disagreeing = sum(rig["disagrees"] > 0 for rig in rigs)
-    begins, hours = sum(rig["disagrees"] for rig in rigs), len(rigs) * options.seconds / 3600
+    begins, hours = sum(rig["disagrees"] for rig in rigs), len(rigs) * of["seconds"] / 3600
     out += [
         "",
         f"`rig_disagrees` came {begins} times in {hours:.1f} h, on {disagreeing} of {len(rigs)} rigs.",
@@ -509,9 +520,15 @@ def main():
     parser.add_argument("--members", type=int, default=16)
     parser.add_argument("--twin", type=Path)
     options = parser.parse_args()
-    rigs, failed = every(options, lambda number: one(number, options))
-    of_factors, in_configuration = factors(rigs, options)
-    text = tables([rig for rig in rigs if rig], options) + of_factors
+    _, of = kept(options.out)
+    if options.rigs and of not in (None, study(options)):
+        sys.exit(f"{options.out} has rigs of another study: {of}, not {study(options)}")
+    _, failed = every(options, lambda number: one(number, options))
+    rigs, of = kept(options.out)
+    if not rigs:
+        sys.exit(f"{options.out} has no rigs{failed}")
+    of_factors, in_configuration = factors(rigs, of)
+    text = tables(rigs, of) + of_factors
     (options.out / "factors.yaml").write_text(in_configuration)
     text += failed
     (options.out / "scores.md").write_text(text)

@@ -63,7 +63,7 @@ fn plausible_tools_hold_what_a_rig_of_another_structure_does() {
         assert_eq!(rig["structures"].as_array().unwrap().len(), 3);
         let torque = &rig["bands"]["bit torque"];
         for factor in torque["needed"].as_array().unwrap() {
-            // None where the truth is beside a band without width.
+            // Null where the band has no width and the truth lies outside it.
             let factor = factor.as_f64().unwrap_or(f64::INFINITY);
             assert!(factor >= 0.0, "{factor}");
             inside += u32::from(factor <= 1.0);
@@ -152,6 +152,47 @@ fn a_hidden_rig_runs_at_cells_of_a_map() {
         ran += 1;
     }
     assert!(ran > 0, "{rig}");
+}
+
+/// The table in docs/measurements.md is that of the rigs in the repository.
+#[test]
+fn the_measured_table_is_that_of_the_rigs_in_the_repository() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in std::fs::read_dir(root().join("tests/data/hidden_rigs")).unwrap() {
+        let file = file.unwrap();
+        std::fs::copy(file.path(), folder.path().join(file.file_name())).unwrap();
+    }
+    let out = folder.path().to_str().unwrap();
+    if python::run("hidden_rigs.py", &["--out", out, "--rigs", "0"], "").is_none() {
+        return;
+    }
+    let scores = std::fs::read_to_string(folder.path().join("scores.md")).unwrap();
+    let measured = std::fs::read_to_string(root().join("docs/measurements.md")).unwrap();
+    let (mut rows, count) = (0, scores.split(' ').next().unwrap());
+    for name in [
+        "bit torque",
+        "weight at the bit",
+        "force of pipe on guide",
+        "force of guide on wall",
+        "swing",
+    ] {
+        let row = scores
+            .lines()
+            .find(|line| line.starts_with(&format!("| {name}")))
+            .unwrap();
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let [_, _, held, error, early, late, width, ..] = cells[..] else {
+            panic!("{row}");
+        };
+        let row = format!("| {held} ({error}) | {early} | {late} | {width} |");
+        assert!(measured.contains(&row), "{name} of {count} rigs: {row}");
+        rows += 1;
+    }
+    assert_eq!(
+        (rows, count),
+        (5, "5"),
+        "docs/measurements.md says how many rigs there are"
+    );
 }
 
 /// The factors on bands that the study finds, compared with populations whose quantiles are known.

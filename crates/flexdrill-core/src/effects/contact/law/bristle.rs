@@ -78,7 +78,7 @@ impl<N: Number> Friction<N> {
         }
         let mut out = Self::on_ellipse(full, scale, normal);
 
-        // That direction has neither force nor slope; without a normal force none has.
+        // A direction without friction has neither force nor slope; without a normal force no direction has.
         let least = N::of(LEAST_NORMAL);
         for (k, mu) in mu.iter().enumerate() {
             out.force[k] = zero.where_above(least, normal, out.force[k].where_above(*mu, zero, zero));
@@ -98,12 +98,12 @@ impl<N: Number> Friction<N> {
         // Newton's method for 1 / length = 1 / normal, which is concave in lambda: from 0 on it never oversteps. Lanes that
         // have arrived wait for the others where they are.
         let mut lambda = zero;
+        // The share of the trial force that remains at lambda: all of it at first.
         let mut kept = [one; 2];
-        // At first the length of the trial force: within the ellipse the contact sticks.
-        let at_first = on_circle(trial, kept, mu).1;
+        let (mut scaled, mut length) = on_circle(trial, kept, mu);
+        let whole = length;
         for _ in 0..MOST_STEPS {
-            let (scaled, now) = on_circle(trial, kept, mu);
-            let excess = now.over(normal) - one;
+            let excess = length.over(normal) - one;
             if !N::of(ON_THE_ELLIPSE).any_below(excess) {
                 break;
             }
@@ -111,10 +111,10 @@ impl<N: Number> Friction<N> {
                 (scaled[0] * scaled[0]).over(square[0] + lambda),
                 (scaled[1] * scaled[1]).over(square[1] + lambda),
             ];
-            let stride = (excess * now * now).over(falls[0] + falls[1]);
+            let stride = (excess * length * length).over(falls[0] + falls[1]);
             lambda = lambda + stride.where_above(excess, N::of(ON_THE_ELLIPSE), zero);
-            // The share of the trial force that remains at lambda.
             kept = [square[0].over(square[0] + lambda), square[1].over(square[1] + lambda)];
+            (scaled, length) = on_circle(trial, kept, mu);
         }
 
         // Outside, the closest point of the ellipse: the force with the most dissipation.
@@ -125,18 +125,18 @@ impl<N: Number> Friction<N> {
         let gradient = [kept[0] * slope[0], kept[1] * slope[1]];
         let over = one.over(gradient[0] * slope[0] + gradient[1] * slope[1]);
 
-        // Within the ellipse the trial force is the force.
+        // Within the ellipse the contact sticks, and the trial force is the force.
         let coupling = (-gradient[0]) * gradient[1] * over;
         let mut out = Self {
             force,
-            by_trial: [zero, coupling.where_above(at_first, normal, zero), zero],
+            by_trial: [zero, coupling.where_above(whole, normal, zero), zero],
             by_normal: [zero; 2],
         };
         for k in 0..2 {
             let by_trial = kept[k] - gradient[k] * gradient[k] * over;
-            out.force[k] = force[k].where_above(at_first, normal, trial[k]);
-            out.by_trial[2 * k] = by_trial.where_above(at_first, normal, one);
-            out.by_normal[k] = (gradient[k] * normal * over).where_above(at_first, normal, zero);
+            out.force[k] = force[k].where_above(whole, normal, trial[k]);
+            out.by_trial[2 * k] = by_trial.where_above(whole, normal, one);
+            out.by_normal[k] = (gradient[k] * normal * over).where_above(whole, normal, zero);
         }
         out
     }
@@ -235,6 +235,8 @@ impl Bristles {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simd::aligned::Aligned;
+    use crate::simd::vector::Portable;
     use crate::support::Random;
 
     /// Coefficients that are equal, differ, differ much, and vanish.
@@ -272,6 +274,43 @@ mod tests {
                     // Directions without friction have no slip that friction knows of.
                     let other = other[0] * slip[0] + other[1] * slip[1];
                     assert!(other <= work + 1e-9 * size, "{mu:?}: {other} against {work}");
+                }
+            }
+        }
+    }
+
+    /// Lanes that stick, slip, have no normal force or no friction, side by side: each is to the bit what it is alone,
+    /// however many steps the others need.
+    #[test]
+    fn eight_lanes_are_eight_times_one() {
+        let mut random = Random(7);
+        for group in 0..500 {
+            let mu: [[f64; 2]; 8] = std::array::from_fn(|lane| COEFFICIENTS[(group + lane) % COEFFICIENTS.len()]);
+            let normal: [f64; 8] = std::array::from_fn(|lane| match (group + lane) % 11 {
+                0 => 0.0,
+                1 => 0.5 * LEAST_NORMAL,
+                _ => 1e3 * random.next().abs() + 1e-3,
+            });
+            let trial: [[f64; 2]; 8] = std::array::from_fn(|_| [1e3 * random.next(), 1e3 * random.next()]);
+            let lanes = |of: &[[f64; 2]; 8]| -> [Eight<Portable>; 2] {
+                let lane = |k: usize| Aligned(std::array::from_fn(|lane| of[lane][k]));
+                [Eight::load(&lane(0)), Eight::load(&lane(1))]
+            };
+            let together = Friction::next_to(lanes(&trial), lanes(&mu), Eight::load(&Aligned(normal)));
+            let Friction {
+                force,
+                by_trial,
+                by_normal,
+            } = together;
+            let mut got = [Lane::default(); 7];
+            let values = force.into_iter().chain(by_trial).chain(by_normal);
+            got.iter_mut().zip(values).for_each(|(to, from)| from.store(to));
+            for lane in 0..8 {
+                let alone = Friction::next_to(trial[lane], mu[lane], normal[lane]);
+                let expected = alone.force.into_iter().chain(alone.by_trial).chain(alone.by_normal);
+                for (got, expected) in got.iter().zip(expected) {
+                    assert!(expected.is_finite(), "{alone:?}");
+                    assert_eq!(got[lane], expected, "{:?} {:?} {}", mu[lane], trial[lane], normal[lane]);
                 }
             }
         }
