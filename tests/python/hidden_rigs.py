@@ -337,7 +337,8 @@ def compared(truth, twin, first, names):
             (band, factor), real, own = of.get(path, (None, 1.0)), truth[topic].get(second - offset), twin[topic].get(second)
             if band is None or real is None or own is None or not math.isfinite(band.p5):
                 continue
-            # As of the members themselves, so that factors are of one kind whatever the configuration has.
+            # As of the members themselves, so that factors are of one kind whatever the configuration has. An end that was cut
+            # at 0 comes nearer to the middle than theirs, which asks for the configuration's factor at most.
             low, high = (band.p50 + (end - band.p50) / factor for end in (band.p5, band.p95))
             real, own = field(real, path), field(own, path)
             factors[name].append(needed(real, low, band.p50, high))

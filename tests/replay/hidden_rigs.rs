@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use flexdrill::config::Config;
 use serde_json::Value;
 
 use crate::common::{python, root};
@@ -154,9 +155,9 @@ fn a_hidden_rig_runs_at_cells_of_a_map() {
     assert!(ran > 0, "{rig}");
 }
 
-/// The table in docs/measurements.md is that of the rigs in the repository.
+/// The table in docs/measurements.md and the factors on the bands of config/rig.yaml are those of the rigs in the repository.
 #[test]
-fn the_measured_table_is_that_of_the_rigs_in_the_repository() {
+fn the_measured_table_and_factors_are_those_of_the_rigs_in_the_repository() {
     let folder = tempfile::tempdir().unwrap();
     for file in std::fs::read_dir(root().join("tests/data/hidden_rigs")).unwrap() {
         let file = file.unwrap();
@@ -190,9 +191,23 @@ fn the_measured_table_is_that_of_the_rigs_in_the_repository() {
     }
     assert_eq!(
         (rows, count),
-        (5, "5"),
+        (5, "11"),
         "docs/measurements.md says how many rigs there are"
     );
+    // Names and numbers; the source in the configuration is shorter.
+    let found = std::fs::read_to_string(folder.path().join("factors.yaml")).unwrap();
+    let found: Vec<(&str, f64)> = found
+        .lines()
+        .filter_map(|line| {
+            let (figure, rest) = line.strip_prefix("- {figure: ")?.split_once(", factor: ")?;
+            Some((figure, rest.split_once(',')?.0.parse().unwrap()))
+        })
+        .collect();
+    let rig = Config::load(&root().join("config/rig.yaml")).unwrap();
+    let shipped = &rig.ensemble.as_ref().unwrap().band_factors;
+    let shipped: Vec<(&str, f64)> = shipped.iter().map(|of| (of.figure.as_str(), of.factor)).collect();
+    assert!(!found.is_empty());
+    assert_eq!(shipped, found);
 }
 
 /// The factors on bands that the study finds, compared with populations whose quantiles are known.

@@ -78,6 +78,15 @@ impl Band {
             of: n,
         })
     }
+
+    /// The same of a quantity that has no value outside `range`: a tail or a factor may reach beyond it, the quantity not.
+    #[must_use]
+    pub fn within(self, range: [f64; 2]) -> Self {
+        Self {
+            quantiles: self.quantiles.map(|quantile| quantile.clamp(range[0], range[1])),
+            ..self
+        }
+    }
 }
 
 /// Probability and value of each member, in the order of values.

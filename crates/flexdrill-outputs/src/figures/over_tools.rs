@@ -55,7 +55,7 @@ impl Sum {
 }
 
 /// Name and unit of a figure.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Known {
     /// Topic below `twin` and field, such as `transfer/bit_torque`.
     pub name: String,
@@ -65,6 +65,8 @@ pub struct Known {
     pub dimension: Option<Dimension>,
     /// SI unit as in messages; empty for a ratio.
     pub unit: &'static str,
+    /// Smallest and largest value that it can have (SI).
+    pub range: [f64; 2],
 }
 
 /// Figures over the snapshots of a time. Each snapshot ends an interval of the statistics.
@@ -114,6 +116,7 @@ impl OverTools {
                 text: figure.text(),
                 dimension: figure.kind.dimension(),
                 unit: figure.kind.si(),
+                range: figure.range(),
             })
         }
         of(topics::BIT_STATE.name, BIT_STATE)
@@ -182,13 +185,17 @@ mod tests {
             [1.0; 4],
             "nothing is left of the second before"
         );
-        assert_eq!(
-            known
-                .iter()
-                .find(|known| known.name == "transfer/bit_torque")
-                .unwrap()
-                .unit,
-            "N m"
-        );
+        let of = |name: &str| known.iter().find(|known| known.name == name).unwrap();
+        assert_eq!(of("transfer/bit_torque").unit, "N m");
+        // A torque has a sign; a largest force, an index and a root of a mean square are sizes.
+        assert_eq!(of("transfer/bit_torque").range, [f64::NEG_INFINITY, f64::INFINITY]);
+        for size in [
+            "contact_forces/max_guide_wall_force",
+            "bit_state/stick_slip_index",
+            "bit_state/axial_acceleration",
+        ] {
+            assert_eq!(of(size).range, [0.0, f64::INFINITY], "{size}");
+        }
+        assert_eq!(of("transfer/drive_at_limit").range, [0.0, 1.0]);
     }
 }

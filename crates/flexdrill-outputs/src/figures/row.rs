@@ -35,6 +35,16 @@ impl<M> Figure<M> {
         let separator = if unit.is_empty() { "" } else { "_" };
         format!("{mean}{}{separator}{unit}", self.field)
     }
+
+    /// Smallest and largest value that it can have (SI): what has a size alone is not below 0, a share of the time within 0
+    /// and 1.
+    pub const fn range(&self) -> [f64; 2] {
+        match (self.kind, self.window) {
+            (Kind::TimeShare, _) => [0.0, 1.0],
+            (Kind::Number, _) | (_, Window::Largest | Window::Rms | Window::LongRms) => [0.0, f64::INFINITY],
+            _ => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
 }
 
 impl<M: Message> Figure<M> {

@@ -61,6 +61,9 @@ const OF_PROFILES: [&str; 2] = [
     "contact_forces/max_guide_wall_force",
 ];
 
+/// What a normal force can be (N).
+const FORCES: [f64; 2] = [0.0, f64::INFINITY];
+
 /// The factors on the bands of a configuration, by [`OverTools::known`]: 1 where it states none.
 ///
 /// # Errors
@@ -91,8 +94,9 @@ pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)], factor
             .iter()
             .filter_map(|(weight, second)| Some((*weight, second.as_ref()?)))
     };
-    let band = |factor: f64, value: &dyn Fn(&Second) -> f64| {
-        Band::of(known().map(|(weight, second)| (weight, value(second))), factor)
+    let band = |factor: f64, range: [f64; 2], value: &dyn Fn(&Second) -> f64| {
+        let band = Band::of(known().map(|(weight, second)| (weight, value(second))), factor);
+        band.map_or([f64::NAN; 3], |band| band.within(range).quantiles)
     };
     let mut out = Bands {
         members: counts.members,
@@ -118,7 +122,7 @@ pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)], factor
                 of_profiles[layer] = factor(index);
             }
             let value = |second: &Second| second.figures.get(index).copied().unwrap_or(f64::NAN);
-            let [p5, p50, p95] = quantiles(band(factor(index), &value));
+            let [p5, p50, p95] = band(factor(index), figure.range, &value);
             out.band_factors.push(factor(index));
             FigureBand {
                 name: figure.name,
@@ -133,9 +137,9 @@ pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)], factor
     out.measured_depth.clone_from(&first.measured_depth);
     for station in 0..first.measured_depth.len() {
         let of = |layer: usize| {
-            quantiles(band(of_profiles[layer], &|second| {
+            band(of_profiles[layer], FORCES, &|second| {
                 second.peaks[layer].get(station).copied().unwrap_or(f64::NAN)
-            }))
+            })
         };
         let [p5, p50, p95] = of(0);
         out.pipe_guide_force_p5.push(p5);
@@ -147,10 +151,6 @@ pub(super) fn message(counts: &Counts, members: &[(f64, Option<Second>)], factor
         out.guide_wall_force_p95.push(p95);
     }
     out
-}
-
-fn quantiles(band: Option<Band>) -> [f64; 3] {
-    band.map_or([f64::NAN; 3], |band| band.quantiles)
 }
 
 /// Why there are no bands; empty where there are.

@@ -52,8 +52,9 @@ const MOVED: f64 = 0.03;
 const OTHER: f64 = 0.06;
 /// Seed of the plausible tools of a configuration without `ensemble`.
 const SEED: u64 = 1;
-/// Answers that are kept.
-const KEPT: usize = 4;
+/// Answers that are kept. A weight that wavers comes back to each of them: with steps of twice [`MOVED`] they reach from any
+/// weight to forty times of it.
+const KEPT: usize = 64;
 /// Messages that may wait: half a minute. A computer that is later does not keep up.
 const WAITING: usize = 30;
 

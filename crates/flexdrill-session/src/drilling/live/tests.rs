@@ -226,6 +226,28 @@ fn messages_follow_from_the_frames_alone() {
     assert!(answers.last() > answers.first(), "{answers:?}");
 }
 
+/// A driller's weight wavers for as long as the tool drills: what was computed for each of its values holds the next time.
+#[test]
+fn a_weight_that_comes_back_has_its_answer_already() {
+    let config = config(TOOL);
+    let mut twin = Twin::new(&config);
+    let weights = [9e3, 10e3, 11e3, 12e3, 13e3, 14e3];
+    let mut wavers = || {
+        for weight in weights {
+            // The mean is that of this weight alone after 5 s; its answer is asked for then and used 5 s later.
+            twin.run(120, Tenth { weight, ..STEADY }, true);
+        }
+        let answers = twin.found.drain(..).filter_map(|ready| ready.answered);
+        answers.collect::<std::collections::BTreeSet<u64>>()
+    };
+    let first = wavers();
+    // Means between two weights may have answers too.
+    assert!(first.len() >= weights.len(), "{first:?}");
+    // The way back from the last weight to the first passes the same weights.
+    let second = wavers();
+    assert!(!second.is_empty() && second.is_subset(&first), "{second:?} {first:?}");
+}
+
 #[test]
 fn a_computer_that_does_not_keep_up_says_so() {
     let config = config(TOOL);
