@@ -27,6 +27,7 @@ import sys
 from collections import defaultdict
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from statistics import median
 
 import conformal
 
@@ -445,7 +446,7 @@ def tables(rigs, of):
         f"{len(rigs)} hidden rigs of {of['seconds']} s, seed {of['seed']}, {of['members']} plausible tools each.",
         "",
         "| figure | truth within the 90 % band, mean of rigs | standard error | first third | last third | width, last over "
-        "first third | twin's own figure off by (mean share) |",
+        "first third (median) | twin's own figure off by (mean share) |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in JUDGED:
@@ -453,11 +454,12 @@ def tables(rigs, of):
         inside = [[by <= 1 for by in factors_needed(rig, name)] for rig in rigs if name in rig["bands"]]
         all_of = [mean(rows) for rows in inside]
         early, late = ([mean(ends_of(rows)[end]) for rows in inside] for end in (0, 1))
+        # A rig whose plan begins off bottom has no width to speak of in the first third.
         ratio = [bands["width"][1] / bands["width"][0] for bands in bands_of if bands["width"] and bands["width"][0]]
         error = [bands["twin_off"] for bands in bands_of if bands["twin_off"] is not None]
         out.append(
             f"| {name} | {mean(all_of):.2f} | {standard_error(all_of):.2f} | {mean(early):.2f} | {mean(late):.2f} | "
-            f"{mean(ratio):.2f} | {mean(error):.2f} |"
+            f"{median(ratio or [math.nan]):.2f} | {mean(error):.2f} |"
         )
     alarms = [(row["chance"], row["twin"], bool(row["came"])) for rig in rigs for row in rig["alarms"]]
     climate = mean(came for _, _, came in alarms)

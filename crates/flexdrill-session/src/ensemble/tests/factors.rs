@@ -46,7 +46,11 @@ fn a_band_is_wider_by_the_factor_of_its_figure() {
     }
     assert_eq!(wide.guide_wall_force_p95, plain.guide_wall_force_p95);
     let lows = || wide.pipe_guide_force_p5.iter().copied();
-    assert!(lows().all(|low| low >= 0.0) && lows().any(|low| low == 0.0), "{:?}", wide.pipe_guide_force_p5);
+    assert!(
+        lows().all(|low| low >= 0.0) && lows().any(|low| low == 0.0),
+        "{:?}",
+        wide.pipe_guide_force_p5
+    );
     let unknown = of("{figure: transfer/bit_torqe, factor: 2, source: a test}");
     let error = Ensemble::of(&unknown, None).err().unwrap().to_string();
     assert!(error.contains("did you mean transfer/bit_torque?"), "{error}");
