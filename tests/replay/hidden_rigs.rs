@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use flexdrill::config::Config;
+use flexdrill_config::Config;
 use serde_json::Value;
 
 use crate::common::{python, root};
