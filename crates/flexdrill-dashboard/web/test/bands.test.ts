@@ -114,15 +114,6 @@ test("a player that is brought back has the bands of that time, and a message th
   assert.deepEqual(of(200)[1], [1, 9]);
 });
 
-test("what cannot be negative has no negative end", () => {
-  const name = "contact_forces/max_pipe_guide_force";
-  const figures: Record<string, [number, number]> = { [name]: [-20, 500], "bit_state/torque": [-5, 5] };
-  const store = at(100, bands(100, { ...figures, "transfer/drive_at_limit": [-0.1, 1.2] }));
-  assert.deepEqual(store.bands.range(name, 100), { low: 0, high: 500 });
-  assert.deepEqual(store.bands.range("bit_state/torque", 100), { low: -5, high: 5 });
-  assert.deepEqual(store.bands.range("transfer/drive_at_limit", 100), { low: 0, high: 1 });
-});
-
 test("the band of a strip has its own times, and breaks the line nowhere", () => {
   const lines = withGaps([100, 101, 102], [[5, null, 7]], 2.5);
   const band = withGaps(
@@ -163,14 +154,14 @@ test("a station has the band of its depth, and none where plausible tools have n
     {},
     {
       measured_depth: profile(0, 0.2, 0.4),
-      pipe_guide_force_p5: profile(-1, 2, 3),
+      pipe_guide_force_p5: profile(1, 2, 3),
       pipe_guide_force_p95: profile(10, 20, 30),
       guide_wall_force_p5: profile(4, 5, 6),
       guide_wall_force_p95: profile(40, 50, 60),
     },
   );
   const { bands: book } = at(101, message);
-  assert.deepEqual(book.stationRows("pipe_guide", 0.02, 90, 110), [[100], [0], [10]]);
+  assert.deepEqual(book.stationRows("pipe_guide", 0.02, 90, 110), [[100], [1], [10]]);
   assert.deepEqual(book.stationRows("guide_wall", 0.39, 90, 110), [[100], [6], [60]]);
   assert.deepEqual(book.stationRows("guide_wall", 0.6, 90, 110), [[], [], []]);
   assert.deepEqual(book.stationRows("guide_wall", 0.4, 101, 110)[0], [100]);

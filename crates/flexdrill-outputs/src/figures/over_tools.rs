@@ -187,12 +187,14 @@ mod tests {
         );
         let of = |name: &str| known.iter().find(|known| known.name == name).unwrap();
         assert_eq!(of("transfer/bit_torque").unit, "N m");
-        // A torque has a sign; a largest force, an index and a root of a mean square are sizes.
+        // A torque has a sign; a largest force, an index, a bend and a root of a mean square are sizes.
         assert_eq!(of("transfer/bit_torque").range, [f64::NEG_INFINITY, f64::INFINITY]);
         for size in [
             "contact_forces/max_guide_wall_force",
             "bit_state/stick_slip_index",
             "bit_state/axial_acceleration",
+            "joint_deflections/max_bend_angle",
+            "transfer/depth_of_cut",
         ] {
             assert_eq!(of(size).range, [0.0, f64::INFINITY], "{size}");
         }

@@ -37,11 +37,13 @@ impl<M> Figure<M> {
     }
 
     /// Smallest and largest value that it can have (SI): what has a size alone is not below 0, a share of the time within 0
-    /// and 1.
+    /// and 1. Angles are those of bends, which have no sign.
     pub const fn range(&self) -> [f64; 2] {
-        match (self.kind, self.window) {
-            (Kind::TimeShare, _) => [0.0, 1.0],
-            (Kind::Number, _) | (_, Window::Largest | Window::Rms | Window::LongRms) => [0.0, f64::INFINITY],
+        let is_size = matches!(self.kind, Kind::Number | Kind::Angle | Kind::Cut)
+            || matches!(self.window, Window::Largest | Window::Rms | Window::LongRms);
+        match self.kind {
+            Kind::TimeShare => [0.0, 1.0],
+            _ if is_size => [0.0, f64::INFINITY],
             _ => [f64::NEG_INFINITY, f64::INFINITY],
         }
     }

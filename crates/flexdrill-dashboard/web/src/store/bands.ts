@@ -28,22 +28,6 @@ export interface Range {
 export type BandRows = [number[], (number | null)[], (number | null)[]];
 export type LayerOfForce = "pipe_guide" | "guide_wall";
 
-/**
- * Figures that cannot be below zero. With few plausible tools the ends of a band are those of a normal distribution,
- * which knows no such bound.
- */
-const NOT_NEGATIVE: readonly string[] = [
-  "bit_state/stick_slip_index",
-  "contact_forces/max_guide_wall_force",
-  "contact_forces/max_pipe_guide_force",
-  "joint_deflections/joints_at_limit",
-  "joint_deflections/max_bend_angle",
-  "transfer/depth_of_cut",
-  "transfer/drive_at_limit",
-];
-/** Figures that are shares of a time. */
-const NOT_ABOVE_ONE: readonly string[] = ["transfer/drive_at_limit"];
-
 export class BandBook {
   /** The newest message; null where none has ever come. */
   newest: Bands | null = null;
@@ -83,11 +67,7 @@ export class BandBook {
     }
     // A message without bands ends those before it.
     const row = this.figures?.push(time).fill(NaN);
-    bands.forEach(({ name, p5, p95 }, index) => {
-      const least = NOT_NEGATIVE.includes(name) ? 0 : -Infinity;
-      const most = NOT_ABOVE_ONE.includes(name) ? 1 : Infinity;
-      row?.set([Math.max(p5, least), Math.min(p95, most)], 2 * index);
-    });
+    bands.forEach(({ p5, p95 }, index) => row?.set([p5, p95], 2 * index));
   }
 
   private takeProfiles(time: number, bands: Bands): void {
@@ -101,7 +81,7 @@ export class BandBook {
       bands.guide_wall_force_p5,
       bands.guide_wall_force_p95,
     ];
-    ends.forEach((of, part) => of.forEach((force, station) => row?.set([Math.max(force, 0)], part * count + station)));
+    ends.forEach((of, part) => of.forEach((force, station) => row?.set([force], part * count + station)));
   }
 
   /** The newest message where it is of the present at `now` (s); null otherwise. */
