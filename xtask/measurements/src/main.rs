@@ -263,7 +263,11 @@ fn measure(case: Cases, configs: &[(String, Config)], args: &Measurements) -> an
             let first = args.first.map_or_else(String::new, |first| format!(" --first {first}"));
             format!(" --runs {}{first} --duration {duration}", args.runs)
         }
-        Cases::Calibration => format!(" --runs {} --checked {}", args.runs, args.checked),
+        Cases::Calibration => {
+            let config = args.configs.first();
+            let config = config.map_or_else(String::new, |file| format!(" --config {}", file.display()));
+            format!("{config} --runs {} --checked {}", args.runs, args.checked)
+        }
         _ => format!(" --duration {duration}"),
     };
     Ok(format!(

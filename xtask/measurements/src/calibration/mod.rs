@@ -21,7 +21,7 @@ use flexdrill_calibration::study::{StudySettings, study};
 use flexdrill_calibration::surrogate::usual_points;
 use flexdrill_calibration::windows::{Activity, Channel, Sample, WindowSettings, Windows, find};
 use flexdrill_config::Config;
-use flexdrill_core::units::{kn_to_n, n_to_kn, rad_per_s_to_rpm, rpm_to_rad_per_s};
+use flexdrill_core::units::{kn_to_n, m_per_s_to_m_per_h, n_to_kn, rad_per_s_to_rpm, rpm_to_rad_per_s};
 
 /// Speeds (r/min) of design and logs.
 const SPEEDS: [f64; 2] = [35.0, 65.0];
@@ -428,16 +428,21 @@ pub(crate) fn tables(plan: &Plan) -> anyhow::Result<String> {
     // The surrogates are the same for all logs, so those of the first stand for all.
     for quantity in &first.problem.quantities {
         let (name, unit) = quantity.channel.name_and_unit();
+        // Metres per second of a bit are all zeros with one place.
+        let (unit, factor) = match quantity.channel {
+            Channel::RateOfPenetration => ("m/h", m_per_s_to_m_per_h(1.0)),
+            _ => (unit, 1.0),
+        };
         let motion = match quantity.motion {
             Activity::OffBottom => "off bottom",
             Activity::Drilling => "drilling",
         };
-        let [low, high] = quantity.surrogate.range;
+        let [low, high] = quantity.surrogate.range.map(|end| factor * end);
         surrogates.row([
             format!("{name} ({unit}), {motion}"),
             quantity.surrogate.points.to_string(),
             format!("{low:.1} to {high:.1}"),
-            format!("{:.2}", quantity.surrogate.error),
+            format!("{:.2}", factor * quantity.surrogate.error),
             format!("{:.2}", quantity.surrogate.over_stated()),
         ]);
     }
