@@ -24,7 +24,7 @@ const WORDS: [&str; 13] = [
     "weight_on_bit",
 ];
 /// Sources that need chosen figures, and what for. A figure that is added is in none of them.
-const USES: [(&str, &str); 11] = [
+const USES: [(&str, &str); 10] = [
     (
         "crates/flexdrill-report/src/balances.rs",
         "a balance is a sum of certain figures",
@@ -42,10 +42,6 @@ const USES: [(&str, &str); 11] = [
     (
         "crates/flexdrill-dashboard/src/history/mod.rs",
         "shocks in the strips of the rig page",
-    ),
-    (
-        "crates/flexdrill-dashboard/web/src/store/bands.ts",
-        "bounds of a band that is a share",
     ),
     (
         "crates/flexdrill-dashboard/web/src/views/transfer.ts",
