@@ -203,7 +203,7 @@ fn the_measured_table_and_factors_are_those_of_the_rigs_in_the_repository() {
             Some((figure, rest.split_once(',')?.0.parse().unwrap()))
         })
         .collect();
-    let rig = Config::load(&root().join("config/rig.yaml")).unwrap();
+    let rig = Config::load(root().join("config/rig.yaml")).unwrap();
     let shipped = &rig.ensemble.as_ref().unwrap().band_factors;
     let (borrowed, measured): (Vec<_>, Vec<_>) = shipped.iter().partition(|of| of.source.starts_with("that of "));
     let measured: Vec<(&str, f64)> = measured.iter().map(|of| (of.figure.as_str(), of.factor)).collect();
