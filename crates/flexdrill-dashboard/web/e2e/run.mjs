@@ -223,7 +223,8 @@ try {
     await until("an answer per candidate", 180, async () =>
       /40 r\/min, 10\.0 kN.* 2 runs .*60 r\/min, 12\.0 kN.* 2 runs/.test(await page.textContent("#what-if-results")),
     );
-    await until("its end", 60, async () => !(await page.isVisible("#what-if-cancel")));
+    // The runs with another friction follow, next to a live twin and a browser that draws in software.
+    await until("its end", 180, async () => !(await page.isVisible("#what-if-cancel")));
     await until("rows of another friction", 60, async () =>
       /If friction is a fifth lower: .* 2 runs.*If friction is a fifth higher: .* 2 runs/.test(
         await page.textContent("#what-if-results"),
