@@ -74,7 +74,7 @@ const OTHERS: [(&str, &str, Kind); 4] = [
     (
         "joint_deflections/max_bend_angle",
         "largest bend of a joint",
-        Kind::Angle,
+        Kind::Bend,
     ),
 ];
 

@@ -37,9 +37,9 @@ impl<M> Figure<M> {
     }
 
     /// Smallest and largest value that it can have (SI): what has a size alone is not below 0, a share of the time within 0
-    /// and 1. Angles are those of bends, which have no sign.
+    /// and 1.
     pub const fn range(&self) -> [f64; 2] {
-        let is_size = matches!(self.kind, Kind::Number | Kind::Angle | Kind::Cut)
+        let is_size = matches!(self.kind, Kind::Number | Kind::Bend | Kind::Cut)
             || matches!(self.window, Window::Largest | Window::Rms | Window::LongRms);
         match self.kind {
             Kind::TimeShare => [0.0, 1.0],
@@ -167,8 +167,8 @@ kinds! {
     Speed in Some(Speed), sent in "m/s", shown in "m/s" times 1.0;
     /// Acceleration (m/s2).
     Acceleration in Some(Acceleration), sent in "m/s2", shown in "m/s²" times 1.0;
-    /// Angle (rad).
-    Angle in Some(Angle), sent in "rad", shown in "deg" times rad_to_deg(1.0);
+    /// Size of a bend (rad).
+    Bend in Some(Angle), sent in "rad", shown in "deg" times rad_to_deg(1.0);
     /// Length (m).
     Length in Some(Length), sent in "m", shown in "m" times 1.0;
     /// Turn of the hole per metre (rad/m).

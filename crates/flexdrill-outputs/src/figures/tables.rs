@@ -136,7 +136,7 @@ figures! {
 figures! {
     /// The totals of `twin/joint_deflections`.
     JOINT_DEFLECTIONS of JointDeflections, filled by fill_joint_deflections from s = joints;
-    max_bend_angle: Angle, Instant = largest(&s.bend_angle).0, bridge "max_bend_angle";
+    max_bend_angle: Bend, Instant = largest(&s.bend_angle).0, bridge "max_bend_angle";
     joints_at_limit: Number, Instant = at_limit(s), bridge "joints_at_limit";
 }
 

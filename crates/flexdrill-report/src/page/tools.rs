@@ -104,7 +104,8 @@ pub(super) fn section(summary: &Summary) -> Result<Markup, ReportError> {
     }
     let figure = drawn(
         plots::tools(summary),
-        "Band: 5 to 95 % of the plausible tools by their weights, with their median. Line: the twin.",
+        "Band: 5 to 95 % of the plausible tools by their weights, wider by the figure's factor in ensemble.band_factors, with \
+         their median. Line: the twin.",
     )?;
     Ok(html! {
         section {
