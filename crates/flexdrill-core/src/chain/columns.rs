@@ -80,15 +80,17 @@ pub(crate) fn plus_rows<V: Vector>(sum: [V; 2], rows: &[EndColumn; 6], x: &[f64;
     [even[0].plus(odd[0]), even[1].plus(odd[1])]
 }
 
+/// Places in the nodes of a span's ends, [top, bottom], of the first unknown of the pipe (0) or the guide (1) there.
+#[inline(always)]
+pub(crate) fn places(body: usize) -> [usize; 2] {
+    if body == 0 { [U, 0] } else { [GUIDE; 2] }
+}
+
 /// First unknowns of a span's ends, [top, bottom], of the pipe (0) or the guide (1).
 #[inline(always)]
 pub(crate) fn ends(span: usize, body: usize) -> [usize; 2] {
-    let (top, bottom) = (NODE * span, NODE * (span + 1));
-    if body == 0 {
-        [top + U, bottom]
-    } else {
-        [top + GUIDE, bottom + GUIDE]
-    }
+    let [top, bottom] = places(body);
+    [NODE * span + top, NODE * (span + 1) + bottom]
 }
 
 /// What a span's ends are to a body: the unknowns of its top end and of its bottom end.

@@ -1,6 +1,6 @@
 //! How the stations of a span move with its ends.
 
-use super::columns::{EndColumn, Ends, at_ends, load, product};
+use super::columns::{EndColumn, Ends, at_ends, load, places, product};
 use super::slaving::LinkMatrices;
 use super::{Chain, NODE};
 use crate::dynamics::state::{Deflection, State};
@@ -11,16 +11,19 @@ impl Chain {
     #[inline(always)]
     pub(crate) fn local<V: Vector>(&self, x: &[f64], l: usize, i: usize, body: usize) -> V {
         let columns = &self.model.kinds[self.model.links[l].kind].motion[i][body];
-        let [top, bottom] = at_ends(x.as_chunks().0, l, body);
+        // The numbers are read where they are multiplied: only there does a load spread them to all lanes.
+        let (nodes, [top, bottom]) = (x.as_chunks::<NODE>().0, places(body));
         let (mut above, mut below) = (V::splat(0.0), V::splat(0.0));
         if i < self.model.nodes.elements(l) {
+            let node = &nodes[l];
             for j in 0..6 {
-                above = above.plus_product(V::load(&columns[j]), V::splat(top[j]));
+                above = above.plus_product(V::load(&columns[j]), V::splat(node[top + j]));
             }
         }
         if i > 0 {
+            let node = &nodes[l + 1];
             for j in 0..6 {
-                below = below.plus_product(V::load(&columns[6 + j]), V::splat(bottom[j]));
+                below = below.plus_product(V::load(&columns[6 + j]), V::splat(node[bottom + j]));
             }
         }
         above.plus(below)

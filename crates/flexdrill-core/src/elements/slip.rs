@@ -23,6 +23,16 @@ pub struct Slip<N = f64> {
 }
 
 impl<N: Number> Slip<N> {
+    /// Reads all lanes from memory.
+    #[inline(always)]
+    pub(crate) fn load(from: &Slip<N::Memory>) -> Self {
+        Self {
+            speed: N::load(&from.speed),
+            friction: N::load(&from.friction),
+            slope: N::load(&from.slope),
+        }
+    }
+
     /// `full` friction times the smooth sign v / sqrt(v^2 + width^2) of the speed v, with its exact slope.
     #[inline(always)]
     pub fn at(speed: N, full: N, width: f64) -> Self {

@@ -1,14 +1,15 @@
 //! The contacts' part of the tangent. A contact inside a span adds to the blocks of both its ends and to their coupling.
 //!
-//! Its own tangent is the sum of four products on by^T of local forces and motions ([`GapTangent`]). On the nodes it is the same
+//! Its own tangent is the sum of four products on by^T of local forces and motions ([`super::law::GapTangent`]). On the nodes it is the same
 //! sum with the forces and motions that the slaving makes of them.
 
-use super::law::GapTangent;
+use super::law::Touch;
 use super::{Contact, Layers};
 use crate::chain::{Additions, BOTTOM, Chain, GUIDE, Lanes, NODE, Precision, TOP, Touching};
 use crate::elements::factors::TangentFactors;
 use crate::simd::Kernel;
 use crate::simd::aligned::Aligned;
+use crate::simd::number::{Eight, Lane};
 use crate::simd::vector::Vector;
 
 impl Contact {
@@ -37,35 +38,83 @@ impl<S: Precision> Kernel for Tangents<'_, S> {
     fn run<V: Vector>(self) {
         let chain = self.chain;
         let mut guide_sum = GuideSum::<S>::new();
+        let (mut numbers, mut above, mut below) = (Numbers::<S>::new(), Factors::new(), Factors::new());
         let layers = [(&self.layers.inner, true), (&self.layers.outer, false)];
         // Contacts of pipe and guide fill the whole node; those of the wall
         // only the guide's part, which is summed per span.
         for (layer, inner) in layers {
-            for (station, touch) in layer.among(|station| chain.is_active(chain.span_of(station).0)) {
+            // The derivatives of eight contacts are found at once, when the first of them is needed.
+            let mut ready = None;
+            for (station, slot) in layer.slots_among(|station| chain.is_active(chain.span_of(station).0)) {
+                let (group, lane) = (slot / 8, slot % 8);
+                if ready != Some(group) {
+                    ready = Some(group);
+                    numbers.set::<V>(layer.group(group), self.factors);
+                }
                 let (l, i) = chain.span_of(station);
                 let on_nodes = &S::on_nodes(&chain.model.kind(l).on_nodes)[i];
-                let contact = InSpan {
-                    l,
-                    at: [i == 0, i == chain.elements_of(l).len()],
-                    rows: if inner { &on_nodes.inner } else { &on_nodes.outer },
-                };
-                let tangent = touch.tangent(self.factors.stiffness, self.factors.damping);
-                // A wall contact at a node acts on that node alone, and need not be spread over the span.
-                if inner {
-                    contact.add::<V, true>(self.to, &tangent);
-                } else if contact.at[0] || contact.at[1] {
-                    contact.add::<V, false>(self.to, &tangent);
-                } else {
+                let rows = if inner { &on_nodes.inner } else { &on_nodes.outer };
+                // A wall contact inside a span acts on both its ends, whose factors are in one column.
+                let at = [i == 0, i == chain.elements_of(l).len()];
+                if !(inner || at[0] || at[1]) {
                     // Stations come from the top down, so a change of the span ends its sum.
                     if guide_sum.span != l {
                         guide_sum.add_to_nodes::<V>(self.to);
                         guide_sum.span = l;
                     }
-                    guide_sum.add::<V>(&factors::<V, S>(&on_nodes.outer_joined, &tangent));
+                    above.set::<V>(&on_nodes.outer_joined, &numbers, lane);
+                    guide_sum.add::<V>(&above);
+                    continue;
+                }
+                // A contact at a node acts on that node alone, and need not be spread over the span.
+                if !at[1] {
+                    above.set::<V>(&rows[0], &numbers, lane);
+                }
+                if !at[0] {
+                    below.set::<V>(&rows[1], &numbers, lane);
+                }
+                let contact = InSpan {
+                    l,
+                    at,
+                    above: &above,
+                    below: &below,
+                };
+                if inner {
+                    contact.add::<V, true>(self.to);
+                } else {
+                    contact.add::<V, false>(self.to);
                 }
             }
         }
         guide_sum.add_to_nodes::<V>(self.to);
+    }
+}
+
+/// The derivatives of eight contacts in the precision of the tangent, [`super::law::GapTangent::numbers`]: two numbers after each
+/// other, each with a contact per lane.
+struct Numbers<S>(Aligned<[[S; NODE]; 8]>);
+
+impl<S: Precision> Numbers<S> {
+    fn new() -> Self {
+        Self(Aligned([[S::ZERO; NODE]; 8]))
+    }
+
+    #[inline(always)]
+    fn set<V: Vector>(&mut self, group: &Touch<Lane>, factors: TangentFactors) {
+        let tangent = Touch::<Eight<V>>::load(group).tangent(factors.stiffness, factors.damping);
+        for (two, to) in tangent.numbers().iter().zip(self.0.iter_mut()) {
+            let mut lanes = Aligned([0.0; NODE]);
+            let (halves, _) = lanes.as_chunks_mut();
+            two[0].0.store(&mut halves[0]);
+            two[1].0.store(&mut halves[1]);
+            S::Lanes::<V>::round(&lanes).store(to);
+        }
+    }
+
+    /// Number `n` of the contact in `lane`.
+    #[inline(always)]
+    fn get(&self, n: usize, lane: usize) -> S {
+        self.0[n / 2][8 * (n % 2) + lane % 8]
     }
 }
 
@@ -88,14 +137,15 @@ impl<S: Precision> GuideSum<S> {
     }
 
     #[inline(always)]
-    fn add<V: Vector>(&mut self, contact: &Factors<S::Lanes<V>, S>) {
+    fn add<V: Vector>(&mut self, contact: &Factors<S>) {
         if !self.has_contacts {
             self.has_contacts = true;
             *self.columns = [[S::ZERO; NODE]; 12];
         }
+        let on = contact.on::<V>();
         for c in 0..6 {
-            add_product::<V, S>(&mut self.columns[c], &contact.on, &contact.by, GUIDE + c);
-            add_product::<V, S>(&mut self.columns[6 + c], &contact.on, &contact.by, GUIDE - 8 + c);
+            add_product::<V, S>(&mut self.columns[c], &on, &contact.by, GUIDE + c);
+            add_product::<V, S>(&mut self.columns[6 + c], &on, &contact.by, GUIDE - 8 + c);
         }
     }
 
@@ -133,104 +183,143 @@ impl<S: Precision> GuideSum<S> {
     }
 }
 
-/// A contact in its span.
+/// A contact in its span, with its factors on the nodes above and below.
 struct InSpan<'a, S> {
     /// Span.
     l: usize,
-    /// Whether it is at its top or bottom end.
+    /// Whether it is at its top or bottom end, and acts on that node alone.
     at: [bool; 2],
-    /// The forces on the nodes above and below by a local force at the contact.
-    rows: &'a [[[S; NODE]; 6]; 2],
+    above: &'a Factors<S>,
+    below: &'a Factors<S>,
 }
 
-/// The four products on by^T of a contact, on one node. `on` is kept in vectors, `by` in memory, since its numbers are
-/// read one at a time.
-struct Factors<L, S> {
-    on: [L; 4],
+/// The four products on by^T of a contact, on one node.
+struct Factors<S> {
+    on: Aligned<[[S; NODE]; 4]>,
     by: Aligned<[[S; NODE]; 4]>,
 }
 
-/// [`GapTangent`] on nodes, `rows` being the forces on them by the six local ones.
-#[inline(always)]
-fn factors<V: Vector, S: Precision>(rows: &[[S; NODE]; 6], tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
-    let of = |x: f64| S::Lanes::<V>::splat(S::of(x));
-    let mut row = [S::Lanes::<V>::splat(S::ZERO); 6];
-    for (row, from) in row.iter_mut().zip(rows) {
-        *row = S::Lanes::<V>::load(from);
+impl<S: Precision> Factors<S> {
+    fn new() -> Self {
+        Self {
+            on: Aligned([[S::ZERO; NODE]; 4]),
+            by: Aligned([[S::ZERO; NODE]; 4]),
+        }
     }
-    let (y, z, minus_y, minus_z) = (
-        of(tangent.direction[0]),
-        of(tangent.direction[1]),
-        of(-tangent.direction[0]),
-        of(-tangent.direction[1]),
-    );
-    let normal = row[1].times(y).plus_product(row[2], z);
-    let tangential = row[2].times(y).plus_product(row[1], minus_z);
-    let around = tangential.plus(row[3]);
-    let along = row[0].plus_product(row[4], z).plus_product(row[5], minus_y);
-    let tilt = row[4].times(y).plus_product(row[5], z);
-    let ([a, b, c], by) = (tangent.by_normal, tangent.by_tangent);
-    let mut out = Aligned([[S::ZERO; NODE]; 4]);
-    for (to, from) in out.iter_mut().zip([normal, tangential, around, along]) {
-        from.store(to);
+
+    /// Those of the contact in `lane`, `rows` being the forces on the node by the six local ones.
+    #[inline(always)]
+    fn set<V: Vector>(&mut self, rows: &[[S; NODE]; 6], numbers: &Numbers<S>, lane: usize) {
+        // A function of its own, so that the products read single numbers of `by` from memory, which spreads them to all lanes for
+        // nothing. Where the compiler sees both sides it takes them out of registers, two shuffles each: processors with one port
+        // for shuffles then take twice as long.
+        V::call(Factorise {
+            to: self,
+            rows,
+            numbers,
+            lane,
+        });
     }
-    Factors {
-        on: [
-            normal
-                .times(of(a))
-                .plus_product(around, of(b))
-                .plus_product(along, of(c)),
-            (normal.times(of(by[0])).plus_product(tangential, of(by[1])))
-                .plus_product(tilt, of(by[4]))
-                .plus(around.times(of(by[2])).plus_product(along, of(by[3]))),
-            (around.times(of(tangent.by_around))).plus_product(along, of(tangent.by_other)),
-            (along.times(of(tangent.by_along))).plus_product(around, of(tangent.by_other)),
-        ],
-        by: out,
+
+    #[inline(always)]
+    fn on<V: Vector>(&self) -> [S::Lanes<V>; 4] {
+        let [a, b, c, d] = &*self.on;
+        [
+            S::Lanes::<V>::load(a),
+            S::Lanes::<V>::load(b),
+            S::Lanes::<V>::load(c),
+            S::Lanes::<V>::load(d),
+        ]
+    }
+}
+
+/// [`Factors::set`].
+struct Factorise<'a, S> {
+    to: &'a mut Factors<S>,
+    rows: &'a [[S; NODE]; 6],
+    numbers: &'a Numbers<S>,
+    lane: usize,
+}
+
+impl<S: Precision> Kernel for Factorise<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self {
+            to,
+            rows,
+            numbers,
+            lane,
+        } = self;
+        let mut row = [S::Lanes::<V>::splat(S::ZERO); 6];
+        for (row, from) in row.iter_mut().zip(rows) {
+            *row = S::Lanes::<V>::load(from);
+        }
+        let mut number = [S::Lanes::<V>::splat(S::ZERO); 15];
+        for (n, number) in number.iter_mut().enumerate() {
+            *number = S::Lanes::<V>::splat(numbers.get(n, lane));
+        }
+        let [y, z, minus_y, minus_z, ..] = number;
+        let [.., a, b, c, d, e, f, g, h, by_around, by_along, by_other] = number;
+        // The local directions of the contact on the node.
+        let normal = row[1].times(y).plus_product(row[2], z);
+        let tangential = row[2].times(y).plus_product(row[1], minus_z);
+        let around = tangential.plus(row[3]);
+        let along = row[0].plus_product(row[4], z).plus_product(row[5], minus_y);
+        let tilt = row[4].times(y).plus_product(row[5], z);
+        for (to, from) in to.by.iter_mut().zip([normal, tangential, around, along]) {
+            from.store(to);
+        }
+        // The force by each of them.
+        let on = [
+            normal.times(a).plus_product(around, b).plus_product(along, c),
+            (normal.times(d).plus_product(tangential, e))
+                .plus_product(tilt, h)
+                .plus(around.times(f).plus_product(along, g)),
+            around.times(by_around).plus_product(along, by_other),
+            along.times(by_along).plus_product(around, by_other),
+        ];
+        for (to, from) in to.on.iter_mut().zip(on) {
+            from.store(to);
+        }
     }
 }
 
 impl<S: Precision> InSpan<'_, S> {
-    /// [`GapTangent`] on a node.
-    #[inline(always)]
-    fn factors<V: Vector>(&self, end: usize, tangent: &GapTangent) -> Factors<S::Lanes<V>, S> {
-        factors::<V, S>(&self.rows[end], tangent)
-    }
-
     /// Adds a contact: to the guide's unknowns, and with `INNER` to those of the pipe.
     #[inline(always)]
-    fn add<V: Vector, const INNER: bool>(&self, to: &mut Additions<S>, tangent: &GapTangent) {
+    fn add<V: Vector, const INNER: bool>(&self, to: &mut Additions<S>) {
         // The guide's columns come last in every list of twelve.
         let (first, touching) = if INNER {
             (0, Touching::Both)
         } else {
             (6, Touching::Guide)
         };
+        let (above, below) = (self.above, self.below);
         // A station at a node moves with that node only, and is done here.
-        for (end, columns) in [&TOP, &BOTTOM].into_iter().enumerate() {
+        for (end, (columns, node)) in [(&TOP, above), (&BOTTOM, below)].into_iter().enumerate() {
             if self.at[end] {
-                let node = self.factors::<V>(end, tangent);
-                let block = to.block(self.l + end, touching);
+                let (block, on) = (to.block(self.l + end, touching), node.on::<V>());
                 for &j in &columns[first..] {
-                    add_product::<V, S>(&mut block[j], &node.on, &node.by, j);
+                    add_product::<V, S>(&mut block[j], &on, &node.by, j);
                 }
                 return;
             }
         }
-        let above = self.factors::<V>(0, tangent);
-        let below = self.factors::<V>(1, tangent);
+        let (on_above, on_below) = (above.on::<V>(), below.on::<V>());
         let block = to.block(self.l, touching);
         for &j in &TOP[first..] {
-            add_product::<V, S>(&mut block[j], &above.on, &above.by, j);
+            add_product::<V, S>(&mut block[j], &on_above, &above.by, j);
         }
         let block = to.block(self.l + 1, touching);
         for &j in &BOTTOM[first..] {
-            add_product::<V, S>(&mut block[j], &below.on, &below.by, j);
+            add_product::<V, S>(&mut block[j], &on_below, &below.by, j);
         }
         let coupling = to.coupling(self.l, touching);
         for c in first..12 {
-            add_product::<V, S>(&mut coupling.upper[c], &above.on, &below.by, BOTTOM[c]);
-            add_product::<V, S>(&mut coupling.lower[c], &below.on, &above.by, TOP[c]);
+            add_product::<V, S>(&mut coupling.upper[c], &on_above, &below.by, BOTTOM[c]);
+            add_product::<V, S>(&mut coupling.lower[c], &on_below, &above.by, TOP[c]);
         }
     }
 }

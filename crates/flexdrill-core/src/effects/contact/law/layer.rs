@@ -197,11 +197,23 @@ impl LayerContacts {
     /// The `wanted` ones of them.
     #[inline(always)]
     pub(crate) fn among(&self, wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, Touch)> {
-        let touch = |slot: usize| self.touches[slot / 8].lane(slot % 8);
+        self.slots_among(wanted)
+            .map(|(station, slot)| (station, self.group(slot / 8).lane(slot % 8)))
+    }
+
+    /// The `wanted` stations with a closed gap, and the slots of their contacts: eight slots are a [`LayerContacts::group`].
+    #[inline(always)]
+    pub(crate) fn slots_among(&self, wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, usize)> {
         let found = self.found.iter().enumerate();
         found
             .filter(move |(_, found)| found.closed && wanted(found.station))
-            .map(move |(slot, found)| (found.station, touch(slot)))
+            .map(|(slot, found)| (found.station, slot))
+    }
+
+    /// The contacts of eight slots, a slot per lane.
+    #[inline(always)]
+    pub(crate) fn group(&self, group: usize) -> &Touch<Lane> {
+        &self.touches[group]
     }
 }
 

@@ -102,25 +102,45 @@ pub struct Touch<N = f64> {
     by_travel: bool,
 }
 
-/// The derivative of a gap's force as four dyads: the force changes by minus the sum of `on` times (`by` . motion).
-/// Kept in this form, a tangent costs four products with the nodes' directions instead of a 6 x 6 matrix.
+/// The derivative of a gap's force, or of one in each of eight lanes, as four dyads: the force changes by minus the sum of `on`
+/// times (`by` . motion). Kept in this form, a tangent costs four products with the nodes' directions instead of a 6 x 6 matrix.
 ///
 /// Local directions with n and t of [`Touch`]: `normal` (0, n, 0, 0, 0), `tangent` (0, t, 0, 0, 0), `around` (0, t, 1,
 /// 0, 0), `along` (1, 0, 0, 0, n_z, -n_y), `tilt` (0, 0, 0, 0, n_y, n_z).
 #[derive(Debug, Clone, Copy)]
-pub struct GapTangent {
+pub struct GapTangent<N = f64> {
     /// The normal n.
-    pub direction: [f64; 2],
+    pub direction: [N; 2],
     /// Force along normal, around, along, per motion in the normal.
-    pub by_normal: [f64; 3],
+    pub by_normal: [N; 3],
     /// Force along normal, tangent, around, along, tilt, per motion in the tangent.
-    pub by_tangent: [f64; 5],
+    pub by_tangent: [N; 5],
     /// Force around per motion around.
-    pub by_around: f64,
+    pub by_around: N,
     /// Force along per motion along.
-    pub by_along: f64,
+    pub by_along: N,
     /// Force around per motion along, and along per motion around.
-    pub by_other: f64,
+    pub by_other: N,
+}
+
+impl<N: Number> GapTangent<N> {
+    /// All its numbers in one list, two by two: the normal and minus the normal, then by what the force is proportional to; the
+    /// last place is empty.
+    #[inline(always)]
+    pub fn numbers(&self) -> [[N; 2]; 8] {
+        let ([y, z], [a, b, c], [d, e, f, g, h]) = (self.direction, self.by_normal, self.by_tangent);
+        let (around, along, other) = (self.by_around, self.by_along, self.by_other);
+        [
+            [y, z],
+            [-y, -z],
+            [a, b],
+            [c, d],
+            [e, f],
+            [g, h],
+            [around, along],
+            [other, N::of(0.0)],
+        ]
+    }
 }
 
 #[cfg(test)]
@@ -190,36 +210,6 @@ impl Touch {
             -along * y,
         ]
     }
-
-    /// The exact derivative with factors on those in displacement and in velocity, Eq. 22.
-    #[inline(always)]
-    pub fn tangent(&self, stiffness: f64, damping: f64) -> GapTangent {
-        let [around, along] = &self.slip;
-        let (share_around, share_along) = (around.friction, along.friction);
-        let (slope_around, slope_along) = (self.normal * around.slope, self.normal * along.slope);
-        let slope_other = self.normal * self.coupling;
-        let [around_by, along_by] = self.sliding_by;
-        let sliding = if self.by_travel { stiffness } else { damping };
-        let normal = self.normal_by[0] * stiffness + self.normal_by[2] * damping;
-        let across = self.normal_by[1] * stiffness;
-        // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus
-        // its share here.
-        let turning = stiffness * self.curvature;
-        GapTangent {
-            direction: self.direction,
-            by_normal: [normal, share_around * normal, share_along * normal],
-            by_tangent: [
-                across + turning * self.tangential,
-                turning * self.normal,
-                share_around * across + (slope_around * around_by + slope_other * along_by) * stiffness,
-                share_along * across + (slope_along * along_by + slope_other * around_by) * stiffness,
-                -turning * self.axial,
-            ],
-            by_around: slope_around * sliding,
-            by_along: slope_along * sliding,
-            by_other: slope_other * sliding,
-        }
-    }
 }
 
 impl Touch<Lane> {
@@ -269,6 +259,65 @@ impl Touch<Lane> {
 }
 
 impl<N: Number> Touch<N> {
+    /// Reads all lanes from memory.
+    #[inline(always)]
+    pub(super) fn load(from: &Touch<N::Memory>) -> Self {
+        let mut out = Self {
+            normal: N::load(&from.normal),
+            tangential: N::load(&from.tangential),
+            axial: N::load(&from.axial),
+            energy: N::load(&from.energy),
+            dissipation: N::load(&from.dissipation),
+            friction_power: N::load(&from.friction_power),
+            direction: [N::of(0.0); 2],
+            curvature: N::load(&from.curvature),
+            normal_by: [N::of(0.0); 3],
+            sliding_by: [N::of(0.0); 2],
+            slip: [Slip::load(&from.slip[0]), Slip::load(&from.slip[1])],
+            coupling: N::load(&from.coupling),
+            by_travel: from.by_travel,
+        };
+        for k in 0..2 {
+            out.direction[k] = N::load(&from.direction[k]);
+            out.sliding_by[k] = N::load(&from.sliding_by[k]);
+        }
+        for k in 0..3 {
+            out.normal_by[k] = N::load(&from.normal_by[k]);
+        }
+        out
+    }
+
+    /// The exact derivative with factors on those in displacement and in velocity, Eq. 22.
+    #[inline(always)]
+    pub fn tangent(&self, stiffness: f64, damping: f64) -> GapTangent<N> {
+        let (stiffness, damping) = (N::of(stiffness), N::of(damping));
+        let [around, along] = &self.slip;
+        let (share_around, share_along) = (around.friction, along.friction);
+        let (slope_around, slope_along) = (self.normal * around.slope, self.normal * along.slope);
+        let slope_other = self.normal * self.coupling;
+        let [around_by, along_by] = self.sliding_by;
+        let sliding = if self.by_travel { stiffness } else { damping };
+        let normal = self.normal_by[0] * stiffness + self.normal_by[2] * damping;
+        let across = self.normal_by[1] * stiffness;
+        // The directions turn with the displacement: dn = t (t.dd)/distance, dt = -n (t.dd)/distance. Friction is minus
+        // its share here.
+        let turning = stiffness * self.curvature;
+        GapTangent {
+            direction: self.direction,
+            by_normal: [normal, share_around * normal, share_along * normal],
+            by_tangent: [
+                across + turning * self.tangential,
+                turning * self.normal,
+                share_around * across + (slope_around * around_by + slope_other * along_by) * stiffness,
+                share_along * across + (slope_along * along_by + slope_other * around_by) * stiffness,
+                -turning * self.axial,
+            ],
+            by_around: slope_around * sliding,
+            by_along: slope_along * sliding,
+            by_other: slope_other * sliding,
+        }
+    }
+
     /// Writes all lanes to memory, but for the coupling, which only some laws have.
     #[inline(always)]
     fn store(self, to: &mut Touch<N::Memory>) {
