@@ -88,14 +88,13 @@ impl<E: Effect> ChainEquations<'_, E> {
     }
 
     /// Adds up what the last residual left of effects at `state` for the tangent, in one precision.
-    fn linearise<S: Precision>(&mut self, operator: usize, state: &State, at: &Iteration<'_>) {
+    fn linearise<S: Precision>(&mut self, state: &State, at: &Iteration<'_>) {
         let Self {
             model, chain, effects, ..
         } = self;
         // Effects read the chain while they add: what they add to is taken out of it meanwhile.
         let mut to = std::mem::take(S::additions(chain));
-        let crossing = S::crossing(&chain.operators[operator]);
-        to.begin(&chain.model, &chain.active, crossing);
+        to.begin();
         effects.at_stations(&mut to, chain, at);
         let numbered = chain.model.numbered(model);
         numbered.hanger_tangent(at.factors, |row, column, value| to.add_within_node(row, column, value));
@@ -119,7 +118,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         // In double the whole tool is solved: a window needs the columns of an earlier sweep, which single precision has
         // made.
         self.chain.active.set_whole();
-        self.linearise::<f64>(operator, state, at);
+        self.linearise::<f64>(state, at);
         let Self {
             chain,
             effects,
@@ -161,7 +160,7 @@ impl<E: Effect> ChainEquations<'_, E> {
         let Some(operator) = self.chain.operator(at.factors, at.conditions) else {
             return false;
         };
-        self.linearise::<f32>(operator, state, at);
+        self.linearise::<f32>(state, at);
         let Self {
             chain,
             joints,

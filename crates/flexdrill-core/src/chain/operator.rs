@@ -15,14 +15,13 @@
 //! ```
 //!
 //! A span couples rows and columns 3..9 of the node above (its top end) with 0..6 of the node below (its bottom end) for the
-//! pipe, 9..15 with 9..15 for the guide. Contacts inside it couple pipe and guide too.
+//! pipe, 9..15 with 9..15 for the guide. Contacts inside it couple pipe and guide too. Mud between them couples them everywhere:
+//! then `S` is also where `C` is ([`Operator::crossed`]).
 //!
 //! [`dependents`]: super::dependents
 
 use super::columns::EndColumn;
-use super::precision::Precision;
 use super::slaving::row;
-use super::tangent::AddedCoupling;
 use super::{BOTTOM, Chain, NODE, TIE, TOP, U};
 use crate::dynamics::conditions::Conditions;
 use crate::dynamics::numbered::along_the_hole;
@@ -59,69 +58,10 @@ pub(crate) struct Operator {
     pub couplings: Vec<Coupling>,
     /// What the motion of one pipe does to the other, in place of `spans`; none where they are not coupled.
     pub across: Vec<Across>,
-    /// The same on the nodes, to begin the additions of an iteration with.
-    pub crossing: Option<Crossing<f64>>,
-    pub crossing_single: Option<Crossing<f32>>,
+    /// Whether some are coupled: all rows of pipe and guide are then taken to depend on each other, as at a contact between them.
+    pub crossed: bool,
     /// The same rounded.
     pub single: SingleOperator,
-}
-
-/// How effects couple pipe and guide everywhere: added to every node and span in each iteration, as a contact would be.
-pub(crate) struct Crossing<S> {
-    /// By node.
-    pub blocks: Vec<Aligned<[[S; NODE]; NODE]>>,
-    /// By kind of span.
-    pub couplings: Vec<AddedCoupling<S>>,
-}
-
-impl<S: Precision> Crossing<S> {
-    /// On the nodes of `chain`, of what acts `across` in its kinds of span.
-    fn of(chain: &Chain, across: &[Across]) -> Option<Self> {
-        if across.iter().all(Option::is_none) {
-            return None;
-        }
-        let mut blocks = vec![[[0.0; NODE]; NODE]; chain.model.nodes.list.len()];
-        let none = AddedCoupling {
-            upper: [[S::ZERO; NODE]; 12],
-            lower: [[S::ZERO; NODE]; 12],
-        };
-        // Only the columns of the other pipe's motion have entries here.
-        let mut couplings = vec![none; across.len()];
-        for (coupling, across) in couplings.iter_mut().zip(across) {
-            let Some(across) = across else { continue };
-            for (body, columns) in across.iter().enumerate() {
-                // Forces on this body by the motion of the other.
-                let (on, by) = (6 * body, 6 * (1 - body));
-                for j in 0..6 {
-                    for i in 0..6 {
-                        coupling.upper[by + j][TOP[on + i]] = S::of(columns[6 + j][row(i)]);
-                        coupling.lower[by + j][BOTTOM[on + i]] = S::of(columns[j][row(6 + i)]);
-                    }
-                }
-            }
-        }
-        // A node's block has a part of the span above and of the one below, so each span adds to both.
-        for (l, link) in chain.model.links.iter().enumerate() {
-            let Some(across) = &across[link.kind] else { continue };
-            for (body, columns) in across.iter().enumerate() {
-                let (on, by) = (6 * body, 6 * (1 - body));
-                for j in 0..6 {
-                    for i in 0..6 {
-                        blocks[l][TOP[by + j]][TOP[on + i]] += columns[j][row(i)];
-                        blocks[l + 1][BOTTOM[by + j]][BOTTOM[on + i]] += columns[6 + j][row(6 + i)];
-                    }
-                }
-            }
-        }
-        // Rounded at the end: the sum of two spans is formed in double.
-        let blocks = blocks
-            .iter()
-            .map(|block| Aligned(block.map(|column| column.map(S::of))));
-        Some(Self {
-            blocks: blocks.collect(),
-            couplings,
-        })
-    }
 }
 
 impl Operator {
@@ -153,6 +93,18 @@ impl Operator {
                 }))
             })
             .collect();
+        // Mud across the gap is kept apart in the residual: the motion of the other pipe is read for it.
+        let across: Vec<Across> = (chain.model.kinds.iter())
+            .map(|kind| {
+                let coupled = kind.coupled.as_ref()?;
+                Some(Box::new(Aligned(std::array::from_fn(|body| {
+                    std::array::from_fn(|j| {
+                        let (m, c) = (&coupled.mass_across[body][j], &coupled.damping_across[body][j]);
+                        std::array::from_fn(|i| inertial * m[i] + factors.damping * c[i])
+                    })
+                }))))
+            })
+            .collect();
         // Blocks: each span adds to those of both its ends.
         let mut nodes: Vec<Block> = vec![[[0.0; NODE]; NODE]; chain.model.nodes.list.len()];
         for (l, link) in chain.model.links.iter().enumerate() {
@@ -162,6 +114,16 @@ impl Operator {
                     for i in 0..6 {
                         nodes[l][top[j]][top[i]] += columns[j][row(i)];
                         nodes[l + 1][bottom[j]][bottom[i]] += columns[6 + j][row(6 + i)];
+                    }
+                }
+            }
+            // Forces on this body by the motion of the other.
+            for (body, columns) in across[link.kind].iter().flat_map(|across| across.iter()).enumerate() {
+                let (on, by) = (6 * body, 6 * (1 - body));
+                for j in 0..6 {
+                    for i in 0..6 {
+                        nodes[l][TOP[by + j]][TOP[on + i]] += columns[j][row(i)];
+                        nodes[l + 1][BOTTOM[by + j]][BOTTOM[on + i]] += columns[6 + j][row(6 + i)];
                     }
                 }
             }
@@ -184,7 +146,8 @@ impl Operator {
         // The coupling of two neighbours, per kind: above by the bottom's motion, below by the top's.
         let couplings = spans
             .iter()
-            .map(|bodies| {
+            .zip(&across)
+            .map(|(bodies, across)| {
                 let mut coupling = Coupling {
                     upper: [[0.0; NODE]; 12],
                     lower: [[0.0; NODE]; 12],
@@ -194,6 +157,15 @@ impl Operator {
                         for i in 0..6 {
                             coupling.upper[6 * body + j][TOP[6 * body + i]] = columns[6 + j][row(i)];
                             coupling.lower[6 * body + j][BOTTOM[6 * body + i]] = columns[j][row(6 + i)];
+                        }
+                    }
+                }
+                for (body, columns) in across.iter().flat_map(|across| across.iter()).enumerate() {
+                    let (on, by) = (6 * body, 6 * (1 - body));
+                    for j in 0..6 {
+                        for i in 0..6 {
+                            coupling.upper[by + j][TOP[on + i]] = columns[6 + j][row(i)];
+                            coupling.lower[by + j][BOTTOM[on + i]] = columns[j][row(6 + i)];
                         }
                     }
                 }
@@ -212,21 +184,8 @@ impl Operator {
                 })
             })
             .collect();
-        // Mud across the gap is kept apart: nodes that it crosses need more columns in the elimination.
-        let across: Vec<_> = (chain.model.kinds.iter())
-            .map(|kind| {
-                let coupled = kind.coupled.as_ref()?;
-                Some(Box::new(Aligned(std::array::from_fn(|body| {
-                    std::array::from_fn(|j| {
-                        let (m, c) = (&coupled.mass_across[body][j], &coupled.damping_across[body][j]);
-                        std::array::from_fn(|i| inertial * m[i] + factors.damping * c[i])
-                    })
-                }))))
-            })
-            .collect();
         let mut operator = Self {
-            crossing: Crossing::of(chain, &across),
-            crossing_single: Crossing::of(chain, &across),
+            crossed: across.iter().any(Option::is_some),
             across,
             factors,
             damping: [alpha, beta],
@@ -250,7 +209,7 @@ impl Operator {
 pub(crate) struct SingleOperator {
     pub blocks: Vec<Aligned<[[f32; NODE]; NODE]>>,
     /// Per kind of span: rows of the node above by columns of the bottom end; rows of the node below by columns of the
-    /// top end, pipe and guide in one column as they do not share rows, and apart.
+    /// top end, apart and, where nothing crosses, pipe and guide in one column, as they do not share rows.
     pub upper: Vec<Aligned<[[f32; NODE]; 12]>>,
     pub lower: Vec<Aligned<[[f32; NODE]; 12]>>,
     pub lower_joined: Vec<Aligned<[[f32; NODE]; 6]>>,

@@ -4,7 +4,6 @@ use std::ops::AddAssign;
 
 use super::Chain;
 use super::columns::{ONLY, load, store};
-use super::operator::{Crossing, Operator};
 use super::tangent::Additions;
 use super::{GUIDE, NODE, U};
 use crate::simd::aligned::Aligned;
@@ -26,8 +25,6 @@ pub(crate) trait Precision: Copy + AddAssign + 'static {
     fn on_nodes(stations: &OnNodesInBoth) -> &[OnNodes<Self>];
     /// What a chain adds to the tangent.
     fn additions(chain: &mut Chain) -> &mut Additions<Self>;
-    /// What of an operator couples pipe and guide.
-    fn crossing(operator: &Operator) -> Option<&Crossing<Self>>;
 }
 
 /// Sixteen numbers: a column of a node's block.
@@ -141,10 +138,6 @@ impl Precision for f64 {
     fn additions(chain: &mut Chain) -> &mut Additions<Self> {
         &mut chain.additions
     }
-
-    fn crossing(operator: &Operator) -> Option<&Crossing<Self>> {
-        operator.crossing.as_ref()
-    }
 }
 
 impl Precision for f32 {
@@ -181,10 +174,6 @@ impl Precision for f32 {
 
     fn additions(chain: &mut Chain) -> &mut Additions<Self> {
         &mut chain.single_additions
-    }
-
-    fn crossing(operator: &Operator) -> Option<&Crossing<Self>> {
-        operator.crossing_single.as_ref()
     }
 }
 

@@ -176,7 +176,7 @@ impl Kernel for Elimination<'_> {
             }
             columns[12] = right;
             // The pipe's columns have entries from the first row on, the guide's from row 9 on unless contacts cross them.
-            let crossed = touching == Touching::Both;
+            let crossed = self.operator.crossed || touching == Touching::Both;
             let active = |row: usize| if row < GUIDE && !crossed { 6 } else { 12 };
             sixteen::<V, COLUMNS>(&mut block, &mut columns, active).map_err(|pivot| (k, pivot))?;
             // The product with the lower coupling forms the carry. Without a

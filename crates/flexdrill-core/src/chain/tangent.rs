@@ -1,8 +1,6 @@
 //! What effects add to the tangent in an iteration. One that acts inside a span adds to the blocks of both its ends and to
 //! their coupling: a local derivative there is one on the nodes, with the forces and motions that the slaving makes of them.
 
-use super::active::Active;
-use super::operator::Crossing;
 use super::precision::{Lanes, Precision};
 use super::{BOTTOM, ChainModel, GUIDE, NODE, TIE, TOP};
 use crate::simd::aligned::Aligned;
@@ -99,20 +97,10 @@ impl<S: Precision> Additions<S> {
         coupling
     }
 
-    /// Begins the additions where the tool is `active`, with what couples pipe and guide everywhere, the step-constant
-    /// `crossing`.
-    pub(super) fn begin(&mut self, chain: &ChainModel, active: &Active, crossing: Option<&Crossing<S>>) {
+    /// Begins the additions of an iteration.
+    pub(super) fn begin(&mut self) {
         self.nodes.fill(Touching::Nothing);
         self.spans.fill(Touching::Nothing);
-        let Some(crossing) = crossing else { return };
-        for (node, _) in active.nodes.iter().enumerate().filter(|(_, active)| **active) {
-            self.blocks[node].clone_from(&crossing.blocks[node]);
-            self.nodes[node] = Touching::Both;
-        }
-        for (span, _) in active.spans.iter().enumerate().filter(|(_, active)| **active) {
-            self.couplings[span].clone_from(&crossing.couplings[chain.links[span].kind]);
-            self.spans[span] = Touching::Both;
-        }
     }
 }
 

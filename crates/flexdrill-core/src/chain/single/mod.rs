@@ -136,6 +136,12 @@ impl Kernel for SingleElimination<'_> {
 }
 
 impl SingleElimination<'_> {
+    /// Whether the coupling of span `k` has entries in rows of the pipe by columns of the guide and the other way round.
+    #[inline(always)]
+    fn crosses(&self, k: usize) -> bool {
+        self.operator.crossed || self.additions.spans[k] == Touching::Both
+    }
+
     /// Assembles the block of node `k` into `a` and its coupling and right-hand side into the node's columns, without the
     /// carry from above, and eliminates the early pair of all but the last node. Gives the inverse of that pair and the
     /// squares of its multipliers.
@@ -176,6 +182,7 @@ impl SingleElimination<'_> {
         let (values, _) = self.values.as_chunks::<NODE>();
         let (node, dependents) = (&values[k], &self.dependents[k]);
         let held = self.rows[k].as_ref().map(|rows| S::round(rows));
+        let crossed = !last && self.crosses(k);
         let b = &mut self.sweep.columns[k];
         let mut right = S::round(node);
         let rows = [node[FIRST_ROW], node[SECOND_ROW]];
@@ -183,7 +190,7 @@ impl SingleElimination<'_> {
             // The values of the joint's rows are no moments.
             right = right.times(S::round(&MOMENTS));
         }
-        let crosses = touching == Touching::Both;
+        let crosses = self.operator.crossed || touching == Touching::Both;
         // The last node has no coupling, and its pivots come in another order.
         if last {
             let mut right = dependents.eliminate(a, &mut [], Rounded(right), rows, crosses).0;
@@ -207,7 +214,6 @@ impl SingleElimination<'_> {
             }
         }
         // Dependent rotations are written by the others, held unknowns take no part.
-        let crossed = touching == Touching::Both;
         let with_pipe = &mut b[..if crossed { 12 } else { 6 }];
         right = dependents.eliminate(a, with_pipe, Rounded(right), rows, crosses).0;
         let is_free = |rows: &[f64; NODE]| rows[FIRST_ROW] != 0.0;
@@ -222,7 +228,7 @@ impl SingleElimination<'_> {
             right = right.times(held);
         }
         right.store(&mut b[12]);
-        let squares = if touching == Touching::Both {
+        let squares = if crossed {
             eliminate_early::<S, true>(a, b, &mut inverse)
         } else {
             eliminate_early::<S, false>(a, b, &mut inverse)
@@ -239,10 +245,18 @@ impl SingleElimination<'_> {
         let b = &self.sweep.columns[k];
         let keep = self.rows[k + 1].as_ref().map(|rows| S::round(rows));
         let zero = S::splat(0.0);
-        if touching == Touching::Both {
+        if self.crosses(k) {
+            let first = match touching {
+                Touching::Nothing => 12,
+                Touching::Guide => 6,
+                Touching::Both => 0,
+            };
             let mut lower = [zero; 12];
             for (c, lower) in lower.iter_mut().enumerate() {
-                *lower = S::load(&single.lower[kind][c]).plus(S::load(&added[c]));
+                *lower = S::load(&single.lower[kind][c]);
+                if c >= first {
+                    *lower = lower.plus(S::load(&added[c]));
+                }
                 if let Some(keep) = keep {
                     *lower = lower.times(keep);
                 }
@@ -363,13 +377,14 @@ impl SingleElimination<'_> {
             if next > window.first {
                 let k = next - 1;
                 let rows = self.rows[k].as_ref();
+                let crosses = k < window.last && self.crosses(k);
                 let (a, b) = (&mut blocks[k % 2], &mut self.sweep.columns[k]);
                 if k > 0 {
                     subtract_carry::<S>(a, &mut b[12], &carry, rows);
                 }
                 let largest = if k == window.last {
                     eliminate_last::<S>(a, &mut b[12])
-                } else if self.additions.spans[k] == Touching::Both {
+                } else if crosses {
                     eliminate::<S, true>(a, b, inverse)
                 } else {
                     eliminate::<S, false>(a, b, inverse)
