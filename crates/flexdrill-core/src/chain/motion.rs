@@ -7,33 +7,39 @@ use crate::dynamics::state::{Deflection, State};
 use crate::simd::vector::Vector;
 
 impl Chain {
-    /// Local motions of pipe and guide at station `i` of span `l`, by end unknowns `x`.
+    /// Local motions of the pipe (0) or the guide (1) at station `i` of span `l`, by each of several `motions` of the ends.
     #[inline(always)]
-    pub(crate) fn local<V: Vector>(&self, x: &[f64], l: usize, i: usize, body: usize) -> V {
+    pub(crate) fn local<V: Vector, const N: usize>(
+        &self,
+        motions: [&[f64]; N],
+        l: usize,
+        i: usize,
+        body: usize,
+    ) -> [V; N] {
         let columns = &self.model.kinds[self.model.links[l].kind].motion[i][body];
-        // The numbers are read where they are multiplied: only there does a load spread them to all lanes.
-        let (nodes, [top, bottom]) = (x.as_chunks::<NODE>().0, places(body));
-        let (mut above, mut below) = (V::splat(0.0), V::splat(0.0));
+        let [top, bottom] = places(body);
+        let (mut above, mut below) = ([V::splat(0.0); N], [V::splat(0.0); N]);
+        // Numbers are read where they are multiplied: only there does their load spread them to all lanes.
         if i < self.model.nodes.elements(l) {
-            let node = &nodes[l];
-            for j in 0..6 {
-                above = above.plus_product(V::load(&columns[j]), V::splat(node[top + j]));
+            for (sum, x) in above.iter_mut().zip(motions) {
+                let node = &x.as_chunks::<NODE>().0[l];
+                for j in 0..6 {
+                    *sum = sum.plus_product(V::load(&columns[j]), V::splat(node[top + j]));
+                }
             }
         }
         if i > 0 {
-            let node = &nodes[l + 1];
-            for j in 0..6 {
-                below = below.plus_product(V::load(&columns[6 + j]), V::splat(node[bottom + j]));
+            for (sum, x) in below.iter_mut().zip(motions) {
+                let node = &x.as_chunks::<NODE>().0[l + 1];
+                for j in 0..6 {
+                    *sum = sum.plus_product(V::load(&columns[6 + j]), V::splat(node[bottom + j]));
+                }
             }
         }
-        above.plus(below)
-    }
-
-    /// How far a pipe (0) or guide (1) has moved locally at station `i` of span `l` since the displacements `start`.
-    #[inline(always)]
-    pub(crate) fn travel<V: Vector>(&self, state: &State, start: &[f64], l: usize, i: usize, body: usize) -> V {
-        let now = self.local::<V>(&state.q, l, i, body);
-        now.minus(self.local::<V>(start, l, i, body))
+        for (sum, below) in above.iter_mut().zip(below) {
+            *sum = sum.plus(below);
+        }
+        above
     }
 }
 

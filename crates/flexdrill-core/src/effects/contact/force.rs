@@ -48,6 +48,17 @@ struct Search<'a> {
     arms: [Aligned<[f64; 8]>; 2],
 }
 
+/// Local velocity of the pipe (0) or the guide (1) at a station, and its travel since the start of the step: bristles compare
+/// positions and not velocities.
+#[inline(always)]
+fn motion<V: Vector>(chain: &Chain, layers: &Layers, state: &State, (l, i): (usize, usize), body: usize) -> [V; 2] {
+    if layers.has_bristles {
+        return chain.local([&state.v, &layers.travel], l, i, body);
+    }
+    let [velocity] = chain.local([&state.v], l, i, body);
+    [velocity, V::splat(0.0)]
+}
+
 impl Search<'_> {
     /// Hands station `i` of span `l` to the layers whose gap is closed there, with its lateral positions and velocities.
     #[inline(always)]
@@ -66,36 +77,29 @@ impl Search<'_> {
         // positions and velocities are local to the station.
         let station = chain.station(l, i);
         let advance = *advance;
-        let guide = chain.local::<V>(&state.v, l, i, 1);
+        let guide = motion::<V>(chain, layers, state, (l, i), 1);
         // The residual adds forces inside marked spans only, which are zero where nothing has marked them yet.
         chain.inside(l);
         if is_closed[0] {
-            let pipe = chain.local::<V>(&state.v, l, i, 0);
-            let velocity = pipe.minus_product(guide, V::load(&arms[0]));
+            let pipe = motion::<V>(chain, layers, state, (l, i), 0);
+            let arm = V::load(&arms[0]);
             let clearance = model.stations[station].inner_clearance;
-            // Bristles compare positions and not velocities: they need the travel since the start of the step.
-            if laws[0].has_bristles() {
-                let pipe = chain.travel::<V>(state, &layers.start, l, i, 0);
-                let guide = chain.travel::<V>(state, &layers.start, l, i, 1);
-                layers.inner.set_travel(pipe.minus_product(guide, V::load(&arms[0])));
-                // The travel is handed over before the contact, which queues until eight lanes are full.
-            }
             let layer = &mut layers.inner;
+            // The travel is handed over before the contact, which queues until eight lanes are full.
+            layer.set_travel(pipe[1].minus_product(guide[1], arm));
+            let velocity = pipe[0].minus_product(guide[0], arm);
             layer.push::<V>(&laws[0], station, lateral[0], clearance, velocity);
         }
         if is_closed[1] {
-            // The hole moves past the guide by the advance. Only the velocity along it has that part.
-            let mut velocity = guide.times(V::load(&arms[1]));
+            // The hole moves past the guide by the advance. Only the motion along it has that part.
+            let (arm, along) = (V::load(&arms[1]), V::load(&ALONG));
+            let mut velocity = guide[0].times(arm);
             if advance != 0.0 {
-                velocity = velocity.plus_product(V::load(&ALONG), V::splat(advance));
+                velocity = velocity.plus_product(along, V::splat(advance));
             }
-            if laws[1].has_bristles() {
-                let guide = chain.travel::<V>(state, &layers.start, l, i, 1);
-                let advance = V::splat(advance * layers.step);
-                let travel = guide.times(V::load(&arms[1])).plus_product(V::load(&ALONG), advance);
-                layers.outer.set_travel(travel);
-            }
+            let travel = guide[1].times(arm).plus_product(along, V::splat(advance * layers.step));
             let layer = &mut layers.outer;
+            layer.set_travel(travel);
             layer.push::<V>(&laws[1], station, lateral[1], model.outer_clearance, velocity);
         }
     }
@@ -194,6 +198,7 @@ impl Kernel for Search<'_> {
     #[inline(always)]
     fn run<V: Vector>(mut self) {
         self.open_gaps();
+        self.layers.move_to(&self.state.q);
         self.search::<V>();
         self.evaluate::<V>();
         self.apply::<V>();
@@ -272,7 +277,8 @@ impl Search<'_> {
         let top = &self.model.stations[0];
         let mut motions = [[0.0; 8]; 2];
         for (body, motion) in motions.iter_mut().enumerate() {
-            self.chain.local::<V>(&self.state.q, 0, 0, body).store(motion);
+            let [at] = self.chain.local::<V, 1>([&self.state.q], 0, 0, body);
+            at.store(motion);
         }
         let guide = Vector2::new(motions[1][1], motions[1][2]);
         let inner = top.offset + Vector2::new(motions[0][1], motions[0][2]) - guide;

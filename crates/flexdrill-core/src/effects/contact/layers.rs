@@ -15,9 +15,11 @@ pub(crate) struct Layers {
     /// Closed gaps between guide and wall.
     pub outer: LayerContacts,
     /// Whether a layer's friction has bristles.
-    has_bristles: bool,
+    pub has_bristles: bool,
     /// Displacements at the start of the step, in the numbering that it is taken in; for bristles only.
     pub start: Vec<f64>,
+    /// How far the tool has moved since then, in the same numbering.
+    pub travel: Vec<f64>,
     /// Size of the step (s); 0 at rest.
     pub step: f64,
 }
@@ -26,12 +28,14 @@ impl Layers {
     /// Room for those of `model`.
     pub fn new(model: &Model) -> Self {
         let has_bristles = model.description.holds_friction();
+        // A station has at most 24 unknowns in the numbering of the model, and at most a node of 16 in the chain's.
+        let most = if has_bristles { 24 * model.stations.len() } else { 0 };
         Self {
             inner: LayerContacts::new(model.stations.len()),
             outer: LayerContacts::with_friction_factors(wall_friction_factors(model)),
             has_bristles,
-            // A station has at most 24 unknowns in the numbering of the model, and at most a node of 16 in the chain's.
-            start: Vec::with_capacity(if has_bristles { 24 * model.stations.len() } else { 0 }),
+            start: Vec::with_capacity(most),
+            travel: Vec::with_capacity(most),
             step: 0.0,
         }
     }
@@ -57,6 +61,15 @@ impl Layers {
         if self.has_bristles {
             self.start.clear();
             self.start.extend_from_slice(&from.q);
+            self.travel.resize(from.q.len(), 0.0);
+        }
+    }
+
+    /// Sets how far a tool with bristles has moved to the displacements `q`.
+    #[inline(always)]
+    pub fn move_to(&mut self, q: &[f64]) {
+        for (travel, (now, start)) in self.travel.iter_mut().zip(q.iter().zip(&self.start)) {
+            *travel = now - start;
         }
     }
 

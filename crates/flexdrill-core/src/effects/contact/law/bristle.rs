@@ -23,8 +23,8 @@
 //! the elastic slip is - F / k_t; it is zero where the gap is open. Energy |F|^2 / (2 k_t) is stored.
 
 use super::{GapLaw, Sliding, Touch};
-use crate::simd::number::{Eight, Lane, Number};
-use crate::simd::vector::Vector;
+use crate::elements::slip::Slip;
+use crate::simd::number::Number;
 
 /// Normal force below which nothing sticks (N): a billionth of what a step balances.
 const LEAST_NORMAL: f64 = 1e-9;
@@ -164,71 +164,65 @@ impl Bristles {
         self.held.iter_mut().zip(held).for_each(|(to, from)| *to = from);
     }
 
-    /// Sets the friction of `touches`, the contacts at `stations` lane by lane with their `factors` on the coefficients.
-    /// They have moved by `travel` since the start of the step (m; rotations times radius).
+    /// Force of the gap of a station at the start of the step, around and along (N).
     #[inline(always)]
-    pub(super) fn rub<V: Vector>(
+    pub(super) fn held(&self, station: usize) -> [f64; 2] {
+        self.held[station]
+    }
+
+    /// Sets the friction of a `touch` that has `travelled` since the start of the step (m; rotations times radius), when its
+    /// bristles `held` forces around and along (N), with a `factor` on its coefficients.
+    #[inline(always)]
+    pub(super) fn rub<N: Number>(
         &self,
         law: &GapLaw,
-        stations: impl Iterator<Item = usize>,
-        factors: &Lane,
-        touches: &mut Touch<Lane>,
-        travel: &[Lane; 8],
+        touch: &mut Touch<N>,
+        travelled: Sliding<N>,
+        held: [N; 2],
+        factor: N,
     ) {
-        // The tangent is by travel and not by velocity, which the factors of the scheme must know.
-        touches.by_travel = true;
-
-        // Travel and forces are known by contact: what they become is put into lanes.
-        let (mut held, mut slid) = ([Lane::default(); 2], [Lane::default(); 2]);
-        for (lane, station) in stations.enumerate() {
-            [held[0][lane], held[1][lane]] = self.held[station];
-            let [x, y, z, psi, phi_y, phi_z, ..] = *travel[lane];
-            let sliding = Sliding::of(&touches.lane(lane), &[x, y, z, psi, phi_y, phi_z]);
-            [slid[0][lane], slid[1][lane]] = [sliding.around, sliding.along];
-            [touches.sliding_by[0][lane], touches.sliding_by[1][lane]] = sliding.by;
-        }
-        let held = [Eight::<V>::load(&held[0]), Eight::load(&held[1])];
-        let slid = [Eight::<V>::load(&slid[0]), Eight::load(&slid[1])];
+        touch.sliding_by = travelled.by;
+        let slid = [travelled.around, travelled.along];
 
         // The force of the step before, less what the travel stretches the bristles by.
-        let (zero, stiffness) = (Eight::<V>::of(0.0), Eight::of(law.bristle_stiffness));
-        let normal = Eight::load(&touches.normal);
+        let (zero, stiffness) = (N::of(0.0), N::of(law.bristle_stiffness));
+        let normal = touch.normal;
         let trial = [held[0] - stiffness * slid[0], held[1] - stiffness * slid[1]];
         // Without a step nothing slips: the start evaluates forces that are to be held.
         let moves = self.step > 0.0;
         let friction = if moves {
-            Friction::next_to(trial, law.friction(Eight::load(factors)), normal)
+            Friction::next_to(trial, law.friction(factor), normal)
         } else {
             Friction::held(held)
         };
-        friction.force[0].store(&mut touches.tangential);
-        friction.force[1].store(&mut touches.axial);
+        [touch.tangential, touch.axial] = friction.force;
 
         // The tangent multiplies these by the normal force.
         let per_normal = if moves {
-            zero.where_above(Eight::of(LEAST_NORMAL), normal, stiffness.over(normal))
+            zero.where_above(N::of(LEAST_NORMAL), normal, stiffness.over(normal))
         } else {
             zero
         };
-        (per_normal * friction.by_trial[1]).store(&mut touches.coupling);
-        for (k, slid) in slid.iter().enumerate() {
-            slid.store(&mut touches.slip[k].speed);
-            (per_normal * friction.by_trial[2 * k]).store(&mut touches.slip[k].slope);
-            // The share of the normal force enters with the other sign, as the slope of friction against sliding.
-            (-friction.by_normal[k]).store(&mut touches.slip[k].friction);
+        touch.coupling = per_normal * friction.by_trial[1];
+        for (k, slid) in slid.into_iter().enumerate() {
+            touch.slip[k] = Slip {
+                speed: slid,
+                // The share of the normal force enters with the other sign, as the slope of friction against sliding.
+                friction: -friction.by_normal[k],
+                slope: per_normal * friction.by_trial[2 * k],
+            };
         }
 
         // Slip is what the travel leaves after the change of the elastic slip.
-        let power = if moves && law.bristle_stiffness > 0.0 {
+        touch.friction_power = if moves && law.bristle_stiffness > 0.0 {
             let slipped = [
                 friction.force[0] * (trial[0] - friction.force[0]),
                 friction.force[1] * (trial[1] - friction.force[1]),
             ];
-            (slipped[0] + slipped[1]).over(stiffness * Eight::of(self.step))
+            (slipped[0] + slipped[1]).over(stiffness * N::of(self.step))
         } else {
             zero
         };
-        power.store(&mut touches.friction_power);
     }
 }
 
@@ -236,6 +230,7 @@ impl Bristles {
 mod tests {
     use super::*;
     use crate::simd::aligned::Aligned;
+    use crate::simd::number::{Eight, Lane};
     use crate::simd::vector::Portable;
     use crate::support::Random;
 

@@ -31,17 +31,21 @@ pub struct LayerContacts {
     /// Slots of the contacts that wait to be evaluated.
     waiting: [usize; 8],
     count: usize,
-    /// Their lateral displacements, and the velocity of each in its first six lanes; the other two lanes are unused.
-    lateral: [Lane; 2],
-    clearance: Lane,
-    factor: Lane,
+    /// A row of each: its [`PLACE`].
+    places: [Lane; 8],
+    /// A row of each: its velocity, in the first six numbers.
     velocities: [Lane; 8],
-    /// The motion of each since the start of the step, in the same lanes; for bristles only.
+    /// A row of each: its motion since the start of the step, in the same numbers; for bristles only.
     travels: [Lane; 8],
     memory: LayerMemory,
     vector_memory: VectorMemory,
     bristles: Bristles,
 }
+
+/// Numbers of a contact that waits: lateral displacement y and z, clearance, factor on the friction, forces held by its bristles
+/// around and along, two that are not used. Lanes without a contact are evaluated too: any distance other than zero avoids a
+/// division by zero.
+const PLACE: [f64; 8] = [1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 
 /// A station with a slot.
 #[derive(Debug, Clone, Copy)]
@@ -69,10 +73,7 @@ impl LayerContacts {
             partial: false,
             waiting: [0; 8],
             count: 0,
-            // Unused lanes are evaluated too: any distance other than zero avoids a division by zero.
-            lateral: [Aligned([1.0; 8]); 2],
-            clearance: Lane::default(),
-            factor: Aligned([1.0; 8]),
+            places: [Aligned(PLACE); 8],
             velocities: [Lane::default(); 8],
             travels: [Lane::default(); 8],
             memory: LayerMemory::new(stations),
@@ -148,12 +149,14 @@ impl LayerContacts {
                 self.found.len() - 1
             }
         };
+        // Numbers are kept by contact and read one by one: the processor would wait for a vector that is read straight after its
+        // numbers were written one by one.
         let lane = self.count;
-        for (lanes, x) in self.lateral.iter_mut().zip(lateral) {
-            lanes[lane] = x;
+        let place = &mut self.places[lane];
+        [place[0], place[1], place[2], place[3]] = [lateral[0], lateral[1], clearance, self.friction_factors[station]];
+        if law.has_bristles() {
+            [place[4], place[5]] = self.bristles.held(station);
         }
-        self.clearance[lane] = clearance;
-        self.factor[lane] = self.friction_factors[station];
         velocity.store(&mut self.velocities[lane]);
         self.waiting[lane] = slot;
         self.count += 1;
@@ -217,6 +220,20 @@ impl LayerContacts {
     }
 }
 
+/// The first numbers of eight rows: each number of all rows, a row per lane.
+#[inline(always)]
+fn columns<V: Vector, const N: usize>(rows: &[Lane; 8]) -> [Eight<V>; N] {
+    let mut out = [Eight::<V>::of(0.0); N];
+    for (k, x) in out.iter_mut().enumerate() {
+        let mut lanes = Lane::default();
+        for (to, from) in lanes.iter_mut().zip(rows) {
+            *to = from[k];
+        }
+        *x = Eight::load(&lanes);
+    }
+    out
+}
+
 /// The law of the gap for the contacts that wait.
 struct Evaluate<'a> {
     layer: &'a mut LayerContacts,
@@ -229,19 +246,12 @@ impl Kernel for Evaluate<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         let Self { layer, law } = self;
-        // The velocities were stored by station; the law needs them by component, one station per lane.
-        let mut velocity = [Eight::<V>::of(0.0); 6];
-        for (k, x) in velocity.iter_mut().enumerate() {
-            let mut lanes = Lane::default();
-            for (to, from) in lanes.iter_mut().zip(&layer.velocities) {
-                *to = from[k];
-            }
-            *x = Eight::load(&lanes);
-        }
-        let lateral = [Eight::load(&layer.lateral[0]), Eight::load(&layer.lateral[1])];
-        let mut touch = law.press(lateral, Eight::load(&layer.clearance), &velocity);
+        let velocity = columns::<V, 6>(&layer.velocities);
+        let [y, z, clearance, factor, around, along] = columns::<V, 6>(&layer.places);
+        let mut touch = law.press([y, z], clearance, &velocity);
         let sliding = Sliding::of(&touch, &velocity);
-        let factor = Eight::load(&layer.factor);
+        let mut factors = Lane::default();
+        factor.store(&mut factors);
         let waiting = &layer.waiting[..layer.count];
         let stations = waiting.iter().map(|&slot| layer.found[slot].station);
         // All gaps are evaluated in order: the eight slots are one group. Where only some are evaluated again, their
@@ -256,20 +266,21 @@ impl Kernel for Evaluate<'_> {
             FrictionLaw::Separate => {
                 separate::rub(law, &mut touch, sliding, factor);
                 touch.store(lanes);
-                layer.memory.follow(law, stations, &layer.factor, lanes);
+                layer.memory.follow(law, stations, &factors, lanes);
             }
             FrictionLaw::Vector => {
                 vector::rub(law, &mut touch, sliding, factor);
                 touch.store(lanes);
                 touch.coupling.store(&mut lanes.coupling);
-                layer.vector_memory.follow(law, stations, &layer.factor, lanes);
+                layer.vector_memory.follow(law, stations, &factors, lanes);
             }
-            // The bristles work by station, as each has its own memory.
             FrictionLaw::Bristle => {
+                let travelled = Sliding::of(&touch, &columns::<V, 6>(&layer.travels));
+                layer.bristles.rub(law, &mut touch, travelled, [around, along], factor);
                 touch.store(lanes);
-                layer
-                    .bristles
-                    .rub::<V>(law, stations, &layer.factor, lanes, &layer.travels);
+                touch.coupling.store(&mut lanes.coupling);
+                // The tangent is by travel and not by velocity, which the factors of the scheme must know.
+                lanes.by_travel = true;
             }
         }
         // A partial evaluation has its lanes from anywhere; they return to their slots.
