@@ -262,7 +262,7 @@ def renamed(folder: Path) -> Path:
     [
         (cut, "checksum of its first line: remove it and run flexdrill sweep work"),
         (renamed, "point = .*as the plan and the name of the file say"),
-        (point(lambda line: line.replace(b'"format":2', b'"format":1')), "a result of format 1; .* reads format 2"),
+        (point(lambda line: line.replace(b'"format":3', b'"format":1')), "a result of format 1; .* reads format 3"),
         (point(lambda line: line.replace(b'"program":"flexdrill ', b'"program":"flexdrill 9')), "program = "),
         (
             point(lambda line: line.replace(b'"failed":0', b'"failed":3')),
@@ -277,7 +277,7 @@ def renamed(folder: Path) -> Path:
         (point(lambda line: line.replace(b'"run_up":', b'"run_up":"x","was":')), "run_up = 'x': must be a number"),
         (point(lambda _: b"[" * 100_000), "cut off or no JSON"),
         (point(lambda _: b"\xff\xfe"), "cut off or no JSON"),
-        (plan(lambda text: text.replace(b'"format":2', b'"format":7')), "a plan of format 7; .* reads format 2"),
+        (plan(lambda text: text.replace(b'"format":3', b'"format":7')), "a plan of format 7; .* reads format 3"),
         (plan(lambda text: text[: len(text) // 2]), "cut off or no JSON.*: plan again in a new directory"),
         (plan(lambda text: text.replace(b'"seeds":[', b'"seeds":[-')), "seeds.0 = -1"),
         (plan(lambda text: text.replace(b'"keys":', b'"key":')), "keys = None: must be .*; it is missing"),
@@ -339,4 +339,4 @@ def test_what_is_not_there(tmp_path: Path, swept: Path) -> None:
         flexdrill.read_sweep(tmp_path)
     with pytest.raises(FileNotFoundError, match="flexdrill map CONFIG"):
         flexdrill.read_map(swept)
-    assert json.loads((swept / "sweep.json").read_text())["format"] == 2
+    assert json.loads((swept / "sweep.json").read_text())["format"] == 3

@@ -12,6 +12,7 @@ import numpy as np
 from ._errors import NotRecordedError
 from ._groups import CountArray, FloatArray
 from ._results_file import (
+    MAP_FORMAT,
     MOST_MEMBERS,
     PRIORITIES,
     QUANTILES,
@@ -189,7 +190,7 @@ def read_map(path: PathLike) -> Map:
     if not file.is_file():
         raise not_there(file, "make it with flexdrill map CONFIG --rpm A:B --wob A:B --out DIR, which writes it last")
     whole = parse(file, read_bounded(file, MOST_BYTES, REMEDY), REMEDY)
-    check_format(whole, "a map")
+    check_format(whole, "a map", MAP_FORMAT)
     x, y = _axis(whole.entry("x")), _axis(whole.entry("y"))
     starts = whole.texts("starts", STARTS)
     if starts not in (["rest"], ["running"], ["rest", "running"]):

@@ -20,8 +20,10 @@ Array = npt.NDArray[Any]
 TextArray = npt.NDArray[np.str_]
 FlagArray = npt.NDArray[np.bool_]
 
-FORMAT = 2
-"""The format of plans, points and maps that this version reads."""
+SWEEP_FORMAT = 3
+"""The format of plans and results of points that this version reads: `FORMAT` of flexdrill-sweep."""
+MAP_FORMAT = 2
+"""The format of maps that this version reads: `FORMAT` of flexdrill-map."""
 PRIORITIES = ("low", "medium", "high")
 """Names of the priorities of alarms, rising: the last axis of counts of alarms."""
 QUANTILES = (0.05, 0.5, 0.95)
@@ -156,13 +158,13 @@ def parse(file: Path, text: bytes, remedy: str) -> Entry:
     return Entry(file, remedy, value)
 
 
-def check_format(entry: Entry, kind: str) -> None:
+def check_format(entry: Entry, kind: str, known: int) -> None:
     """Refuses what another version wrote, before anything else of it is read."""
     found = entry.count("format")
-    if found != FORMAT:
+    if found != known:
         raise ResultFileError(
             str(entry.file),
-            f"{kind} of format {found}; this version of the package reads format {FORMAT}",
+            f"{kind} of format {found}; this version of the package reads format {known}",
             "install the version of the package that belongs to the program that wrote it, or make it again",
         )
 

@@ -18,6 +18,7 @@ from ._results_file import (
     MOST_MEMBERS,
     PRIORITIES,
     QUANTILES,
+    SWEEP_FORMAT,
     Array,
     Counts,
     Entry,
@@ -144,7 +145,7 @@ def read_sweep(path: PathLike, *, partial: bool = False) -> Sweep:
     if not file.is_file():
         raise not_there(file, "it is the plan of a sweep; make one with flexdrill sweep plan SPEC DIR")
     plan = parse(file, read_bounded(file, MOST_PLAN_BYTES, PLAN_REMEDY), PLAN_REMEDY)
-    check_format(plan, "a plan")
+    check_format(plan, "a plan", SWEEP_FORMAT)
     runs = plan.entry("runs")
     keys = plan.texts("keys")
     rows = plan.lists("rows", len(keys))
@@ -276,7 +277,7 @@ def _body(file: Path, runs: Entry) -> Entry:
     if rest != f'"{hashlib.sha256(line).hexdigest()}"\n'.encode("ascii"):
         raise ResultFileError(str(file), "it does not end with the checksum of its first line", POINT_REMEDY)
     body = parse(file, line, POINT_REMEDY)
-    check_format(body, "a result")
+    check_format(body, "a result", SWEEP_FORMAT)
     own = {name: runs.text(name) for name in ("program", "arithmetic")}
     own.update({"configuration": runs.text("hash"), "point": file.parent.name + file.stem})
     for name, expected in own.items():

@@ -171,3 +171,15 @@ fn damaged_plans_are_named() {
         assert!(error.contains("not the plan of a sweep, or damaged"), "{error}");
     }
 }
+
+#[test]
+fn the_python_package_reads_these_formats() {
+    let reader = include_str!("../../../flexdrill-python/python/flexdrill/_results_file.py");
+    for (name, format) in [
+        ("SWEEP_FORMAT", flexdrill_sweep::plan::FORMAT),
+        ("MAP_FORMAT", flexdrill_sweep::map::FORMAT),
+    ] {
+        let line = format!("\n{name} = {format}\n");
+        assert!(reader.contains(&line), "{name} of _results_file.py must be {format}");
+    }
+}
