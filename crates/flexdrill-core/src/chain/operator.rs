@@ -117,7 +117,7 @@ impl Operator {
                     }
                 }
             }
-            // Forces on this body by the motion of the other.
+            // Mud between them: forces on this body by the motion of the other.
             for (body, columns) in across[link.kind].iter().flat_map(|across| across.iter()).enumerate() {
                 let (on, by) = (6 * body, 6 * (1 - body));
                 for j in 0..6 {
@@ -160,6 +160,7 @@ impl Operator {
                         }
                     }
                 }
+                // Mud fills the places that no span has: rows of this body by columns of the other.
                 for (body, columns) in across.iter().flat_map(|across| across.iter()).enumerate() {
                     let (on, by) = (6 * body, 6 * (1 - body));
                     for j in 0..6 {

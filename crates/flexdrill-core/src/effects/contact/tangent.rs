@@ -1,7 +1,9 @@
 //! The contacts' part of the tangent. A contact inside a span adds to the blocks of both its ends and to their coupling.
 //!
-//! Its own tangent is the sum of four products on by^T of local forces and motions ([`super::law::GapTangent`]). On the nodes it is the same
+//! Its own tangent is the sum of four products on by^T of local forces and motions ([`GapTangent`]). On the nodes it is the same
 //! sum with the forces and motions that the slaving makes of them.
+//!
+//! [`GapTangent`]: super::law::GapTangent
 
 use super::law::Touch;
 use super::{Contact, Layers};
@@ -210,9 +212,9 @@ impl<S: Precision> Factors<S> {
     /// Those of the contact in `lane`, `rows` being the forces on the node by the six local ones.
     #[inline(always)]
     fn set<V: Vector>(&mut self, rows: &[[S; NODE]; 6], numbers: &Numbers<S>, lane: usize) {
-        // A function of its own, so that the products read single numbers of `by` from memory, which spreads them to all lanes for
-        // nothing. Where the compiler sees both sides it takes them out of registers, two shuffles each: processors with one port
-        // for shuffles then take twice as long.
+        // Called, not inlined: the products then read single numbers of `by` from memory, and the load spreads them to all lanes.
+        // Inlined, the compiler takes each out of a register with two shuffles, and a processor with one port for shuffles takes
+        // twice as long.
         V::call(Factorise {
             to: self,
             rows,
