@@ -25,10 +25,8 @@ pub fn figure(map: &Map) -> Figure {
             map.y.name,
             map.horizon,
             map.members_in_words(),
-            map.tools_in_words().unwrap_or_default()
-        )
-        .trim_end()
-        .to_owned(),
+            map.tools_in_words()
+        ),
         columns: map.starts.len().max(1),
         height: 480,
         panels,

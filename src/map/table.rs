@@ -235,7 +235,7 @@ pub fn words(map: &Map) -> Vec<String> {
         ));
     }
     lines.push(map.members_in_words());
-    lines.extend(map.tools_in_words());
+    lines.push(map.tools_in_words());
     if map.first_looks > 0 {
         lines.push(format!(
             "{} of the runs have one member, since no neighbour is of another class.",

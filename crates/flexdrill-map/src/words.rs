@@ -91,12 +91,14 @@ impl Map {
         text
     }
 
-    /// What the members are drawn from; nothing where they are the tool of the configuration.
-    pub fn tools_in_words(&self) -> Option<String> {
-        if !self.plausible {
-            return None;
-        }
-        Some(match &self.posterior {
+    /// What the members are, and which tools "clear" does not speak of.
+    pub fn tools_in_words(&self) -> String {
+        let drawn = match &self.posterior {
+            _ if !self.plausible => {
+                return "All members are the tool of the configuration: clear is clear for its friction, its joints and its law \
+                        of the bit."
+                    .to_owned();
+            }
             None => {
                 "Plausible tools are drawn from uncertainty of the configuration, without a calibration.".to_owned()
             }
@@ -112,7 +114,13 @@ impl Map {
                 of.keys.join(", "),
                 of.sha256
             ),
-        })
+        };
+        // Measured on rigs that differ in what no distribution states: docs/measurements.md, "Cells of a map".
+        format!(
+            "{drawn} They all have its kind of joints, law of the bit and string: clear does not speak of others. Of 24 \
+             simulated rigs with others, 14 had an alarm in a clear cell of config/rig.yaml, and all 6 with joints of constant \
+             velocity whirled."
+        )
     }
 }
 

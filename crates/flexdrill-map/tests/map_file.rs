@@ -180,6 +180,15 @@ fn the_words_say_how_many_members_ran_and_what_these_exclude() {
 }
 
 #[test]
+fn the_words_say_which_tools_clear_does_not_speak_of() {
+    let mut map = map();
+    for (plausible, words) in [(true, "clear does not speak of others"), (false, "clear for its friction")] {
+        map.plausible = plausible;
+        assert!(map.tools_in_words().contains(words), "{}", map.tools_in_words());
+    }
+}
+
+#[test]
 fn the_nearest_cell_is_found_up_to_half_a_cell_beyond_the_axes() {
     let map = map();
     let at = |x, y| map.nearest(x, y).map(|cell| (cell.x, cell.y));

@@ -68,7 +68,7 @@ fn facts(map: &Map) -> Markup {
                 "of " (map.priority.name()) " priority or higher, expected where their chance is above "
                 (percent(map.limit))
             }
-            @if let Some(tools) = map.tools_in_words() { dt { "Tools" } dd { (tools) } }
+            dt { "Tools" } dd { (map.tools_in_words()) }
             @if map.model_time > 0.0 { dt { "Model time" } dd { (number(map.model_time)) " s" } }
             dt { "Computed by" } dd { (map.program) ", configuration " code { (map.configuration.get(..12).unwrap_or("")) } }
         }
