@@ -182,7 +182,10 @@ fn the_words_say_how_many_members_ran_and_what_these_exclude() {
 #[test]
 fn the_words_say_which_tools_clear_does_not_speak_of() {
     let mut map = map();
-    for (plausible, words) in [(true, "clear does not speak of others"), (false, "clear for its friction")] {
+    for (plausible, words) in [
+        (true, "clear does not speak of others"),
+        (false, "clear for its friction"),
+    ] {
         map.plausible = plausible;
         assert!(map.tools_in_words().contains(words), "{}", map.tools_in_words());
     }

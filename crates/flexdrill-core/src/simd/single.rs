@@ -1,5 +1,7 @@
 //! Sixteen lanes of single precision, for solutions whose residual is computed in double precision.
 
+use wide::f32x16;
+
 /// Sixteen lanes of f32: a column of a block of sixteen.
 pub(crate) trait Single: Copy {
     /// The same in every lane.
@@ -32,33 +34,22 @@ pub(crate) trait Single: Copy {
     fn spread_two<const J: usize, const K: usize>(self) -> Self;
 }
 
-/// Without vector instructions.
+/// As [`Portable`](super::vector::Portable).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PortableSingle([f32; 16]);
-
-impl PortableSingle {
-    #[inline(always)]
-    fn zip(self, other: Self, op: impl Fn(f32, f32) -> f32) -> Self {
-        let mut out = self;
-        for (x, y) in out.0.iter_mut().zip(other.0) {
-            *x = op(*x, y);
-        }
-        out
-    }
-}
+pub(crate) struct PortableSingle(f32x16);
 
 impl Single for PortableSingle {
     #[inline(always)]
     fn splat(x: f32) -> Self {
-        Self([x; 16])
+        Self(f32x16::splat(x))
     }
     #[inline(always)]
     fn load(from: &[f32; 16]) -> Self {
-        Self(*from)
+        Self(f32x16::new(*from))
     }
     #[inline(always)]
     fn store(self, to: &mut [f32; 16]) {
-        *to = self.0;
+        *to = self.0.to_array();
     }
     #[inline(always)]
     fn round(from: &[f64; 16]) -> Self {
@@ -66,23 +57,23 @@ impl Single for PortableSingle {
         for (to, from) in out.iter_mut().zip(from) {
             *to = *from as f32;
         }
-        Self(out)
+        Self(f32x16::new(out))
     }
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
-        self.zip(other, |x, y| x + y)
+        Self(self.0 + other.0)
     }
     #[inline(always)]
     fn minus(self, other: Self) -> Self {
-        self.zip(other, |x, y| x - y)
+        Self(self.0 - other.0)
     }
     #[inline(always)]
     fn times(self, other: Self) -> Self {
-        self.zip(other, |x, y| x * y)
+        Self(self.0 * other.0)
     }
     #[inline(always)]
     fn over(self, other: Self) -> Self {
-        self.zip(other, |x, y| x / y)
+        Self(self.0 / other.0)
     }
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
@@ -94,24 +85,26 @@ impl Single for PortableSingle {
     }
     #[inline(always)]
     fn largest(self, other: Self) -> Self {
-        self.zip(other, |x, y| if x > y { x } else { y })
+        Self(self.0.simd_gt(other.0).select(self.0, other.0))
     }
     #[inline(always)]
     fn taken(self, from: &[i32; 16]) -> Self {
-        let mut out = self;
-        for (to, from) in out.0.iter_mut().zip(from) {
-            *to = self.0[*from as usize % 16];
+        let lanes = self.0.to_array();
+        let mut out = lanes;
+        for (to, from) in out.iter_mut().zip(from) {
+            *to = lanes[*from as usize % 16];
         }
-        out
+        Self(f32x16::new(out))
     }
     #[inline(always)]
     fn spread<const K: usize>(self) -> Self {
-        Self([self.0[K]; 16])
+        Self(f32x16::splat(self.0.to_array()[K]))
     }
     #[inline(always)]
     fn spread_two<const J: usize, const K: usize>(self) -> Self {
-        let mut out = [self.0[J]; 16];
-        out[8..].fill(self.0[K]);
-        Self(out)
+        let lanes = self.0.to_array();
+        let mut out = [lanes[J]; 16];
+        out[8..].fill(lanes[K]);
+        Self(f32x16::new(out))
     }
 }

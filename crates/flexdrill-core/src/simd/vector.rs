@@ -4,6 +4,8 @@
 //! of vector carry the `target_feature` that it needs. Automatic vectorisation of such code is several times slower:
 //! the compiler splits the lanes.
 
+use wide::f64x8;
+
 use super::instructions::{Kernel, with_portable};
 use super::single::{PortableSingle, Single};
 
@@ -48,20 +50,9 @@ pub(crate) trait Vector: Copy {
     fn above(self, bound: Self) -> u32;
 }
 
-/// Without vector instructions.
+/// What every processor of the architecture has: pairs of lanes with SSE2 or NEON, single lanes elsewhere.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Portable([f64; 8]);
-
-impl Portable {
-    #[inline(always)]
-    fn zip(self, other: Self, op: impl Fn(f64, f64) -> f64) -> Self {
-        let mut out = self;
-        for (x, y) in out.0.iter_mut().zip(other.0) {
-            *x = op(*x, y);
-        }
-        out
-    }
-}
+pub(crate) struct Portable(f64x8);
 
 impl Vector for Portable {
     type Single = PortableSingle;
@@ -72,50 +63,45 @@ impl Vector for Portable {
     }
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        Self([x; 8])
+        Self(f64x8::splat(x))
     }
     #[inline(always)]
     fn load(from: &[f64; 8]) -> Self {
-        Self(*from)
+        Self(f64x8::new(*from))
     }
     #[inline(always)]
     fn store(self, to: &mut [f64; 8]) {
-        *to = self.0;
+        *to = self.0.to_array();
     }
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
-        self.zip(other, |x, y| x + y)
+        Self(self.0 + other.0)
     }
     #[inline(always)]
     fn minus(self, other: Self) -> Self {
-        self.zip(other, |x, y| x - y)
+        Self(self.0 - other.0)
     }
     #[inline(always)]
     fn times(self, other: Self) -> Self {
-        self.zip(other, |x, y| x * y)
+        Self(self.0 * other.0)
     }
     #[inline(always)]
     fn over(self, other: Self) -> Self {
-        self.zip(other, |x, y| x / y)
+        Self(self.0 / other.0)
     }
     #[inline(always)]
     fn root(self) -> Self {
-        self.zip(self, |x, _| x.sqrt())
+        Self(self.0.sqrt())
     }
     #[inline(always)]
     fn largest(self, other: Self) -> Self {
-        self.zip(other, |x, y| if x > y { x } else { y })
+        self.where_above(self, other, other)
     }
     #[inline(always)]
     fn where_above(self, x: Self, bound: Self, otherwise: Self) -> Self {
-        let mut out = otherwise;
-        for (lane, out) in out.0.iter_mut().enumerate() {
-            if x.0[lane] > bound.0[lane] {
-                *out = self.0[lane];
-            }
-        }
-        out
+        Self(x.0.simd_gt(bound.0).select(self.0, otherwise.0))
     }
+    // The library's product and sum in one would be rounded once or twice as the compiler's target has it.
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
         self.plus(a.times(b))
@@ -126,23 +112,16 @@ impl Vector for Portable {
     }
     #[inline(always)]
     fn swapped(self) -> Self {
-        let x = self.0;
-        Self([x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6]])
+        let x = self.0.to_array();
+        Self(f64x8::new([x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6]]))
     }
     #[inline(always)]
     fn any_beyond(self, bound: Self) -> bool {
-        let mut any = false;
-        for (x, bound) in self.0.iter().zip(bound.0) {
-            any |= x.abs() > bound || x.is_nan() || bound.is_nan();
-        }
-        any
+        // A comparison with NaN is false.
+        !self.0.abs().simd_le(bound.0).all()
     }
     #[inline(always)]
     fn above(self, bound: Self) -> u32 {
-        let mut bits = 0;
-        for lane in 0..8 {
-            bits |= u32::from(self.0[lane] > bound.0[lane]) << lane;
-        }
-        bits
+        self.0.simd_gt(bound.0).to_bitmask()
     }
 }
