@@ -220,6 +220,21 @@ fn gamma_means_newmark() {
     }
 }
 
+/// Anybody may send a configuration, and a thread that reads one may have little stack: half of what a new thread has.
+#[test]
+fn deep_nesting_is_refused_before_it_takes_the_stack() {
+    let reads = || {
+        for depth in [20, 64, 1000, 100_000] {
+            for [open, close] in [["[", "]"], ["{a: ", "}"], ["- ", ""]] {
+                let text = format!("tool:\n  {}1{}\n", open.repeat(depth), close.repeat(depth));
+                assert!(Config::from_text("rig.yaml", &text).is_err(), "{depth} {open}");
+            }
+        }
+    };
+    let thread = std::thread::Builder::new().stack_size(1 << 20);
+    thread.spawn(reads).unwrap().join().unwrap();
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
