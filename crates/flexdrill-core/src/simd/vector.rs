@@ -1,4 +1,4 @@
-//! Eight numbers at once: the same kernels with AVX-512, with AVX2 and without either.
+//! Eight numbers at once: the same kernels with AVX-512, with AVX2 and with what every processor has.
 //!
 //! Kernels are written once over [`Vector`] and marked `#[inline(always)]`; the functions that call them for one kind
 //! of vector carry the `target_feature` that it needs. Automatic vectorisation of such code is several times slower:

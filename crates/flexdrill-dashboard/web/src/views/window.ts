@@ -139,7 +139,12 @@ export class WindowView implements View {
       setText(this.hint, "No map is loaded (map.file in the configuration of the twin; flexdrill map makes one).");
       return;
     }
-    setText(this.hint, `${members(map)} of ${number(map.horizon, 0)} s. A click puts a point into the question.`);
+    // What no map knows: a tool of another kind than all that were run.
+    const kind = "Clear is clear for tools with the map's kind of joints, law of the bit and string.";
+    setText(
+      this.hint,
+      `${members(map)} of ${number(map.horizon, 0)} s. ${kind} A click puts a point into the question.`,
+    );
     const moment = store.moment();
     const scalar = (name: "rotary_speed_applied" | "weight_on_bit_applied") =>
       moment ? moment.layout.scalar(moment.row, name) : NaN;
