@@ -55,8 +55,8 @@ pub fn alias_limits() -> serde_saphyr::options::AliasLimits {
     }
 }
 
-/// A text is nested some times deeper than a configuration, and no more: each level takes tens of kilobytes of the stack of
-/// the thread that reads it, and the smallest have 2 MB.
+/// A text is nested some times deeper than a configuration, and no more: each level takes stack of the thread that reads it,
+/// tens of kilobytes where the compiler does not optimise, and the smallest stacks have 2 MB.
 pub fn budget() -> Option<serde_saphyr::Budget> {
     serde_saphyr::budget! {
         max_depth: 24,
