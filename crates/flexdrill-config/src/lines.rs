@@ -38,7 +38,6 @@ impl Lines {
         let options = serde_saphyr::options! {
             non_finite_float_policy: serde_saphyr::NonFiniteFloatPolicy::AsString,
             alias_limits: crate::reading::alias_limits(),
-            budget: crate::reading::budget(),
         };
         serde_saphyr::from_str_with_options(text, options)
     }

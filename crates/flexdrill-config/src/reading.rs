@@ -36,7 +36,6 @@ pub fn checked<T: DeserializeOwned>(
     let lines = Lines::of(text);
     let options = serde_saphyr::options! {
         alias_limits: alias_limits(),
-        budget: budget(),
     };
     let value = serde_saphyr::from_str_with_options(text, options)
         .map_err(|error| syntax_error(name, text, &lines, required, &error))?;
@@ -52,14 +51,6 @@ pub fn alias_limits() -> serde_saphyr::options::AliasLimits {
     const MOST_REPEATED: usize = 10_000;
     serde_saphyr::alias_limits! {
         max_total_replayed_events: MOST_REPEATED,
-    }
-}
-
-/// A text is nested some times deeper than a configuration, and no more: each level takes stack of the thread that reads it,
-/// tens of kilobytes where the compiler does not optimise, and the smallest stacks have 2 MB.
-pub fn budget() -> Option<serde_saphyr::Budget> {
-    serde_saphyr::budget! {
-        max_depth: 24,
     }
 }
 

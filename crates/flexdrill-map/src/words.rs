@@ -115,11 +115,9 @@ impl Map {
                 of.sha256
             ),
         };
-        // Measured on rigs that differ in what no distribution states: docs/measurements.md, "Cells of a map".
         format!(
-            "{drawn} They all have its kind of joints, law of the bit and string: clear does not speak of others. Of 24 \
-             simulated rigs with others, 14 had an alarm in a clear cell of config/rig.yaml, and all 6 with joints of constant \
-             velocity whirled."
+            "{drawn} They all have its kind of joints, law of the bit and sections of the string: clear does not speak of \
+             others, and simulated rigs with others had alarms in clear cells (docs/safe_window.md)."
         )
     }
 }

@@ -50,12 +50,13 @@ proptest! {
         let kind = bench.run(speed, 10.0 * TAU / speed, |time| orbit.at(time));
         prop_assert_eq!(kind, if backward { WhirlKind::Backward } else { WhirlKind::Forward });
         // The window is four turns of the tool, at most 6 s. The spectrum leaves out the lines next to zero, where the
-        // orbit's centre is: it reads a whirl of fewer than 1.31 turns in the window as faster by up to an eighth.
+        // orbit's centre is: with fewer than 1.31 whirl turns in the window the ratio is read too high, by 30 % at most
+        // from one turn on (docs/whirl.md).
         let turns = ratio.abs() * (6.0 * speed / TAU).min(4.0);
         if turns < 1.35 {
             return Ok(());
         }
-        // 0.6 % was the worst of 60,000 drawn ellipses.
+        // 0.6 % was the worst of 19,487 drawn ellipses.
         prop_assert!((bench.ratio() / ratio - 1.0).abs() < 0.01, "ratio {} for {}", bench.ratio(), ratio);
         let radius = bench.report.orbit_radius[0];
         prop_assert!((radius / orbit.power().sqrt() - 1.0).abs() < 0.12, "radius {radius}");

@@ -140,7 +140,7 @@ export class WindowView implements View {
       return;
     }
     // What no map knows: a tool of another kind than all that were run.
-    const kind = "Clear is clear for tools with the map's kind of joints, law of the bit and string.";
+    const kind = "The map speaks of tools with its kind of joints, law of the bit and string alone.";
     setText(
       this.hint,
       `${members(map)} of ${number(map.horizon, 0)} s. ${kind} A click puts a point into the question.`,
