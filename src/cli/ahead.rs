@@ -143,7 +143,7 @@ pub fn run(args: &AheadArgs) -> anyhow::Result<()> {
         target,
         advice: advice::advise(&config, &question, &found, plan, target),
     });
-    let svg = flexdrill_plot::svg(&picture::figure(&found, planned.as_ref(), azimuth))?;
+    let svg = flexdrill_plot::sheet(&picture::figure(&found, planned.as_ref(), azimuth))?;
     whole_file::write(&args.out, "ahead.csv", &table::csv(&found, planned.as_ref()))?;
     whole_file::write(&args.out, "ahead.svg", &svg)?;
     if let Some(learnt) = &found.learnt {

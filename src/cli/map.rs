@@ -287,7 +287,7 @@ fn question(args: &MapArgs) -> anyhow::Result<Question> {
 fn write(args: &MapArgs, map: &Map) -> anyhow::Result<String> {
     // What is known of no cell bounds nothing. Tables of an earlier map would be taken for those of this one.
     let envelope = map.members_ended().is_some().then(|| Envelope::of(map, true));
-    let svg = flexdrill_plot::svg(&picture::figure(map))?;
+    let svg = flexdrill_plot::sheet(&picture::figure(map))?;
     let page = flexdrill_report::map::page(map, &svg);
     let mut files = vec![
         ("map.csv", table::csv(map)?),

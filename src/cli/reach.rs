@@ -101,7 +101,7 @@ pub fn run(args: &ReachArgs) -> anyhow::Result<()> {
     whole_file::write(
         &args.out,
         "reach.svg",
-        &flexdrill_plot::svg(&picture::figure(&plan, &rows, &arrives))?,
+        &flexdrill_plot::sheet(&picture::figure(&plan, &rows, &arrives))?,
     )?;
     // In words what is in the files.
     for line in table::words(&plan, &rows) {

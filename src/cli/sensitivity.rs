@@ -72,7 +72,7 @@ pub fn run(args: &SensitivityArgs) -> anyhow::Result<()> {
         progress.at(share)
     })?;
     progress.done();
-    let svg = flexdrill_plot::svg(&picture::figure(&effects))?;
+    let svg = flexdrill_plot::sheet(&picture::figure(&effects))?;
     whole_file::write(&out, "sensitivity.csv", &table::csv(&effects))?;
     whole_file::write(&out, "sensitivity.svg", &svg)?;
     whole_file::write(&out, FILE, &effects.to_json()?)?;

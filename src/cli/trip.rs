@@ -72,7 +72,7 @@ pub fn run(args: &TripArgs) -> anyhow::Result<()> {
     let rows = study(&config, &plan, |share| progress.at(share)).with_context(|| name.clone())?;
     progress.done();
     whole_file::write(&args.out, "trip.csv", &table::csv(&rows))?;
-    whole_file::write(&args.out, "trip.svg", &flexdrill_plot::svg(&picture::figure(&rows))?)?;
+    whole_file::write(&args.out, "trip.svg", &flexdrill_plot::sheet(&picture::figure(&rows))?)?;
     let limits = limits(args, &config);
     let freed = match limits {
         Some(limits) => Some(stuck::study(&config, &plan, limits, |_| ()).with_context(|| name.clone())?),
@@ -81,7 +81,7 @@ pub fn run(args: &TripArgs) -> anyhow::Result<()> {
     if let Some(freed) = &freed {
         whole_file::write(&args.out, "stuck.csv", &stuck::csv(freed))?;
         whole_file::write(&args.out, "reached.csv", &reached::csv(&freed.along))?;
-        whole_file::write(&args.out, "stuck.svg", &flexdrill_plot::svg(&stuck::figure(freed))?)?;
+        whole_file::write(&args.out, "stuck.svg", &flexdrill_plot::sheet(&stuck::figure(freed))?)?;
     }
     for line in words::words(&config, &plan, &rows, assembly.tool().as_built) {
         say!("{line}");

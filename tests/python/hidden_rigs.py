@@ -103,6 +103,11 @@ STRUCTURES = {
 }
 
 
+# Keys of which the rigs keep what the configuration has: their torque falls by `STRUCTURES`, and tables of an earlier
+# configuration, which had no distributions of these, are of the same rigs.
+KEPT = ("rock.weakening.ratio", "rock.weakening.rate_rpm", "rock.depth_of_cut.cutting_weakening")
+
+
 def widened(distribution, rng):
     """A value from a distribution of the configuration, half as wide again."""
     [(law, ends)] = distribution.items()
@@ -121,6 +126,8 @@ def widened(distribution, rng):
 def hidden_rig(config, rng):
     """A configuration of another structure with other parameters, with the names of its structures."""
     for entry in config.pop("uncertainty")["keys"]:
+        if entry["key"] in KEPT:
+            continue
         value = widened(entry["distribution"], rng)
         for key in [entry["key"], *entry.get("also", [])]:
             try:

@@ -67,7 +67,16 @@ section! {
         /// Distance over which the wear flats come to bear (m).
         wear_flat_travel: f64 = 1e-4, within(1e-6, 1e-2), "m",
             "shorter is stiffer than the guide; longer than a depth of cut has no meaning";
+        /// Part of the torque of cutting that falls with the speed as the friction of the wear flats does
+        /// ([`rock.weakening`](#rockweakening)).
+        #[serde(skip_serializing_if = "is_zero")]
+        cutting_weakening: f64 = 0.0, within(0.0, 1.0), "", "1 is all of it";
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(part: &f64) -> bool {
+    *part == 0.0
 }
 
 impl Weakening {
@@ -113,6 +122,7 @@ impl Rock {
                 wear_flat_friction: self.depth_of_cut.wear_flat_friction,
                 wear_flat_travel: self.depth_of_cut.wear_flat_travel,
                 weakening: self.weakening.describe(),
+                cutting_weakening: self.depth_of_cut.cutting_weakening,
             }),
         }
     }

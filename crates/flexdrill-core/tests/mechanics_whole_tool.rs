@@ -55,6 +55,7 @@ fn on_a_smooth_wall(length: f64) -> ToolDescription {
         wear_flat_force: 1000.0,
         wear_flat_friction: 0.1,
         wear_flat_travel: 1e-4,
+        cutting_weakening: 0.0,
         weakening: Weakening::NONE,
     });
     for support in &mut tool.supports {

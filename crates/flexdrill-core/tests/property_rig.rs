@@ -135,6 +135,7 @@ fn rig(feed: Option<Feed>, end: PressureEnd) -> ToolDescription {
         wear_flat_force: 8670.0,
         wear_flat_friction: 0.106,
         wear_flat_travel: 1e-4,
+        cutting_weakening: 0.0,
         weakening,
     });
     for support in &mut tool.supports {

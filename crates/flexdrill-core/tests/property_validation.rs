@@ -116,6 +116,7 @@ fn below_a_string() -> ToolDescription {
         wear_flat_force: 8670.0,
         wear_flat_friction: 0.106,
         wear_flat_travel: 1e-4,
+        cutting_weakening: 0.0,
         weakening: Weakening { ratio: 1.3, rate: 3.0 },
     });
     for support in &mut tool.supports {

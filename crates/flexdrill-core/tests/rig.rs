@@ -36,6 +36,7 @@ const ROCK: DepthOfCut = DepthOfCut {
     wear_flat_force: 8672.5,
     wear_flat_friction: 0.106_17,
     wear_flat_travel: 1e-4,
+    cutting_weakening: 0.0,
     weakening: Weakening::NONE,
 };
 

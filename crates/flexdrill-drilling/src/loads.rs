@@ -19,8 +19,9 @@ pub fn bit_torque(tool: &ToolDescription, weight: f64, speed: f64) -> f64 {
             let radius = tool.bit.diameter / 2.0;
             let flats = weight.min(cut.wear_flat_force);
             let depth = (weight - flats) / (cut.cutter_inclination * cut.specific_energy * radius);
-            0.5 * cut.specific_energy * radius * radius * depth
-                + 0.5 * cut.wear_flat_friction * radius * flats * factor(&cut.weakening)
+            let falls = factor(&cut.weakening);
+            0.5 * cut.specific_energy * radius * radius * depth * (1.0 + cut.cutting_weakening * (falls - 1.0))
+                + 0.5 * cut.wear_flat_friction * radius * flats * falls
         }
         // The paper's Eq. 1.
         _ => by_weight,

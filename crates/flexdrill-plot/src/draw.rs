@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
+use plotters::style::{FontError, register_font};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::panel::{Figure, Legend, Line, Mark, Panel};
@@ -31,6 +31,7 @@ const PALETTE: [RGBColor; 7] = [
 ];
 
 /// Heights of texts and distances, in the units of a width of 1080.
+const HEADING: u32 = 22;
 const TITLE: u32 = 17;
 const TEXT: u32 = 15;
 const ROW: u32 = 22;
@@ -61,6 +62,18 @@ pub fn svg(figure: &Figure) -> Result<String, DrawError> {
 /// # Errors
 /// As [`svg`].
 pub fn svg_of_width(figure: &Figure, width: u32) -> Result<String, DrawError> {
+    drawn(figure, width, false)
+}
+
+/// The figure as an SVG file of its own, 1080 units wide: with its title above and its caption below.
+///
+/// # Errors
+/// As [`svg`].
+pub fn sheet(figure: &Figure) -> Result<String, DrawError> {
+    drawn(figure, WIDTH, true)
+}
+
+fn drawn(figure: &Figure, width: u32, with_words: bool) -> Result<String, DrawError> {
     static FONT_IS_KNOWN: OnceLock<bool> = OnceLock::new();
     let failed = |reason: String| DrawError {
         figure: figure.name,
@@ -69,20 +82,40 @@ pub fn svg_of_width(figure: &Figure, width: u32) -> Result<String, DrawError> {
     if !FONT_IS_KNOWN.get_or_init(|| register_font("sans-serif", FontStyle::Normal, FONT).is_ok()) {
         return Err(failed("the embedded font is not one".to_owned()));
     }
+    // What stands above and below the panels.
+    let (mut head, mut caption) = (0, Vec::new());
+    if with_words {
+        head = if figure.title.is_empty() { 0 } else { 2 * ROW };
+        let room = (width - 2 * MARGIN) * SCALE;
+        caption = wrapped(&figure.caption, room).map_err(|error| failed(error.to_string()))?;
+    }
     let rows = layout(figure);
+    let panels_end = head + figure.height * rows.len() as u32;
+    let foot = if caption.is_empty() { 0 } else { ROW * caption.len() as u32 + MARGIN };
     let (stated, width) = (width, width * SCALE);
-    let height = figure.height * SCALE * rows.len() as u32;
+    let height = (panels_end + foot) * SCALE;
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
         area.fill(&WHITE).map_err(|error| failed(error.to_string()))?;
+        let words = |words: &str, down: u32, size: u32| {
+            let at = (((MARGIN + 4) * SCALE) as i32, (down * SCALE) as i32);
+            let drawn = area.draw(&Text::new(words.to_owned(), at, font(size)));
+            drawn.map_err(|error| failed(error.to_string()))
+        };
+        if head > 0 {
+            words(&figure.title, MARGIN, HEADING)?;
+        }
+        for (row, line) in (0..).zip(&caption) {
+            words(line, panels_end + row * ROW, TEXT)?;
+        }
         let unit = width / figure.columns as u32;
         for (row, panels) in rows.iter().enumerate() {
             let mut column = 0;
             for &index in panels {
                 let panel = &figure.panels[index];
                 let place = area.clone().shrink(
-                    (column * unit, row as u32 * figure.height * SCALE),
+                    (column * unit, (head + row as u32 * figure.height) * SCALE),
                     (panel.span as u32 * unit, figure.height * SCALE),
                 );
                 draw(&place, panel).map_err(|error| failed(error.to_string()))?;
@@ -94,6 +127,24 @@ pub fn svg_of_width(figure: &Figure, width: u32) -> Result<String, DrawError> {
     let inner = format!("<svg width=\"{width}\" height=\"{height}\"");
     let outer = format!("<svg width=\"{stated}\" height=\"{}\"", height / SCALE);
     Ok(text.replacen(&inner, &outer, 1))
+}
+
+/// The lines of a text within `room` units of the drawing.
+fn wrapped(text: &str, room: u32) -> Result<Vec<String>, FontError> {
+    let style = font(TEXT);
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        if let Some(line) = lines.last_mut() {
+            let longer = format!("{line} {word}");
+            // A viewer may draw with a wider font than the embedded one, which measures: a twelfth is kept free.
+            if style.font.box_size(&longer)?.0 * 12 / 11 <= room {
+                *line = longer;
+                continue;
+            }
+        }
+        lines.push(word.to_owned());
+    }
+    Ok(lines)
 }
 
 /// Panels of each row.

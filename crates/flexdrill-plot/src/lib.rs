@@ -3,5 +3,5 @@
 mod draw;
 mod panel;
 
-pub use draw::{DrawError, svg, svg_of_width};
+pub use draw::{DrawError, sheet, svg, svg_of_width};
 pub use panel::{Figure, Legend, Line, Mark, Panel, csv};

@@ -88,6 +88,8 @@ struct Resistance {
     answer: Answer,
     /// P and dP/domega (s/rad) of the friction.
     factor: [f64; 2],
+    /// The same of cutting.
+    of_cutting: [f64; 2],
 }
 
 impl BitLoad {
@@ -140,12 +142,12 @@ impl BitLoad {
 
     fn resistance(&self, law: &RockLaw, bit: &BitAt) -> Resistance {
         let [full, weight] = bit.given;
-        let (answer, weakening) = match (law, &self.state.groove) {
+        let (answer, weakening, share) = match (law, &self.state.groove) {
             (RockLaw::DepthOfCut(cut), Some(groove)) => {
                 // Where the cutters were at the start of the step: the share does not change within it.
                 let share = self.state.bristle.map_or(1.0, |bristle| groove.share(bristle.root()));
                 let answer = cut.answer(bit.radius, bit.depth, bit.angle, groove, share);
-                (answer, &cut.weakening)
+                (answer, &cut.weakening, cut.cutting_weakening)
             }
             (RockLaw::Weakening(weakening), _) => (
                 Answer {
@@ -155,6 +157,7 @@ impl BitLoad {
                     ..Answer::default()
                 },
                 weakening,
+                0.0,
             ),
             _ => (
                 Answer {
@@ -163,6 +166,7 @@ impl BitLoad {
                     ..Answer::default()
                 },
                 &Weakening::NONE,
+                0.0,
             ),
         };
         let (factor, slope) = if weakening.ratio > 1.0 {
@@ -173,6 +177,7 @@ impl BitLoad {
         Resistance {
             answer,
             factor: [factor, slope],
+            of_cutting: [1.0 + share * (factor - 1.0), share * slope],
         }
     }
 
@@ -192,15 +197,21 @@ impl BitLoad {
         let Resistance {
             answer,
             factor: [factor, factor_slope],
+            of_cutting: [cutting, cutting_slope],
         } = resistance;
         let friction = answer.friction * factor;
-        let limits = [answer.torque + friction, friction];
+        let limits = [answer.torque * cutting + friction, friction];
         let held = bristle.turned(bit.radius, self.step, bit.angle, limits);
         self.torque = held.bristle.torque();
         self.elastic = held.bristle.energy(bit.radius);
         let sense = f64::from(held.slips);
-        self.slope = sense * answer.friction * factor_slope;
-        let cut = if held.slips > 0 { answer.torque_by } else { [0.0; 2] };
+        // Only a bit that slips ahead cuts.
+        let (cut, cut_slope) = if held.slips > 0 {
+            (answer.torque_by.map(|by| by * cutting), answer.torque * cutting_slope)
+        } else {
+            ([0.0; 2], 0.0)
+        };
+        self.slope = sense * answer.friction * factor_slope + cut_slope;
         self.torque_by = [
             cut[0] + sense * factor * answer.friction_by_depth,
             cut[1] + held.by_angle,

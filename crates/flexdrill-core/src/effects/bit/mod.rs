@@ -10,10 +10,11 @@
 //!   result:
 //!
 //! ```text
-//! d = n [U - max path]+        W = zeta e a d + W_f        T = e a^2 d / 2 + mu_g a W_f / 2 P(omega)
+//! d = n [U - max path]+        W = zeta e a d + W_f        T = e a^2 d / 2 P_c(omega) + mu_g a W_f / 2 P(omega)
 //! ```
 //!
-//! U is the depth of the bit (m, down), n the number of blades, a the radius. That is while the bit turns ahead. Turning back,
+//! U is the depth of the bit (m, down), n the number of blades, a the radius, and P_c = 1 + c (P - 1) with the part c of the
+//! torque of cutting that falls with the speed. That is while the bit turns ahead. Turning back,
 //! its cutters leave the rock: only the wear flats act, they carry all the weight, and nothing is removed.
 //!
 //! The torque of the paper's law has a smooth sign of the speed, by which a bit that is held creeps. With the other laws

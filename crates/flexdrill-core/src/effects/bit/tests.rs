@@ -15,6 +15,7 @@ const CUT: DepthOfCut = DepthOfCut {
     wear_flat_force: 8e3,
     wear_flat_friction: 0.1,
     wear_flat_travel: 1e-4,
+    cutting_weakening: 0.6,
     weakening: Weakening { ratio: 1.8, rate: 4.0 },
 };
 
@@ -243,6 +244,46 @@ fn analytic_weakening() {
     figure("slope there, 1 / 5e (s/rad)", 0.073_575_888_234_288_46, slope, 1e-15);
 }
 
+/// A bit that cuts steadily while a part c of the torque of cutting falls with the speed: T = e a^2 d / 2 (1 + c (P - 1)) +
+/// mu_g a W_f / 2 P, with W = zeta e a d + W_f as without. Here d = 3 mm per turn of e = 30 MPa under a = 59 mm, 156.6 N m, and 0.1 x
+/// 59 mm x 8 kN / 2 = 23.6 N m of the wear flats, with P = 1 + 0.8 e^(-1) at 4 rad/s; turning back only the wear flats' part
+/// is left. Tolerance 1e-6: the path of the blade before is read off a grid whose points are found with rounding of 1e-8
+/// of a depth of cut.
+#[test]
+fn analytic_torque_of_cutting_that_falls() {
+    let (by, pitch) = (4.0 * STEP, 3e-3 / TAU);
+    let falls = 0.8 * (-1.0_f64).exp();
+    let expected = |part: f64| {
+        let (cutting, flats) = (0.5 * 30e6 * 0.059 * 0.059 * 3e-3, 0.5 * 0.1 * 0.059 * 8e3);
+        cutting * (1.0 + part * falls) + flats * (1.0 + falls)
+    };
+    for part in [0.0, 0.6, 1.0] {
+        let mut bit = Led::new(DepthOfCut {
+            cutting_weakening: part,
+            ..CUT
+        });
+        let mut depth = CUT.wear_flat_travel;
+        for _ in 0..5000 {
+            depth += pitch * by;
+            bit.step(by, depth);
+        }
+        scaled_figure(
+            &format!("torque with a part of {part} (N m)"),
+            expected(part),
+            bit.load.torque,
+            expected(part),
+            1e-6,
+        );
+        let weight = 0.6 * 30e6 * 0.059 * 3e-3 + 8e3;
+        scaled_figure("weight (N)", weight, bit.load.weight, weight, 1e-6);
+        for _ in 0..200 {
+            bit.step(-by, depth);
+        }
+        let back = -0.5 * 0.1 * 0.059 * 8e3 * (1.0 + falls);
+        scaled_figure("torque turning back (N m)", back, bit.load.torque, -back, 1e-6);
+    }
+}
+
 /// Torque over weight (mm) of a bit in rock on a laboratory rig, by speed: Real, Lobo, Ritto and Pinto, J. Pet. Sci. Eng.
 /// 170 (2018) 755, and Lobo, Ritto, Castello and de Souza, Int. J. Mech. Sci. 177 (2020) 105578. From the authors' record
 /// of 59 s at 1 kHz, below 10 Hz, in bands of speed; the means of speeding up and of slowing down. Ours: the law of
@@ -285,6 +326,7 @@ fn growth(cutting: f64) -> f64 {
         wear_flat_force: 0.0,
         wear_flat_friction: 0.0,
         wear_flat_travel: 1e-4,
+        cutting_weakening: 0.0,
         weakening: Weakening::NONE,
     };
     let mut groove = Groove::new(1);
@@ -356,6 +398,7 @@ fn a_bit_that_stands_behind_its_front_does_not_sink() {
         wear_flat_force: 8670.0,
         wear_flat_friction: 0.106,
         wear_flat_travel: 1e-4,
+        cutting_weakening: 0.0,
         weakening: Weakening::NONE,
     };
     for part in [0.0, 0.3, 0.5, 0.9] {

@@ -81,6 +81,8 @@ pub struct DepthOfCut {
     pub wear_flat_travel: f64,
     /// How the friction of the wear flats falls with the speed.
     pub weakening: Weakening,
+    /// Part of the torque of cutting that falls with the speed in the same way, c (0 to 1).
+    pub cutting_weakening: f64,
 }
 
 impl ToolDescription {
@@ -133,6 +135,7 @@ impl DepthOfCut {
         Bound::NotNegative.check("rock.wear_flat_force", self.wear_flat_force, "N")?;
         Bound::NotNegative.check("rock.wear_flat_friction", self.wear_flat_friction, "")?;
         Bound::Positive.check("rock.wear_flat_travel", self.wear_flat_travel, "m")?;
+        Bound::Within(0.0, 1.0).check("rock.cutting_weakening", self.cutting_weakening, "")?;
         self.weakening.validate("rock.weakening")
     }
 }
