@@ -287,11 +287,12 @@ fn question(args: &MapArgs) -> anyhow::Result<Question> {
 fn write(args: &MapArgs, map: &Map) -> anyhow::Result<String> {
     // What is known of no cell bounds nothing. Tables of an earlier map would be taken for those of this one.
     let envelope = map.members_ended().is_some().then(|| Envelope::of(map, true));
-    let svg = flexdrill_plot::sheet(&picture::figure(map))?;
-    let page = flexdrill_report::map::page(map, &svg);
+    let figure = picture::figure(map);
+    // The page has title and words of its own.
+    let page = flexdrill_report::map::page(map, &flexdrill_plot::svg(&figure)?);
     let mut files = vec![
         ("map.csv", table::csv(map)?),
-        ("map.svg", svg.into_bytes()),
+        ("map.svg", flexdrill_plot::sheet(&figure)?.into_bytes()),
         ("map.html", page.into_bytes()),
     ];
     for (name, of) in [("envelope_x.csv", table::Of::X), ("envelope_y.csv", table::Of::Y)] {

@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::{FontError, register_font};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontError, register_font};
 
 use super::panel::{Figure, Legend, Line, Mark, Panel};
 
@@ -91,7 +91,11 @@ fn drawn(figure: &Figure, width: u32, with_words: bool) -> Result<String, DrawEr
     }
     let rows = layout(figure);
     let panels_end = head + figure.height * rows.len() as u32;
-    let foot = if caption.is_empty() { 0 } else { ROW * caption.len() as u32 + MARGIN };
+    let foot = if caption.is_empty() {
+        0
+    } else {
+        ROW * caption.len() as u32 + MARGIN
+    };
     let (stated, width) = (width, width * SCALE);
     let height = (panels_end + foot) * SCALE;
     let mut text = String::new();
