@@ -245,10 +245,9 @@ fn analytic_weakening() {
 }
 
 /// A bit that cuts steadily while a part c of the torque of cutting falls with the speed: T = e a^2 d / 2 (1 + c (P - 1)) +
-/// mu_g a W_f / 2 P, with W = zeta e a d + W_f as without. Here d = 3 mm per turn of e = 30 MPa under a = 59 mm, 156.6 N m, and 0.1 x
-/// 59 mm x 8 kN / 2 = 23.6 N m of the wear flats, with P = 1 + 0.8 e^(-1) at 4 rad/s; turning back only the wear flats' part
-/// is left. Tolerance 1e-6: the path of the blade before is read off a grid whose points are found with rounding of 1e-8
-/// of a depth of cut.
+/// mu_g a W_f / 2 P, and W = zeta e a d + W_f as without. Here d = 3 mm per turn of e = 30 MPa under a = 59 mm, 156.6 N m, and
+/// 23.6 N m of the wear flats, with P = 1 + 0.8 / e at 4 rad/s; turning back only the wear flats' part is left. Tolerance:
+/// rounding of the depth over 5000 steps, which the cutters' stiffness of 5 MN/m makes 1e-13 of the torque.
 #[test]
 fn analytic_torque_of_cutting_that_falls() {
     let (by, pitch) = (4.0 * STEP, 3e-3 / TAU);
@@ -272,15 +271,27 @@ fn analytic_torque_of_cutting_that_falls() {
             expected(part),
             bit.load.torque,
             expected(part),
-            1e-6,
+            1e-9,
         );
         let weight = 0.6 * 30e6 * 0.059 * 3e-3 + 8e3;
-        scaled_figure("weight (N)", weight, bit.load.weight, weight, 1e-6);
+        scaled_figure(
+            &format!("weight with a part of {part} (N)"),
+            weight,
+            bit.load.weight,
+            weight,
+            1e-9,
+        );
         for _ in 0..200 {
             bit.step(-by, depth);
         }
         let back = -0.5 * 0.1 * 0.059 * 8e3 * (1.0 + falls);
-        scaled_figure("torque turning back (N m)", back, bit.load.torque, -back, 1e-6);
+        scaled_figure(
+            &format!("torque turning back with a part of {part} (N m)"),
+            back,
+            bit.load.torque,
+            -back,
+            1e-9,
+        );
     }
 }
 
