@@ -290,7 +290,7 @@ fn a_long_list_is_refused_before_its_pairs_are_formed() {
 /// The priors of the repository's tools.
 #[test]
 fn shipped_priors_have_sources() {
-    for (name, count) in [("rig", 21), ("default", 10)] {
+    for (name, count) in [("rig", 24), ("default", 10)] {
         let path = format!("{}/../../config/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
         let config = Config::load(path).unwrap();
         let stated = config.uncertainty.as_ref().unwrap();

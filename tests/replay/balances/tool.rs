@@ -129,10 +129,10 @@ contact:
         "rock:
   law: {}
   weakening: {{ratio: {}}}
-  depth_of_cut: {{specific_energy: {}, wear_flat_force: {}}}
+  depth_of_cut: {{specific_energy: {}, wear_flat_force: {}, cutting_weakening: 0.5}}
 ",
         laws[row[ROCK]],
-        if row[ROCK] == 1 { 1.2 } else { 1.0 },
+        if row[ROCK] > 0 { 1.2 } else { 1.0 },
         1e7 * scale,
         2000.0 * scale
     );

@@ -142,7 +142,7 @@ impl BitLoad {
 
     fn resistance(&self, law: &RockLaw, bit: &BitAt) -> Resistance {
         let [full, weight] = bit.given;
-        let (answer, weakening, share) = match (law, &self.state.groove) {
+        let (answer, weakening, part) = match (law, &self.state.groove) {
             (RockLaw::DepthOfCut(cut), Some(groove)) => {
                 // Where the cutters were at the start of the step: the share does not change within it.
                 let share = self.state.bristle.map_or(1.0, |bristle| groove.share(bristle.root()));
@@ -177,7 +177,7 @@ impl BitLoad {
         Resistance {
             answer,
             factor: [factor, slope],
-            of_cutting: [1.0 + share * (factor - 1.0), share * slope],
+            of_cutting: [1.0 + part * (factor - 1.0), part * slope],
         }
     }
 
