@@ -853,15 +853,17 @@ def rock(tool, transfer, samples, found_factor, out):
     cut = t.depth_of_cut
     pressed = t.bit_weight - zeta * e * radius * cut
     steady = abs(float(speed.mean())) > 0.5 and np.abs(speed).min() > 10 * slip
-    size = float(np.mean(weakening))
-    spread = float(np.ptp(weakening)) * friction * radius * max(pressed, 0.0) / 2
+    # The friction of the flats falls with the speed, and a part of the cutters' torque.
+    part, size = at("cutting_weakening", 0.0), float(np.mean(weakening))
+    of_cutting = 1.0 + part * (size - 1.0)
+    spread = float(np.ptp(weakening)) * (friction * radius * max(pressed, 0.0) + part * e * radius**2 * cut) / 2
     if not steady:
         out.append(Balance("torque of the rock by its weight", why="the bit stands at times: its torque is anything"))
     else:
         forward = float(speed.mean()) > 0.0
         # A bit that turns backwards does not cut: all of its weight is on the wear flats.
         own = friction * radius * (pressed if forward else t.bit_weight) / 2 * size
-        own = own + e * radius**2 * cut / 2 if forward else -own
+        own = own + of_cutting * e * radius**2 * cut / 2 if forward else -own
         limit = 0.01 * abs(own) + spread + 0.01
         reason = "1 % for the smooth sign at ten times its width, the range of the weakening"
         out.append(Balance("torque of the rock by its weight", "N m", t.bit_torque - own, abs(own), limit, reason))
@@ -908,7 +910,8 @@ def rock(tool, transfer, samples, found_factor, out):
     error = STANDARD_ERRORS * float(standard_error(torque * speed)) + spread * abs(float(speed.mean()))
     limit = 0.02 * abs(cutting) + 0.02 * rubbing + e * math.pi * radius**2 * (1e-6 + cut_by_cut) + error + 0.5
     reason = "2 %, one blade's cut, 1 um/s, 0.5 W" + SCATTER
-    out.append(Balance("work of cutting by volume", "W", cutting - e * volume, abs(cutting), limit, reason))
+    off = cutting - of_cutting * e * volume
+    out.append(Balance("work of cutting by volume", "W", off, abs(cutting), limit, reason))
 
 
 def coulomb(tool, sampled, applied, out):
