@@ -288,7 +288,7 @@ fn write(args: &MapArgs, map: &Map) -> anyhow::Result<String> {
     // What is known of no cell bounds nothing. Tables of an earlier map would be taken for those of this one.
     let envelope = map.members_ended().is_some().then(|| Envelope::of(map, true));
     let figure = picture::figure(map);
-    // The page has title and words of its own.
+    // The page writes title and words itself.
     let page = flexdrill_report::map::page(map, &flexdrill_plot::svg(&figure)?);
     let mut files = vec![
         ("map.csv", table::csv(map)?),

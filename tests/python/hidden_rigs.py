@@ -103,8 +103,8 @@ STRUCTURES = {
 }
 
 
-# Keys of which the rigs keep what the configuration has: their torque falls by `STRUCTURES`, and tables of an earlier
-# configuration, which had no distributions of these, are of the same rigs.
+# Keys that are not drawn for the rigs: how their torque falls is the configuration's, or one of `STRUCTURES`. The tables of
+# before these keys had distributions are therefore of the same rigs.
 KEPT = ("rock.weakening.ratio", "rock.weakening.rate_rpm", "rock.depth_of_cut.cutting_weakening")
 
 

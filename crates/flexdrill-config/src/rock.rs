@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::checker::Bound;
-use super::section::section;
+use super::section::{is_zero, section};
 use flexdrill_core::tool::{DepthOfCut as Cut, RockLaw, Weakening as Falls};
 use flexdrill_core::units::rpm_to_rad_per_s;
 
@@ -72,11 +72,6 @@ section! {
         #[serde(skip_serializing_if = "is_zero")]
         cutting_weakening: f64 = 0.0, within(0.0, 1.0), "", "1 is all of it";
     }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_zero(part: &f64) -> bool {
-    *part == 0.0
 }
 
 impl Weakening {

@@ -111,3 +111,9 @@ macro_rules! section {
 }
 
 pub(crate) use section;
+
+/// Whether a key has its default of 0, so that it is left out of the file and of the hash.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+pub(crate) fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checker::{Bound, Checker};
 use super::drilled::Drilled;
+use super::section::is_zero;
 use super::well_plan::WellPlan;
 use flexdrill_core::tool::{Course, WellDescription, WellSection};
 use flexdrill_core::units::{deg_to_rad, rad_to_deg};
@@ -44,11 +45,6 @@ pub struct Well {
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = DEPTH.in_schema())]
     pub kick_off_depth: f64,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_zero(depth: &f64) -> bool {
-    *depth == 0.0
 }
 
 /// One section of the well path.

@@ -65,7 +65,7 @@ pub fn svg_of_width(figure: &Figure, width: u32) -> Result<String, DrawError> {
     drawn(figure, width, false)
 }
 
-/// The figure as an SVG file of its own, 1080 units wide: with its title above and its caption below.
+/// The figure as a separate SVG file, 1080 units wide: with its title above and its caption below.
 ///
 /// # Errors
 /// As [`svg`].
